@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <compare>
+#include <cstdint>
+#include <functional>
+
+namespace mapscore {
+
+/// One voxel of a lattice of edge r anchored at the origin of its frame. Voxel (i, j, k) covers the
+/// half-open cube [i r, (i+1) r) x [j r, (j+1) r) x [k r, (k+1) r); its position is its centre.
+/// This is OctoMap's lattice. Ordered by i, then j, then k.
+struct VoxelKey {
+  std::int32_t i = 0, j = 0, k = 0;
+  auto operator<=>(const VoxelKey&) const = default;
+};
+
+/// floor(x / r) on each axis. The only place where a coordinate becomes an index.
+[[nodiscard]] inline VoxelKey voxel_of(const Eigen::Vector3d& p, double edge_m) {
+  return {static_cast<std::int32_t>(std::floor(p.x() / edge_m)),
+          static_cast<std::int32_t>(std::floor(p.y() / edge_m)),
+          static_cast<std::int32_t>(std::floor(p.z() / edge_m))};
+}
+
+/// Centre of a voxel in metres.
+[[nodiscard]] inline Eigen::Vector3d centre_of(const VoxelKey& key, double edge_m) {
+  return {(key.i + 0.5) * edge_m, (key.j + 0.5) * edge_m, (key.k + 0.5) * edge_m};
+}
+
+/// Low corner of a voxel in metres.
+[[nodiscard]] inline Eigen::Vector3d low_corner_of(const VoxelKey& key, double edge_m) {
+  return {key.i * edge_m, key.j * edge_m, key.k * edge_m};
+}
+
+/// Indices within +-2^20 packed into 63 bits, in the order of VoxelKey; for hashing and sorting.
+[[nodiscard]] inline std::uint64_t pack(const VoxelKey& key) {
+  constexpr std::int64_t kOffset = 1 << 20;
+  return (static_cast<std::uint64_t>(key.i + kOffset) << 42) |
+         (static_cast<std::uint64_t>(key.j + kOffset) << 21) |
+         static_cast<std::uint64_t>(key.k + kOffset);
+}
+[[nodiscard]] inline VoxelKey unpack(std::uint64_t packed) {
+  constexpr std::int32_t kOffset = 1 << 20;
+  constexpr std::uint64_t kMask = (1u << 21) - 1;
+  return {static_cast<std::int32_t>(packed >> 42 & kMask) - kOffset,
+          static_cast<std::int32_t>(packed >> 21 & kMask) - kOffset,
+          static_cast<std::int32_t>(packed & kMask) - kOffset};
+}
+
+/// Mixes all bits of a packed key (the finaliser of SplitMix64), so that power-of-two tables work.
+[[nodiscard]] inline std::uint64_t mix_bits(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+}  // namespace mapscore
+
+template <>
+struct std::hash<mapscore::VoxelKey> {
+  std::size_t operator()(const mapscore::VoxelKey& key) const noexcept {
+    return mapscore::mix_bits(mapscore::pack(key));
+  }
+};

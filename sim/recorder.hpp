@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/frame.hpp"
+#include "core/geometry/pose.hpp"
+#include "sim/world/world.hpp"
+
+namespace mapscore::sim {
+
+struct StampedPose {
+  double stamp_s = 0.0;
+  Pose T_world_base = Pose::Identity();
+};
+
+/// Drive along waypoints: position and heading are interpolated linearly, the heading the short way.
+struct Drive {
+  struct Waypoint {
+    double x_m, y_m, yaw_rad;
+  };
+  std::vector<Waypoint> waypoints;
+  double speed_mps = 0.4;
+  double turn_rate_radps = 0.7;
+  double frames_per_s = 2.0;
+  int max_frames = 0;  ///< 0: no limit
+};
+
+/// Poses at i / frames_per_s from the first waypoint to the last; a leg takes
+/// max(distance / speed, |turn| / turn rate). A single waypoint gives one pose.
+[[nodiscard]] std::vector<StampedPose> poses_along(const Drive& drive);
+
+struct RecordOptions {
+  int jobs = 1;  ///< worker threads, one rendering context each
+  bool shadows = false;
+};
+
+/// Renders the frame of every pose and hands each to `sink`, which is called from several threads and in
+/// any order; frames have the same bytes for any number of jobs. `progress(done, total)` is called from
+/// one thread at a time. The first exception of a worker ends the others and is rethrown.
+void record(const World& world, const std::vector<StampedPose>& poses, const RecordOptions& options,
+            const std::function<void(const Frame&)>& sink,
+            const std::function<void(int, int)>& progress = {});
+
+}  // namespace mapscore::sim

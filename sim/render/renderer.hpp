@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "core/classes.hpp"
+#include "core/frame.hpp"
+#include "sim/world/world.hpp"
+
+namespace mapscore::sim {
+
+/// A coloured cube drawn into a picture.
+struct Cube {
+  Eigen::Vector3d centre_world;
+  double edge_m = 0.05;
+  Eigen::Matrix3d R_world_cube = Eigen::Matrix3d::Identity();
+  Colour colour;
+};
+
+/// View of a picture: where the eye is and what it looks at, world frame, metres.
+struct View {
+  Eigen::Vector3d eye_m{0, 0, 2};
+  Eigen::Vector3d target_m{0, 0, 0};
+  double vfov_deg = 45;
+  int width_px = 1280, height_px = 960;
+  std::vector<std::string> hidden_classes;  ///< left out of the picture, e.g. the ceiling
+  bool ghost_scene = false;                 ///< draw the scene pale, so that cubes stand out
+};
+
+/// Off-screen renderer of one world on OSMesa: one context, used by one thread (the one that made it).
+/// Renders repeat bit for bit, also between contexts of different threads.
+class Renderer {
+ public:
+  Renderer(const World& world, bool shadows);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Renders both cameras of the robot standing at `T_world_base`: colour and instance ids from the colour
+  /// camera; depth (16-bit, out of range = 0) and instance ids from the depth camera.
+  [[nodiscard]] Frame render(int index, double stamp_s, const Pose& T_world_base);
+
+  /// Planar depth in metres before it is stored (float, 0 = none beyond the far plane), for tests.
+  [[nodiscard]] cv::Mat1f render_metric_depth(const Pose& T_world_base);
+
+  /// A picture of the scene, optionally with cubes drawn into it. BGR.
+  [[nodiscard]] cv::Mat3b picture(const View& view, std::span<const Cube> cubes = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace mapscore::sim

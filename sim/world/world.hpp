@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/classes.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/shape.hpp"
+
+struct mjModel_;
+
+namespace mapscore::sim {
+
+/// Files that make a world.
+struct WorldFiles {
+  std::filesystem::path scene;                   ///< MJCF
+  std::optional<std::filesystem::path> classes;  ///< default: SCENE stem + .classes.yaml if it exists
+  std::filesystem::path robot;                   ///< MJCF with body base_footprint, cameras color, depth
+};
+
+/// What the camera settings of a study override in the robot's MJCF.
+struct CameraOverrides {
+  int width_px = 640, height_px = 480;  ///< both cameras; the fields of view stay
+  double range_min_m = 0.6, range_max_m = 8.0;
+};
+
+/// A compiled scene with the robot attached, its class table and its exact drawn surfaces.
+/// Immutable after loading and safe to share between threads.
+class World {
+ public:
+  /// Throws Error when a file is missing, MuJoCo refuses it (with MuJoCo's own reason), a class pattern is
+  /// doubled or unknown, or a drawn geom is of a kind that the truth cannot hold.
+  [[nodiscard]] static World load(const WorldFiles& files, const CameraOverrides& cameras);
+
+  [[nodiscard]] const ClassTable& classes() const;
+  [[nodiscard]] const Calibration& calibration() const;
+  /// Drawn surfaces in the world frame, the robot's left out.
+  [[nodiscard]] const std::vector<Shape>& shapes() const;
+  /// Names of bodies with drawn geoms that no class matches.
+  [[nodiscard]] const std::vector<std::string>& unmatched_bodies() const;
+  /// Content hash of scene, class file and robot (file bytes and included files as compiled).
+  [[nodiscard]] const std::string& hash() const;
+  [[nodiscard]] const mjModel_& model() const;
+  /// Instance id of each geom of the model; 0 for background. Robot geoms: see `robot_geom`.
+  [[nodiscard]] const std::vector<InstanceId>& geom_instances() const;
+  [[nodiscard]] bool robot_geom(int geom) const;
+
+ private:
+  struct State;
+  std::shared_ptr<const State> state_;
+};
+
+[[nodiscard]] std::string mujoco_version();
+
+}  // namespace mapscore::sim
