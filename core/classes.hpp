@@ -44,7 +44,9 @@ struct ClassTable {
   [[nodiscard]] ClassId class_of(InstanceId instance) const {
     return instance < instances.size() ? instances[instance].class_id : kBackground;
   }
-  [[nodiscard]] bool detected(ClassId id) const { return id < classes.size() && classes[id].detect; }
+  [[nodiscard]] bool detected(ClassId id) const {
+    return id < classes.size() && classes[id].detect;
+  }
 };
 
 }  // namespace mapscore

@@ -3,10 +3,10 @@
 
 #pragma once
 
-#include <opencv2/core.hpp>
-
 #include "core/geometry/camera.hpp"
 #include "core/geometry/pose.hpp"
+
+#include <opencv2/core.hpp>
 
 namespace mapscore {
 

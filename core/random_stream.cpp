@@ -3,10 +3,10 @@
 
 #include "core/random_stream.hpp"
 
+#include "core/geometry/voxel.hpp"
+
 #include <cmath>
 #include <numbers>
-
-#include "core/geometry/voxel.hpp"
 
 namespace mapscore {
 
@@ -26,7 +26,9 @@ std::uint64_t RandomStream::bits() {
   return mix_bits(state_);
 }
 
-double RandomStream::uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
+double RandomStream::uniform() {
+  return static_cast<double>(bits() >> 11) * 0x1.0p-53;
+}
 
 double RandomStream::normal() {
   if (has_spare_) {

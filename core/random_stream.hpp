@@ -9,10 +9,10 @@
 
 namespace mapscore {
 
-/// A stream of random numbers that is named, not shared: (seed, purpose, indices...) fixes every draw,
-/// so a result depends on neither the order of the trials nor threads nor shards. SplitMix64 and
-/// Box-Muller, written out because the distributions of the standard library differ between vendors.
-/// Not thread-safe; make one where it is used.
+/// A stream of random numbers that is named, not shared: (seed, purpose, indices...) fixes every
+/// draw, so a result depends on neither the order of the trials nor threads nor shards. SplitMix64
+/// and Box-Muller, written out because the distributions of the standard library differ between
+/// vendors. Not thread-safe; make one where it is used.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view purpose,

@@ -3,12 +3,12 @@
 
 #pragma once
 
-#include <functional>
-#include <vector>
-
 #include "core/frame.hpp"
 #include "core/geometry/pose.hpp"
 #include "sim/world/world.hpp"
+
+#include <functional>
+#include <vector>
 
 namespace mapscore::sim {
 
@@ -17,7 +17,8 @@ struct StampedPose {
   Pose T_world_base = Pose::Identity();
 };
 
-/// Drive along waypoints: position and heading are interpolated linearly, the heading the short way.
+/// Drive along waypoints: position and heading are interpolated linearly, the heading the short
+/// way.
 struct Drive {
   struct Waypoint {
     double x_m, y_m, yaw_rad;
@@ -38,9 +39,10 @@ struct RecordOptions {
   bool shadows = false;
 };
 
-/// Renders the frame of every pose and hands each to `sink`, which is called from several threads and in
-/// any order; frames have the same bytes for any number of jobs. `progress(done, total)` is called from
-/// one thread at a time. The first exception of a worker ends the others and is rethrown.
+/// Renders the frame of every pose and hands each to `sink`, which is called from several threads
+/// and in any order; frames have the same bytes for any number of jobs. `progress(done, total)` is
+/// called from one thread at a time. The first exception of a worker ends the others and is
+/// rethrown.
 void record(const World& world, const std::vector<StampedPose>& poses, const RecordOptions& options,
             const std::function<void(const Frame&)>& sink,
             const std::function<void(int, int)>& progress = {});

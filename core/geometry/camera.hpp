@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <Eigen/Core>
-
 #include "core/geometry/pose.hpp"
+
+#include <Eigen/Core>
 
 namespace mapscore {
 
@@ -22,7 +22,8 @@ struct CameraModel {
   /// Square pixels and a centred principal point from the horizontal field of view.
   [[nodiscard]] static CameraModel from_hfov(int width_px, int height_px, double hfov_rad);
 
-  /// Point at planar depth z_m (metres) seen by pixel (u, v): z * ((u - cx) / fx, (v - cy) / fy, 1).
+  /// Point at planar depth z_m (metres) seen by pixel (u, v): z * ((u - cx) / fx, (v - cy) / fy,
+  /// 1).
   [[nodiscard]] Eigen::Vector3d back_project(double u, double v, double z_m) const {
     return {z_m * ((u - cx_px) / fx_px), z_m * ((v - cy_px) / fy_px), z_m};
   }

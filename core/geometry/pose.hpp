@@ -17,7 +17,8 @@ using Covariance6 = Eigen::Matrix<double, 6, 6>;
 /// Rotation by the angle |omega| about omega (radians).
 [[nodiscard]] Eigen::Matrix3d exp_rotation(const Eigen::Vector3d& omega);
 
-/// Exponential map of SE(3); xi in the order x y z roll pitch yaw. exp_pose(0) is exactly the identity.
+/// Exponential map of SE(3); xi in the order x y z roll pitch yaw. exp_pose(0) is exactly the
+/// identity.
 [[nodiscard]] Pose exp_pose(const Vector6& xi);
 
 /// Inverse of exp_pose for rotations below pi.

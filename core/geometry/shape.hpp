@@ -3,18 +3,19 @@
 
 #pragma once
 
+#include "core/classes.hpp"
+#include "core/geometry/pose.hpp"
+
 #include <Eigen/Core>
 #include <array>
 #include <string>
 #include <vector>
 
-#include "core/classes.hpp"
-#include "core/geometry/pose.hpp"
-
 namespace mapscore {
 
-/// Kinds of drawn surface. `size` follows MuJoCo: plane (half x, half y), sphere (radius), capsule and
-/// cylinder (radius, half length along z; a capsule's without its caps), ellipsoid and box (half extents).
+/// Kinds of drawn surface. `size` follows MuJoCo: plane (half x, half y), sphere (radius), capsule
+/// and cylinder (radius, half length along z; a capsule's without its caps), ellipsoid and box
+/// (half extents).
 enum class ShapeKind { plane, sphere, capsule, ellipsoid, cylinder, box, mesh };
 
 using Triangle = std::array<Eigen::Vector3d, 3>;

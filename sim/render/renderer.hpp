@@ -3,16 +3,16 @@
 
 #pragma once
 
+#include "core/classes.hpp"
+#include "core/frame.hpp"
+#include "sim/world/world.hpp"
+
+#include <opencv2/core.hpp>
+
 #include <functional>
 #include <memory>
 #include <span>
 #include <vector>
-
-#include <opencv2/core.hpp>
-
-#include "core/classes.hpp"
-#include "core/frame.hpp"
-#include "sim/world/world.hpp"
 
 namespace mapscore::sim {
 
@@ -34,8 +34,8 @@ struct View {
   bool ghost_scene = false;                 ///< draw the scene pale, so that cubes stand out
 };
 
-/// Off-screen renderer of one world on OSMesa: one context, used by one thread (the one that made it).
-/// Renders repeat bit for bit, also between contexts of different threads.
+/// Off-screen renderer of one world on OSMesa: one context, used by one thread (the one that made
+/// it). Renders repeat bit for bit, also between contexts of different threads.
 class Renderer {
  public:
   Renderer(const World& world, bool shadows);
@@ -43,8 +43,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Renders both cameras of the robot standing at `T_world_base`: colour and instance ids from the colour
-  /// camera; depth (16-bit, out of range = 0) and instance ids from the depth camera.
+  /// Renders both cameras of the robot standing at `T_world_base`: colour and instance ids from the
+  /// colour camera; depth (16-bit, out of range = 0) and instance ids from the depth camera.
   [[nodiscard]] Frame render(int index, double stamp_s, const Pose& T_world_base);
 
   /// Planar depth in metres before it is stored (float, 0 = none beyond the far plane), for tests.

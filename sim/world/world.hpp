@@ -3,15 +3,15 @@
 
 #pragma once
 
+#include "core/classes.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/shape.hpp"
+
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "core/classes.hpp"
-#include "core/geometry/camera.hpp"
-#include "core/geometry/shape.hpp"
 
 struct mjModel_;
 
@@ -19,9 +19,10 @@ namespace mapscore::sim {
 
 /// Files that make a world.
 struct WorldFiles {
-  std::filesystem::path scene;                   ///< MJCF
-  std::optional<std::filesystem::path> classes;  ///< default: SCENE stem + .classes.yaml if it exists
-  std::filesystem::path robot;                   ///< MJCF with body base_footprint, cameras color, depth
+  std::filesystem::path scene;  ///< MJCF
+  std::optional<std::filesystem::path>
+      classes;                  ///< default: SCENE stem + .classes.yaml if it exists
+  std::filesystem::path robot;  ///< MJCF with body base_footprint, cameras color, depth
 };
 
 /// What the camera settings of a study override in the robot's MJCF.
@@ -34,8 +35,8 @@ struct CameraOverrides {
 /// Immutable after loading and safe to share between threads.
 class World {
  public:
-  /// Throws Error when a file is missing, MuJoCo refuses it (with MuJoCo's own reason), a class pattern is
-  /// doubled or unknown, or a drawn geom is of a kind that the truth cannot hold.
+  /// Throws Error when a file is missing, MuJoCo refuses it (with MuJoCo's own reason), a class
+  /// pattern is doubled or unknown, or a drawn geom is of a kind that the truth cannot hold.
   [[nodiscard]] static World load(const WorldFiles& files, const CameraOverrides& cameras);
 
   [[nodiscard]] const ClassTable& classes() const;

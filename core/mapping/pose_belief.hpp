@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/pose.hpp"
+#include "core/random_stream.hpp"
+
+#include <vector>
+
+namespace mapscore {
+
+/// What localisation says: mean pose, and the covariance of its error in the axes of
+/// base_footprint, order x y z roll pitch yaw (metres, radians).
+struct PoseBelief {
+  Pose T_map_odom = Pose::Identity();
+  Pose T_odom_base = Pose::Identity();
+  Covariance6 covariance = Covariance6::Zero();
+};
+
+/// Where a noise transform is applied. `base` turns about the robot, so that the covariance of the
+/// draws equals the believed one at any distance from the origin; `odom` is [M, section 3.2], which
+/// turns about the origin of the odometry frame.
+enum class NoiseAt { base, odom };
+
+/// `diagonal` draws each axis by itself [M]; `full` uses the whole covariance.
+enum class CovarianceUse { diagonal, full };
+
+/// Lower-triangular L with L L^T = covariance; works for semi-definite matrices, zero gives zero.
+/// Throws Error when the matrix is not symmetric positive semi-definite.
+[[nodiscard]] Covariance6 covariance_root(const Covariance6& covariance);
+
+/// N poses T_map_base drawn from the belief. A zero covariance gives N copies of the mean, bit for
+/// bit. Throws Error when `draws` < 1 or the covariance is not positive semi-definite.
+[[nodiscard]] std::vector<Pose> draw_poses(const PoseBelief& belief, int draws, NoiseAt noise_at,
+                                           CovarianceUse use, RandomStream& stream);
+
+}  // namespace mapscore

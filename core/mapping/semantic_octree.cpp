@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/mapping/semantic_octree.hpp"
+
+#include <istream>
+#include <ostream>
+
+namespace mapscore {
+namespace {
+
+constexpr std::int32_t kOctreeOffset = 1 << 15;
+
+template <class T>
+void write_raw(std::ostream& stream, const T& value) {
+  stream.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+template <class T>
+T read_raw(std::istream& stream) {
+  T value{};
+  stream.read(reinterpret_cast<char*>(&value), sizeof value);
+  return value;
+}
+
+}  // namespace
+
+ClassProbability SemanticOcTreeNode::best() const {
+  ClassProbability best;
+  for (const ClassProbability& candidate : classes)
+    if (candidate.probability > best.probability) best = candidate;
+  return best;
+}
+
+std::istream& SemanticOcTreeNode::readData(std::istream& stream) {
+  OcTreeNode::readData(stream);
+  classes.resize(read_raw<std::uint16_t>(stream));
+  for (ClassProbability& entry : classes) {
+    entry.class_id = read_raw<ClassId>(stream);
+    entry.probability = read_raw<double>(stream);
+  }
+  return stream;
+}
+
+std::ostream& SemanticOcTreeNode::writeData(std::ostream& stream) const {
+  OcTreeNode::writeData(stream);
+  write_raw(stream, static_cast<std::uint16_t>(classes.size()));
+  for (const ClassProbability& entry : classes) {
+    write_raw(stream, entry.class_id);
+    write_raw(stream, entry.probability);
+  }
+  return stream;
+}
+
+SemanticOcTree::SemanticOcTree(double edge_m)
+    : octomap::OccupancyOcTreeBase<SemanticOcTreeNode>(edge_m) {
+  initializer_.ensureLinking();
+}
+
+SemanticOcTree::StaticMemberInitializer::StaticMemberInitializer() {
+  auto* prototype =
+      new SemanticOcTree(0.1);  // OctoMap's registry keeps it to the end of the program
+  prototype->clearKeyRays();
+  octomap::AbstractOcTree::registerTreeType(prototype);
+}
+
+SemanticOcTree::StaticMemberInitializer SemanticOcTree::initializer_;
+
+octomap::OcTreeKey octree_key(const VoxelKey& key) {
+  return {static_cast<octomap::key_type>(key.i + kOctreeOffset),
+          static_cast<octomap::key_type>(key.j + kOctreeOffset),
+          static_cast<octomap::key_type>(key.k + kOctreeOffset)};
+}
+
+VoxelKey voxel_key(const octomap::OcTreeKey& key) {
+  return {key[0] - kOctreeOffset, key[1] - kOctreeOffset, key[2] - kOctreeOffset};
+}
+
+bool fits_octree(const VoxelKey& key) {
+  const auto fits = [](std::int32_t index) {
+    return index >= -kOctreeOffset && index < kOctreeOffset;
+  };
+  return fits(key.i) && fits(key.j) && fits(key.k);
+}
+
+}  // namespace mapscore

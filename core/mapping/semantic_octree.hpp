@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/classes.hpp"
+#include "core/geometry/voxel.hpp"
+
+#include <octomap/OcTreeNode.h>
+#include <octomap/OccupancyOcTreeBase.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace mapscore {
+
+struct ClassProbability {
+  ClassId class_id = kBackground;
+  double probability = 0.0;
+  bool operator==(const ClassProbability&) const = default;
+};
+
+/// Voxel of a semantic map: occupancy log-odds (OctoMap's) and class probabilities, ascending by
+/// class.
+class SemanticOcTreeNode : public octomap::OcTreeNode {
+ public:
+  std::vector<ClassProbability> classes;
+
+  bool operator==(const SemanticOcTreeNode& other) const {
+    return value == other.value && classes == other.classes;
+  }
+  void copyData(const SemanticOcTreeNode& from) {
+    OcTreeNode::copyData(from);
+    classes = from.classes;
+  }
+  /// Most probable class, ties to the lower id; background with probability 0 when there is none.
+  [[nodiscard]] ClassProbability best() const;
+
+  /// OctoMap's streaming of one node's own data; native byte order, as OctoMap writes its floats.
+  std::istream& readData(std::istream& stream);
+  std::ostream& writeData(std::ostream& stream) const;
+};
+
+/// OctoMap octree of semantic voxels; type id "SemanticOcTree" in .ot files. Not safe for
+/// concurrent writes.
+class SemanticOcTree : public octomap::OccupancyOcTreeBase<SemanticOcTreeNode> {
+ public:
+  explicit SemanticOcTree(double edge_m);
+  SemanticOcTree* create() const override { return new SemanticOcTree(resolution); }
+  std::string getTreeType() const override { return "SemanticOcTree"; }
+
+ protected:
+  /// Makes the type known to octomap::AbstractOcTree::read.
+  class StaticMemberInitializer {
+   public:
+    StaticMemberInitializer();
+    void ensureLinking() {}
+  };
+  static StaticMemberInitializer initializer_;
+};
+
+/// OctoMap's key of a voxel: its index plus 2^15.
+[[nodiscard]] octomap::OcTreeKey octree_key(const VoxelKey& key);
+[[nodiscard]] VoxelKey voxel_key(const octomap::OcTreeKey& key);
+/// Whether the voxel lies within the +-2^15 voxels that an octree spans on each axis.
+[[nodiscard]] bool fits_octree(const VoxelKey& key);
+
+}  // namespace mapscore

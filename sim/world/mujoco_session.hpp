@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <memory>
+#include <string>
+
+namespace mapscore::sim {
+
+/// Owners of MuJoCo's heap objects.
+struct MujocoDeleter {
+  void operator()(mjSpec* spec) const { mj_deleteSpec(spec); }
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+using SpecPtr = std::unique_ptr<mjSpec, MujocoDeleter>;
+using ModelPtr = std::unique_ptr<mjModel, MujocoDeleter>;
+using DataPtr = std::unique_ptr<mjData, MujocoDeleter>;
+
+/// Keeps MuJoCo from printing, from writing MUJOCO_LOG.TXT and from ending the process: its errors
+/// become mapscore::Error, its warnings are dropped. Handlers that the host program installed before
+/// stay. Thread-safe; costs nothing after the first call.
+void quiet_mujoco();
+
+/// MuJoCo's message on one line.
+[[nodiscard]] std::string one_line(const std::string& message);
+
+}  // namespace mapscore::sim
