@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/detection.hpp"
+
+#include <algorithm>
+
+namespace mapscore {
+namespace {
+
+/// Tight box of every instance id that occurs, indexed by id; empty boxes have u_max < u_min.
+std::vector<PixelBox> boxes_of(const cv::Mat1w& label, std::size_t instance_count) {
+  constexpr int kBeyond = 1 << 30;
+  std::vector<PixelBox> boxes(instance_count, PixelBox{kBeyond, kBeyond, -1, -1});
+  for (int v = 0; v < label.rows; ++v) {
+    const std::uint16_t* row = label[v];
+    for (int u = 0; u < label.cols;) {
+      const std::uint16_t id = row[u];
+      const int first = u;
+      while (u < label.cols && row[u] == id) ++u;
+      if (id == 0 || id >= instance_count) continue;
+      PixelBox& box = boxes[id];
+      box = {std::min(box.u_min, first), std::min(box.v_min, v), std::max(box.u_max, u - 1), v};
+    }
+  }
+  return boxes;
+}
+
+cv::Rect rect_of(const PixelBox& box) {
+  return {box.u_min, box.v_min, box.width(), box.height()};
+}
+
+}  // namespace
+
+std::vector<Detection> detections_of(const cv::Mat1w& label, const ClassTable& table) {
+  std::vector<Detection> detections;
+  const std::vector<PixelBox> boxes = boxes_of(label, table.instances.size());
+  for (const Instance& instance : table.instances) {
+    const PixelBox& box = boxes[instance.id];
+    if (!table.detected(instance.class_id) || box.u_max < box.u_min) continue;
+    const cv::Mat1b mask = label(rect_of(box)) == instance.id;
+    detections.push_back({instance.class_id, instance.id, 1.0, box, mask});
+  }
+  return detections;
+}
+
+cv::Mat1b pixels_wanted(const std::vector<Detection>& detections, int width_px, int height_px) {
+  cv::Mat1b wanted(height_px, width_px, std::uint8_t{0});
+  for (const Detection& detection : detections) {
+    const PixelBox& box = detection.box;
+    cv::Mat1b region = wanted(rect_of(box));
+    region |= detection.mask;
+    wanted((box.v_min + box.v_max) / 2, (box.u_min + box.u_max) / 2) = 255;
+  }
+  return wanted;
+}
+
+}  // namespace mapscore

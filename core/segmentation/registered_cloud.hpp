@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/camera.hpp"
+
+#include <opencv2/core.hpp>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace mapscore {
+
+/// Organised cloud: for each colour pixel the depth pixel whose surface it sees, and that one's
+/// point in depth_optical (metres). Registration decides only which point a colour pixel gets; the
+/// point itself keeps the depth camera's own coordinates. Immutable, safe to share between threads.
+class RegisteredCloud {
+ public:
+  static constexpr int kNone = -1;
+
+  /// `source`: index of a depth pixel (row-major) per colour pixel, kNone where there is none.
+  RegisteredCloud(cv::Mat1w depth, const CameraModel& depth_camera, cv::Mat1i source);
+
+  /// Index of the depth pixel behind colour pixel (u, v), or kNone.
+  [[nodiscard]] int source(int u, int v) const { return source_(v, u); }
+  [[nodiscard]] const cv::Mat1i& sources() const { return source_; }
+  [[nodiscard]] int width_px() const { return source_.cols; }
+  [[nodiscard]] int height_px() const { return source_.rows; }
+
+  /// Point of a depth pixel in depth_optical: z * ((u - cx) / fx, (v - cy) / fy, 1), z = value /
+  /// 5000.
+  [[nodiscard]] Eigen::Vector3d point(int depth_pixel) const {
+    const int v = depth_pixel / depth_.cols, u = depth_pixel % depth_.cols;
+    return camera_.back_project(u, v, depth_(v, u) / kDepthUnitsPerMetre);
+  }
+
+ private:
+  cv::Mat1w depth_;
+  CameraModel camera_;
+  cv::Mat1i source_;
+};
+
+/// Registers depth to colour with the believed calibration (METHODS section 1). A depth pixel with
+/// a value within the camera's range (limits included) is projected to (u, v) at depth z_color > 0
+/// in the colour camera; it covers the columns from ceil(u - h) to floor(u + h) with h = max(1,
+/// (fx_color / fx_depth) * (z_depth / z_color)) / 2, and the rows likewise with fy. Of the depth
+/// pixels that cover a colour pixel the nearest in z_color wins, ties to the lower row, then
+/// column. `wanted` (255 or 0 per colour pixel) limits the work to pixels that matter; the others
+/// get kNone. Throws Error when an image has another size than its camera.
+[[nodiscard]] RegisteredCloud register_depth(const cv::Mat1w& depth, const Calibration& believed,
+                                             const cv::Mat1b& wanted = {});
+
+}  // namespace mapscore

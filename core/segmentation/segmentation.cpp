@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/segmentation.hpp"
+
+#include "core/error.hpp"
+#include "core/geometry/voxel.hpp"
+#include "core/segmentation/erosion.hpp"
+#include "core/segmentation/region_growing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace mapscore {
+namespace {
+
+/// Points of the mask's pixels that have one, in row-major order of the pixels.
+std::vector<Eigen::Vector3d> points_of(const cv::Mat1b& mask, const PixelBox& box,
+                                       const RegisteredCloud& cloud) {
+  std::vector<Eigen::Vector3d> points;
+  for (int v = 0; v < mask.rows; ++v) {
+    const std::uint8_t* inside = mask[v];
+    const int* sources = cloud.sources()[v + box.v_min] + box.u_min;
+    for (int u = 0; u < mask.cols; ++u)
+      if (inside[u] && sources[u] != RegisteredCloud::kNone)
+        points.push_back(cloud.point(sources[u]));
+  }
+  return points;
+}
+
+/// Centres of the voxels that hold points, on the lattice anchored at the sensor frame's origin.
+std::vector<Eigen::Vector3d> occupied_centres(const std::vector<Eigen::Vector3d>& points,
+                                              double voxel_m) {
+  std::set<VoxelKey> keys;
+  for (const Eigen::Vector3d& point : points) keys.insert(voxel_of(point, voxel_m));
+  std::vector<Eigen::Vector3d> centres;
+  for (const VoxelKey& key : keys) centres.push_back(centre_of(key, voxel_m));
+  return centres;
+}
+
+std::optional<Eigen::Vector3d> point_at(const RegisteredCloud& cloud, int u, int v) {
+  const int source = cloud.source(u, v);
+  if (source == RegisteredCloud::kNone) return std::nullopt;
+  return cloud.point(source);
+}
+
+/// Point of the mask pixel with a point that is nearest to the mask's centroid.
+std::optional<Eigen::Vector3d> point_near_centroid(const Detection& detection,
+                                                   const RegisteredCloud& cloud) {
+  double sum_u = 0, sum_v = 0, count = 0;
+  for (int v = 0; v < detection.mask.rows; ++v)
+    for (int u = 0; u < detection.mask.cols; ++u)
+      if (detection.mask(v, u)) sum_u += u, sum_v += v, count += 1;
+  std::optional<Eigen::Vector3d> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (int v = 0; v < detection.mask.rows; ++v) {
+    for (int u = 0; u < detection.mask.cols; ++u) {
+      const double du = u - sum_u / count, dv = v - sum_v / count;
+      if (!detection.mask(v, u) || du * du + dv * dv >= least) continue;
+      const auto point = point_at(cloud, u + detection.box.u_min, v + detection.box.v_min);
+      if (!point) continue;
+      least = du * du + dv * dv;
+      nearest = point;
+    }
+  }
+  return nearest;
+}
+
+std::optional<Eigen::Vector3d> seed_point(const Detection& detection, const RegisteredCloud& cloud,
+                                          SeedRule rule) {
+  const PixelBox& box = detection.box;
+  switch (rule) {
+    case SeedRule::box_centre:
+      return point_at(cloud, (box.u_min + box.u_max) / 2, (box.v_min + box.v_max) / 2);
+    case SeedRule::mask_centroid:
+      return point_near_centroid(detection, cloud);
+  }
+  return std::nullopt;
+}
+
+/// Fills a segment by one method; `skipped` says why it stayed empty.
+struct Segmenter {
+  const Detection& detection;
+  const RegisteredCloud& cloud;
+  double voxel_m;
+  bool with_voxels;
+  Segment& segment;
+
+  void operator()(const DirectParams&) const { keep(detection.mask); }
+
+  void operator()(const ErosionParams& params) const {
+    if (params.radius_px < 0) throw Error("radius_px: must not be negative");
+    const cv::Mat1b eroded =
+        erode_mask(detection, params.radius_px, cloud.width_px(), cloud.height_px());
+    if (std::none_of(eroded.begin(), eroded.end(), [](std::uint8_t inside) { return inside; }))
+      segment.skipped = SkipReason::eroded_away;
+    else
+      keep(eroded);
+  }
+
+  void operator()(const RegionGrowingParams& params) const {
+    const std::vector<Eigen::Vector3d> points = points_of(detection.mask, detection.box, cloud);
+    const auto seed = seed_point(detection, cloud, params.seed);
+    if (points.empty() || !seed) {
+      segment.skipped = points.empty() ? SkipReason::no_points : SkipReason::no_seed_point;
+      return;
+    }
+    const Region region =
+        grow_region(points, *seed, voxel_m, params.radius_factor, params.released);
+    if (region.points.empty()) segment.skipped = SkipReason::seed_off_object;
+    for (const int index : region.points)
+      segment.points.push_back(points[static_cast<std::size_t>(index)]);
+    if (!with_voxels) return;
+    for (const VoxelKey& key : region.positions)
+      segment.voxel_centres.push_back(lattice_position(*seed, voxel_m, key));
+  }
+
+  void keep(const cv::Mat1b& mask) const {
+    segment.points = points_of(mask, detection.box, cloud);
+    if (segment.points.empty()) segment.skipped = SkipReason::no_points;
+    if (with_voxels) segment.voxel_centres = occupied_centres(segment.points, voxel_m);
+  }
+};
+
+}  // namespace
+
+Segment segment(const Detection& detection, const RegisteredCloud& cloud, double voxel_m,
+                const SegmentationParams& params, bool with_voxels) {
+  if (!(voxel_m > 0.0) || !std::isfinite(voxel_m))
+    throw Error("voxel_m: must be a positive length in metres");
+  Segment segment;
+  segment.class_id = detection.class_id;
+  segment.instance = detection.instance;
+  segment.score = detection.score;
+  std::visit(Segmenter{detection, cloud, voxel_m, with_voxels, segment}, params);
+  for (const Eigen::Vector3d& point : segment.points) segment.box.extend(point);
+  return segment;
+}
+
+}  // namespace mapscore

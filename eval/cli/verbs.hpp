@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace mapscore::eval {
+
+/// Each function adds one verb to the program. A verb's callback does the work and throws Error when the
+/// input is wrong; `check` sets `exit_code` to 1 when the answer is no.
+void add_record(CLI::App& program);
+void add_run(CLI::App& program);
+void add_sweep(CLI::App& program);
+void add_truth(CLI::App& program);
+void add_score(CLI::App& program);
+void add_table(CLI::App& program);
+void add_figures(CLI::App& program);
+void add_check(CLI::App& program, int& exit_code);
+void add_info(CLI::App& program);
+
+}  // namespace mapscore::eval

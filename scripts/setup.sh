@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the mapscore authors
+# SPDX-License-Identifier: MIT
+#
+# Installs what mapscore stands on: Debian packages that are missing, and MuJoCo's pinned release, which is
+# unpacked below build/deps. Does nothing when all is there. Needs root only to install packages.
+#
+#   scripts/setup.sh           what building, the demo and the tests need
+#   scripts/setup.sh --ci      and clang-format, for the format check
+
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+packages=(
+  g++ cmake ninja-build ccache
+  libeigen3-dev libopencv-dev liboctomap-dev libnanoflann-dev libyaml-cpp-dev libcli11-dev
+  libspdlog-dev libfmt-dev libsqlite3-dev nlohmann-json3-dev libxxhash-dev zlib1g-dev libpng-dev
+  libboost-dev libosmesa6-dev libgtest-dev libgmock-dev libbenchmark-dev
+  gnuplot-nox fonts-dejavu-core
+  python3 python3-pip python3-numpy python3-scipy python3-yaml python3-pil sqlite3
+)
+[ "${1:-}" = --ci ] && packages+=(clang-format)
+
+mujoco_version=4.0.1
+mujoco_folder=build/deps/mujoco-$mujoco_version
+declare -A mujoco_sha256=(
+  [x86_64]=be28c0c7587347ef996b4de0487264e9da296282082b092bae211a9163e9aed6
+)
+
+say() { printf 'setup: %s\n' "$*" >&2; }
+
+missing_packages() {
+  local installed
+  installed=$({ dpkg-query -W -f='${Package} ${db:Status-Status}\n' "${packages[@]}" 2>/dev/null || true; } |
+    awk '$2 == "installed" {print $1}' | sort -u)
+  comm -23 <(printf '%s\n' "${packages[@]}" | sort -u) <(printf '%s\n' "$installed")
+}
+
+install_packages() {
+  command -v dpkg-query >/dev/null || {
+    say "this script knows Debian's packages only; on another system install: ${packages[*]}"
+    exit 2
+  }
+  local missing
+  mapfile -t missing < <(missing_packages)
+  [ ${#missing[@]} -eq 0 ] && return
+  if [ "$(id -u)" -ne 0 ]; then
+    say "missing Debian packages: ${missing[*]}"
+    say "install them as root: apt-get install --no-install-recommends ${missing[*]}"
+    exit 2
+  fi
+  say "installing ${#missing[@]} Debian packages: ${missing[*]}"
+  local log
+  log=$(mktemp)
+  if ! { apt-get update && DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+    tail -n 5 "$log" >&2
+    say "apt-get failed; its whole output is in $log"
+    exit 2
+  fi
+  rm -f "$log"
+}
+
+# The wheel carries libmujoco and its headers; nothing of its Python is used.
+install_mujoco() {
+  [ -f "$mujoco_folder/mujoco/include/mujoco/mujoco.h" ] && return
+  say "fetching MuJoCo $mujoco_version into $mujoco_folder"
+  local machine wheel_folder
+  machine=$(uname -m)
+  wheel_folder=$(mktemp -d)
+  if ! python3 -m pip download --quiet --disable-pip-version-check --no-deps --only-binary=:all: \
+    --implementation cp --python-version 3.11 --abi cp311 --platform "manylinux_2_28_$machine" \
+    --platform "manylinux_2_27_$machine" -d "$wheel_folder" "mujoco-core==$mujoco_version"; then
+    say "MuJoCo could not be fetched; or install MuJoCo 3.3 or newer yourself, CMake finds it"
+    exit 2
+  fi
+  local expected=${mujoco_sha256[$machine]:-}
+  if [ -n "$expected" ] && ! echo "$expected $(ls "$wheel_folder"/*.whl)" | sha256sum --check --quiet; then
+    say "the MuJoCo wheel is not the one this project was tested with; nothing was installed"
+    exit 2
+  fi
+  rm -rf "$mujoco_folder.partial"
+  mkdir -p "$mujoco_folder.partial"
+  python3 - "$wheel_folder" "$mujoco_folder.partial" <<'PYTHON'
+import glob, sys, zipfile
+wheel = zipfile.ZipFile(glob.glob(sys.argv[1] + "/*.whl")[0])
+wanted = [name for name in wheel.namelist()
+          if name.startswith(("mujoco/include/", "mujoco/libmujoco.so")) or "LICENSE" in name]
+wheel.extractall(sys.argv[2], wanted)
+PYTHON
+  mv "$mujoco_folder.partial" "$mujoco_folder"
+  rm -rf "$wheel_folder"
+}
+
+install_packages
+install_mujoco
