@@ -4,176 +4,283 @@
 #include "core/segmentation/region_growing.hpp"
 
 #include "core/error.hpp"
+#include "core/segmentation/lattice_bits.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 namespace mapscore {
 namespace {
 
-/// Above this many lattice cells the points lie too far apart for a dense grid.
-constexpr std::int64_t kMostCells = std::int64_t{1} << 24;
+/// Above this many lattice positions (32 MB of bits) the points lie too far apart for a dense grid.
+constexpr double kMostPositions = 1 << 28;
 
-/// Inclusive range of lattice indices on each axis.
-struct IndexBox {
-  std::array<std::int32_t, 3> low, high;
+/// Bounding box of the points; `finite` is false when some coordinate is not.
+struct Extent {
+  Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Array3d high = -low;
+  bool finite = true;
 };
 
+Extent extent_of(std::span<const Eigen::Vector3d> points) {
+  Extent extent;
+  Eigen::Array3d zero = Eigen::Array3d::Zero();  // turns NaN with the first infinity or NaN
+  for (const Eigen::Vector3d& p : points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      extent.low[axis] = p[axis] < extent.low[axis] ? p[axis] : extent.low[axis];
+      extent.high[axis] = p[axis] > extent.high[axis] ? p[axis] : extent.high[axis];
+      zero[axis] += 0.0 * p[axis];
+    }
+  }
+  extent.finite = (zero == 0.0).all();
+  return extent;
+}
+
+/// Grows over finite points. Indices here are relative to the grid's low corner. The products with the
+/// inverse pitch only choose which positions are tested, with slack for all rounding; the test itself
+/// is the plain form's.
 template <class Scalar>
 class FastGrowing {
  public:
   FastGrowing(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& seed, double pitch_m,
               double radius_factor)
-      : points_(points), seed_(seed), pitch_m_(pitch_m), factor_(radius_factor) {
-    const double radius_m = radius_factor * pitch_m;
-    radius_squared_ = static_cast<Scalar>(radius_m * radius_m);
-  }
+      : points_(points),
+        seed_(seed),
+        pitch_m_(pitch_m),
+        factor_(radius_factor),
+        radius_squared_(static_cast<Scalar>(radius_factor * pitch_m * (radius_factor * pitch_m))) {}
 
-  /// False when the points do not fit a dense grid; nothing was grown then.
-  [[nodiscard]] bool lay_grid() {
-    Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
-    Eigen::Array3d high = -low;
-    for (const Eigen::Vector3d& p : points_) {
-      if (!p.allFinite()) continue;
-      low = low.min(p.array());
-      high = high.max(p.array());
-    }
-    if (!(low <= high).all()) return true;  // no points: the grid stays empty
-    widest_ = std::max({low.abs().maxCoeff(), high.abs().maxCoeff(), seed_.cwiseAbs().maxCoeff()});
-    slack_ = slack();
-    const Eigen::Array3d first = ((low - seed_.array()) / pitch_m_ - factor_ - slack_).floor();
-    const Eigen::Array3d last = ((high - seed_.array()) / pitch_m_ + factor_ + slack_).ceil();
-    const Eigen::Array3d extent = last - first + 1.0;
-    if (extent.prod() > static_cast<double>(kMostCells) || first.abs().maxCoeff() > 1e9 ||
-        last.abs().maxCoeff() > 1e9)
+  /// False when the points do not fit a dense grid; nothing can be grown then.
+  [[nodiscard]] bool lay_grid(const Extent& extent) {
+    const double widest_m = std::max({extent.low.abs().maxCoeff(), extent.high.abs().maxCoeff(),
+                                      seed_.cwiseAbs().maxCoeff()});
+    const double slack =
+        1e-9 + 8.0 * std::numeric_limits<Scalar>::epsilon() * (widest_m / pitch_m_ + factor_);
+    reach_ = factor_ + slack;
+    const Eigen::Array3d low = ((extent.low - seed_.array()) / pitch_m_ - reach_).floor() - 1.0;
+    const Eigen::Array3d high = ((extent.high - seed_.array()) / pitch_m_ + reach_).ceil() + 1.0;
+    const Eigen::Array3d size = high - low + 1.0;
+    if ((size + 2.0).prod() > kMostPositions || !(low.abs() < 1e9).all() || slack > 1.0)
       return false;
-    for (int axis = 0; axis < 3; ++axis) {
-      first_[axis] = static_cast<std::int32_t>(first[axis]);
-      extent_[axis] = static_cast<std::int32_t>(extent[axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<Eigen::Index>(axis);
+      low_[axis] = static_cast<std::int32_t>(low[a]);
+      size_[axis] = static_cast<std::int32_t>(size[a]);
     }
-    cells_.assign(static_cast<std::size_t>(extent.prod()), kEmpty);
+    tabulate_positions();
     return true;
   }
 
   [[nodiscard]] Region grow() {
-    Region region;
-    if (cells_.empty()) return region;
+    occupied_ = LatticeBits(low_, size_);
+    accepted_ = LatticeBits(low_, size_);
+    full_ = LatticeBits(low_, size_);
     mark_occupied();
-    flood(region);
+    Region region;
+    if (flood() == 0) return region;
+    accepted_.for_each([&](Address a) { region.positions.push_back(accepted_.key(a)); });
     keep_points(region);
     return region;
   }
 
  private:
-  enum Cell : std::uint8_t { kEmpty, kOccupied, kAccepted };
+  using Address = LatticeBits::Address;
+  using Index3 = std::array<std::int32_t, 3>;
 
-  /// Bound, in cells, on how far rounding can move a point against the lattice.
-  [[nodiscard]] double slack() const {
-    return 1e-9 + 8.0 * std::numeric_limits<Scalar>::epsilon() * widest_ / pitch_m_;
-  }
+  // What a point's pass over its positions leaves for the next one, in place of an address.
+  static constexpr Address kNowhere = ~Address{0};    ///< no position reaches it
+  static constexpr Address kUndecided = kNowhere - 1;  ///< positions of two pieces may
 
-  [[nodiscard]] IndexBox candidates(const Eigen::Vector3d& p) const {
-    IndexBox box;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double q = (p[axis] - seed_[axis]) / pitch_m_;
-      box.low[axis] = static_cast<std::int32_t>(std::ceil(q - factor_ - slack_));
-      box.high[axis] = static_cast<std::int32_t>(std::floor(q + factor_ + slack_));
+  /// The point in units of the pitch from the grid's low corner, at least `reach_` + 1 on every axis.
+  struct LatticePoint {
+    std::array<double, 3> q;
+    std::array<Scalar, 3> p;
+  };
+
+  void tabulate_positions() {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      coordinates_[axis].resize(static_cast<std::size_t>(size_[axis]));
+      for (std::int32_t n = 0; n < size_[axis]; ++n) {
+        const VoxelKey key{low_[0] + n, low_[1] + n, low_[2] + n};
+        coordinates_[axis][static_cast<std::size_t>(n)] = static_cast<Scalar>(
+            lattice_position(seed_, pitch_m_, key)[static_cast<Eigen::Index>(axis)]);
+      }
     }
-    return box;
   }
 
-  [[nodiscard]] std::size_t index(std::int32_t i, std::int32_t j, std::int32_t k) const {
-    return (static_cast<std::size_t>(i - first_[0]) * static_cast<std::size_t>(extent_[1]) +
-            static_cast<std::size_t>(j - first_[1])) *
-               static_cast<std::size_t>(extent_[2]) +
-           static_cast<std::size_t>(k - first_[2]);
+  [[nodiscard]] LatticePoint on_lattice(const Eigen::Vector3d& p) const {
+    const double inverse = 1.0 / pitch_m_;
+    LatticePoint result;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double x = p[static_cast<Eigen::Index>(axis)];
+      result.q[axis] = (x - seed_[static_cast<Eigen::Index>(axis)]) * inverse - low_[axis];
+      result.p[axis] = static_cast<Scalar>(x);
+    }
+    return result;
   }
 
-  [[nodiscard]] bool within_reach(const Eigen::Vector3d& p, const VoxelKey& key) const {
-    const Eigen::Vector3d position = lattice_position(seed_, pitch_m_, key);
-    const Scalar dx = static_cast<Scalar>(position.x()) - static_cast<Scalar>(p.x());
-    const Scalar dy = static_cast<Scalar>(position.y()) - static_cast<Scalar>(p.y());
-    const Scalar dz = static_cast<Scalar>(position.z()) - static_cast<Scalar>(p.z());
-    return dx * dx + dy * dy + dz * dz < radius_squared_;
+  /// (x - p)^2 along one axis.
+  [[nodiscard]] Scalar squared(const LatticePoint& point, std::size_t axis, std::int32_t n) const {
+    const Scalar difference =
+        coordinates_[axis][static_cast<std::size_t>(n)] - point.p[axis];
+    return difference * difference;
   }
 
-  /// Calls `visit(cell, key)` for the positions that may reach p until it returns true.
-  template <class Visit>
-  bool any_candidate(const Eigen::Vector3d& p, const Visit& visit) const {
-    const IndexBox box = candidates(p);
-    for (std::int32_t i = box.low[0]; i <= box.high[0]; ++i)
-      for (std::int32_t j = box.low[1]; j <= box.high[1]; ++j)
-        for (std::int32_t k = box.low[2]; k <= box.high[2]; ++k)
-          if (visit(index(i, j, k), VoxelKey{i, j, k})) return true;
-    return false;
+  [[nodiscard]] bool reaches(const Index3& at, const LatticePoint& point) const {
+    return squared(point, 0, at[0]) + squared(point, 1, at[1]) + squared(point, 2, at[2]) <
+           radius_squared_;
   }
 
+  [[nodiscard]] Address address(const Index3& at) const {
+    return occupied_.address(at[0], at[1], at[2]);
+  }
+
+  static Index3 nearest(const LatticePoint& point) {
+    return {static_cast<std::int32_t>(point.q[0] + 0.5), static_cast<std::int32_t>(point.q[1] + 0.5),
+            static_cast<std::int32_t>(point.q[2] + 0.5)};
+  }
+
+  /// Whether a position other than the nearest, `at`, may be within reach.
+  [[nodiscard]] bool others_near(const LatticePoint& point, const Index3& at) const {
+    const double off = std::max({std::abs(point.q[0] - at[0]), std::abs(point.q[1] - at[1]),
+                                 std::abs(point.q[2] - at[2])});
+    return off >= 1.0 - reach_;
+  }
+
+  /// Limits, included, of the positions that may be within reach. Truncation rounds down here.
+  [[nodiscard]] std::pair<Index3, Index3> block(const LatticePoint& point) const {
+    std::pair<Index3, Index3> limits;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      limits.first[axis] = static_cast<std::int32_t>(point.q[axis] - reach_) + 1;
+      limits.second[axis] = static_cast<std::int32_t>(point.q[axis] + reach_);
+    }
+    return limits;
+  }
+
+  /// Marks every position that reaches some point, and notes for each point one that reaches it.
   void mark_occupied() {
-    for (const Eigen::Vector3d& p : points_) {
-      if (!p.allFinite()) continue;
-      any_candidate(p, [&](std::size_t cell, const VoxelKey& key) {
-        if (cells_[cell] == kEmpty && within_reach(p, key)) cells_[cell] = kOccupied;
-        return false;
-      });
+    reached_.resize(points_.size());
+    for (std::size_t n = 0; n < points_.size(); ++n) {
+      const LatticePoint point = on_lattice(points_[n]);
+      const Index3 at = nearest(point);
+      reached_[n] = kNowhere;
+      if (reaches(at, point)) {
+        reached_[n] = address(at);
+        if (!occupied_.test(reached_[n])) occupied_.set(reached_[n]);
+      }
+      if (others_near(point, at)) reached_[n] = mark_block(point, reached_[n]);
     }
   }
 
-  [[nodiscard]] bool inside(const VoxelKey& key) const {
-    const std::array<std::int32_t, 3> at{key.i, key.j, key.k};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (at[axis] < first_[axis] || at[axis] >= first_[axis] + extent_[axis]) return false;
-    return true;
-  }
-
-  void accept(const VoxelKey& key, std::vector<VoxelKey>& positions) {
-    if (!inside(key)) return;
-    std::uint8_t& cell = cells_[index(key.i, key.j, key.k)];
-    if (cell != kOccupied) return;
-    cell = kAccepted;
-    positions.push_back(key);
-  }
-
-  void flood(Region& region) {
-    accept({0, 0, 0}, region.positions);
-    for (std::size_t next = 0; next < region.positions.size(); ++next) {
-      const VoxelKey key = region.positions[next];
-      for (int di = -1; di <= 1; ++di)
-        for (int dj = -1; dj <= 1; ++dj)
-          for (int dk = -1; dk <= 1; ++dk)
-            accept({key.i + di, key.j + dj, key.k + dk}, region.positions);
+  /// Marks the block of a point whose nearest position is done; what to note for the point. Positions
+  /// within a block of 2 x 2 x 2 are neighbours and end in the same piece, so one stands for all.
+  [[nodiscard]] Address mark_block(const LatticePoint& point, Address reached) {
+    const auto [first, last] = block(point);
+    const bool cube = last[0] - first[0] == 1 && last[1] - first[1] == 1 && last[2] - first[2] == 1;
+    const bool compact = cube || (last[0] - first[0] < 2 && last[1] - first[1] < 2 &&
+                                  last[2] - first[2] < 2);
+    const bool known = reached != kNowhere;
+    if (cube && known && full_.test(address(first))) return reached;
+    bool full = true;
+    for (std::int32_t i = first[0]; i <= last[0]; ++i) {
+      for (std::int32_t j = first[1]; j <= last[1]; ++j) {
+        for (std::int32_t k = first[2]; k <= last[2]; ++k) {
+          const Address a = occupied_.address(i, j, k);
+          if (known && occupied_.test(a)) continue;
+          if (!reaches({i, j, k}, point)) {
+            full = full && occupied_.test(a);
+            continue;
+          }
+          occupied_.set(a);
+          reached = a;
+        }
+      }
     }
-    std::sort(region.positions.begin(), region.positions.end());
+    if (cube && full) full_.set(address(first));
+    return compact || reached == kNowhere ? reached : kUndecided;
+  }
+
+  /// Moves the piece that holds the seed's position from occupied to accepted; its size.
+  std::size_t flood() {
+    std::vector<Address> queue;
+    const auto accept = [&](Address a) {
+      occupied_.clear(a);
+      accepted_.set(a);
+      queue.push_back(a);
+    };
+    const bool seed_inside = -low_[0] >= 0 && -low_[0] < size_[0] && -low_[1] >= 0 &&
+                             -low_[1] < size_[1] && -low_[2] >= 0 && -low_[2] < size_[2];
+    const Index3 seed{-low_[0], -low_[1], -low_[2]};
+    if (seed_inside && occupied_.test(address(seed))) accept(address(seed));
+    for (std::size_t next = 0; next < queue.size(); ++next)
+      occupied_.for_each_near(queue[next], accept);
+    return queue.size();
   }
 
   void keep_points(Region& region) const {
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const Eigen::Vector3d& p = points_[i];
-      const bool kept =
-          p.allFinite() && any_candidate(p, [&](std::size_t cell, const VoxelKey& key) {
-            return cells_[cell] == kAccepted && within_reach(p, key);
-          });
-      if (kept) region.points.push_back(static_cast<int>(i));
+    region.points.reserve(points_.size());
+    for (std::size_t n = 0; n < points_.size(); ++n) {
+      const Address a = reached_[n];
+      const bool kept = a == kUndecided ? reached_by_accepted(points_[n])
+                                        : a != kNowhere && accepted_.test(a);
+      if (kept) region.points.push_back(static_cast<int>(n));
     }
+  }
+
+  [[nodiscard]] bool reached_by_accepted(const Eigen::Vector3d& p) const {
+    const LatticePoint point = on_lattice(p);
+    const auto accepted = [&](const Index3& at) {
+      return accepted_.test(address(at)) && reaches(at, point);
+    };
+    if (accepted(nearest(point))) return true;
+    const auto [first, last] = block(point);
+    for (std::int32_t i = first[0]; i <= last[0]; ++i)
+      for (std::int32_t j = first[1]; j <= last[1]; ++j)
+        for (std::int32_t k = first[2]; k <= last[2]; ++k)
+          if (accepted({i, j, k})) return true;
+    return false;
   }
 
   std::span<const Eigen::Vector3d> points_;
   Eigen::Vector3d seed_;
   double pitch_m_, factor_;
   Scalar radius_squared_;
-  double widest_ = 0.0, slack_ = 0.0;
-  std::array<std::int32_t, 3> first_{}, extent_{};
-  std::vector<std::uint8_t> cells_;
+  double reach_ = 0.0;  ///< search radius in pitches, with slack
+  Index3 low_{}, size_{};
+  std::array<std::vector<Scalar>, 3> coordinates_;  ///< of the positions, along each axis
+  LatticeBits occupied_, accepted_;
+  LatticeBits full_;  ///< low corners of the 2 x 2 x 2 blocks that are occupied throughout
+  std::vector<Address> reached_;
 };
 
 template <class Scalar>
-Region grow_fast(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& seed,
-                 double pitch_m, double radius_factor, bool released) {
+Region grow_finite(std::span<const Eigen::Vector3d> points, const Extent& extent,
+                   const Eigen::Vector3d& seed, double pitch_m, double radius_factor) {
   FastGrowing<Scalar> growing(points, seed, pitch_m, radius_factor);
-  return growing.lay_grid() ? growing.grow()
-                            : grow_region_reference(points, seed, pitch_m, radius_factor, released);
+  constexpr bool kReleased = std::is_same_v<Scalar, float>;
+  return growing.lay_grid(extent)
+             ? growing.grow()
+             : grow_region_reference(points, seed, pitch_m, radius_factor, kReleased);
+}
+
+/// Without the points that are not finite; indices as in the full list.
+Region grow_without_gaps(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& seed,
+                         double pitch_m, double radius_factor, bool released) {
+  std::vector<Eigen::Vector3d> finite;
+  std::vector<int> indices;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    if (!points[n].allFinite()) continue;
+    finite.push_back(points[n]);
+    indices.push_back(static_cast<int>(n));
+  }
+  Region region = grow_region(finite, seed, pitch_m, radius_factor, released);
+  for (int& point : region.points) point = indices[static_cast<std::size_t>(point)];
+  return region;
 }
 
 }  // namespace
@@ -184,9 +291,11 @@ Region grow_region(std::span<const Eigen::Vector3d> points, const Eigen::Vector3
     throw Error("voxel_m: must be a positive length in metres");
   if (!(radius_factor > 0.0) || !std::isfinite(radius_factor))
     throw Error("radius_factor: must be positive; 1 is the paper's, 0.5 the released code's");
-  if (!seed.allFinite()) return {};
-  return released ? grow_fast<float>(points, seed, pitch_m, radius_factor, released)
-                  : grow_fast<double>(points, seed, pitch_m, radius_factor, released);
+  if (points.empty() || !seed.allFinite()) return {};
+  const Extent extent = extent_of(points);
+  if (!extent.finite) return grow_without_gaps(points, seed, pitch_m, radius_factor, released);
+  return released ? grow_finite<float>(points, extent, seed, pitch_m, radius_factor)
+                  : grow_finite<double>(points, extent, seed, pitch_m, radius_factor);
 }
 
 }  // namespace mapscore

@@ -9,7 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <type_traits>
+#include <limits>
 #include <unordered_set>
 #include <utility>
 
@@ -53,18 +53,24 @@ Region grow(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& seed
   tree.buildIndex();
   const double radius_m = radius_factor * pitch_m;
   const auto radius_squared = static_cast<Scalar>(radius_m * radius_m);
+  // The tree adds up its bounds in another order than the distance itself, so that it may leave out a
+  // point within the last bits of the radius: search a little wider, then test as defined.
+  const Scalar search_squared =
+      radius_squared * (1 + 1024 * std::numeric_limits<Scalar>::epsilon());
 
   std::unordered_set<VoxelKey> tried{{0, 0, 0}};
   std::deque<VoxelKey> queue{{0, 0, 0}};
   std::unordered_set<int> kept;
   std::vector<std::pair<std::uint32_t, Scalar>> found;
+  const nanoflann::SearchParams kUnsorted(0, 0.0F, false);
   for (; !queue.empty(); queue.pop_front()) {
     const VoxelKey key = queue.front();
     const Eigen::Vector3d position = lattice_position(seed, pitch_m, key);
     const std::array<Scalar, 3> query{static_cast<Scalar>(position.x()),
                                       static_cast<Scalar>(position.y()),
                                       static_cast<Scalar>(position.z())};
-    tree.radiusSearch(query.data(), radius_squared, found, nanoflann::SearchParams());
+    tree.radiusSearch(query.data(), search_squared, found, kUnsorted);
+    std::erase_if(found, [&](const auto& match) { return !(match.second < radius_squared); });
     if (found.empty()) continue;
     region.positions.push_back(key);
     for (const auto& [point, distance] : found) kept.insert(cloud.indices[point]);

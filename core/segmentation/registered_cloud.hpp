@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/geometry/camera.hpp"
+#include "core/geometry/depth_rays.hpp"
 
 #include <opencv2/core.hpp>
 
@@ -32,12 +33,12 @@ class RegisteredCloud {
   /// 5000.
   [[nodiscard]] Eigen::Vector3d point(int depth_pixel) const {
     const int v = depth_pixel / depth_.cols, u = depth_pixel % depth_.cols;
-    return camera_.back_project(u, v, depth_(v, u) / kDepthUnitsPerMetre);
+    return rays_.point(u, v, depth_(v, u) / kDepthUnitsPerMetre);
   }
 
  private:
   cv::Mat1w depth_;
-  CameraModel camera_;
+  DepthRays rays_;
   cv::Mat1i source_;
 };
 

@@ -10,8 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
-#include <set>
 
 namespace mapscore {
 namespace {
@@ -20,6 +20,7 @@ namespace {
 std::vector<Eigen::Vector3d> points_of(const cv::Mat1b& mask, const PixelBox& box,
                                        const RegisteredCloud& cloud) {
   std::vector<Eigen::Vector3d> points;
+  points.reserve(static_cast<std::size_t>(cv::countNonZero(mask)));
   for (int v = 0; v < mask.rows; ++v) {
     const std::uint8_t* inside = mask[v];
     const int* sources = cloud.sources()[v + box.v_min] + box.u_min;
@@ -33,9 +34,15 @@ std::vector<Eigen::Vector3d> points_of(const cv::Mat1b& mask, const PixelBox& bo
 /// Centres of the voxels that hold points, on the lattice anchored at the sensor frame's origin.
 std::vector<Eigen::Vector3d> occupied_centres(const std::vector<Eigen::Vector3d>& points,
                                               double voxel_m) {
-  std::set<VoxelKey> keys;
-  for (const Eigen::Vector3d& point : points) keys.insert(voxel_of(point, voxel_m));
+  std::vector<VoxelKey> keys;
+  for (const Eigen::Vector3d& point : points) {
+    const VoxelKey key = voxel_of(point, voxel_m);
+    if (keys.empty() || keys.back() != key) keys.push_back(key);  // neighbours mostly share a voxel
+  }
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   std::vector<Eigen::Vector3d> centres;
+  centres.reserve(keys.size());
   for (const VoxelKey& key : keys) centres.push_back(centre_of(key, voxel_m));
   return centres;
 }

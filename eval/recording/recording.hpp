@@ -3,16 +3,16 @@
 
 #pragma once
 
+#include "core/classes.hpp"
+#include "core/frame.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/geometry/shape.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "core/classes.hpp"
-#include "core/frame.hpp"
-#include "core/geometry/camera.hpp"
-#include "core/geometry/shape.hpp"
 
 namespace mapscore::eval {
 
@@ -29,7 +29,8 @@ struct RecordingInfo {
   std::string mujoco_version;  ///< empty when made elsewhere
   std::uint64_t seed = 0;
   int frame_count = 0;
-  bool has_truth = true;  ///< truth/ and depth_label/ are there; without, maps can be made but not scored
+  bool has_truth =
+      true;  ///< truth/ and depth_label/ are there; without, maps can be made but not scored
 };
 
 /// Which images `Recording::read` decodes.
@@ -41,8 +42,8 @@ struct Channels {
 /// are safe to call from several threads. Throws Error naming the file and the reason.
 class Recording {
  public:
-  /// Reads recording.yaml, the stamp lists and the trajectory; checks version, counts, order of stamps
-  /// and that every listed image is there. Images are decoded only by `read`.
+  /// Reads recording.yaml, the stamp lists and the trajectory; checks version, counts, order of
+  /// stamps and that every listed image is there. Images are decoded only by `read`.
   [[nodiscard]] static Recording open(const std::filesystem::path& folder);
 
   [[nodiscard]] const RecordingInfo& info() const { return info_; }
@@ -50,6 +51,11 @@ class Recording {
   [[nodiscard]] int frame_count() const { return info_.frame_count; }
   /// Hash over recording.yaml, lists, poses, surfaces and every image file's bytes.
   [[nodiscard]] const std::string& content_hash() const { return content_hash_; }
+
+  /// True pose of base_footprint at the depth stamp of a frame.
+  [[nodiscard]] const Pose& T_world_base(int index) const {
+    return entries_.at(static_cast<std::size_t>(index)).T_world_base;
+  }
 
   [[nodiscard]] Frame read(int index, Channels channels = {}) const;
   /// Exact drawn surfaces in the world frame, background included (instance 0).
@@ -67,8 +73,8 @@ class Recording {
   std::vector<Entry> entries_;
 };
 
-/// Writes a recording aside (FOLDER.partial) and renames it in `finish`; without `finish` the destructor
-/// removes what was written, so that nothing half-written is ever taken for whole.
+/// Writes a recording aside (FOLDER.partial) and renames it in `finish`; without `finish` the
+/// destructor removes what was written, so that nothing half-written is ever taken for whole.
 class RecordingWriter {
  public:
   RecordingWriter(const std::filesystem::path& folder, RecordingInfo info);
@@ -79,7 +85,8 @@ class RecordingWriter {
   /// Encodes and writes the images of one frame. Safe to call from several threads, in any order.
   void write(const Frame& frame);
   void write_shapes(const std::vector<Shape>& shapes);
-  /// Writes lists, trajectory and recording.yaml; checks that every frame 0..n-1 was written; renames.
+  /// Writes lists, trajectory and recording.yaml; checks that every frame 0..n-1 was written;
+  /// renames.
   void finish();
 
  private:

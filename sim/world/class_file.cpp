@@ -3,6 +3,8 @@
 
 #include "sim/world/class_file.hpp"
 
+#include "core/error.hpp"
+
 #include <fmt/format.h>
 #include <fnmatch.h>
 #include <yaml-cpp/yaml.h>
@@ -11,8 +13,6 @@
 #include <array>
 #include <cmath>
 #include <set>
-
-#include "core/error.hpp"
 
 namespace mapscore::sim {
 namespace {
@@ -43,8 +43,8 @@ class Reader {
     try {
       return YAML::LoadFile(file_.string());
     } catch (const YAML::Exception& error) {
-      throw Error(fmt::format("{}:{}: not valid YAML: {}", file_.string(), error.mark.line + 1,
-                              error.msg));
+      throw Error(
+          fmt::format("{}:{}: not valid YAML: {}", file_.string(), error.mark.line + 1, error.msg));
     }
   }
 
@@ -80,8 +80,8 @@ class Reader {
   Colour colour(const YAML::Node& node, const std::string& key, ClassId id) const {
     if (!node) return palette_colour(id);
     const std::string text = node.IsScalar() ? node.Scalar() : "";
-    const bool hex = text.size() == 6 && text.find_first_not_of("0123456789abcdefABCDEF") ==
-                                             std::string::npos;
+    const bool hex =
+        text.size() == 6 && text.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
     if (!hex) refuse(node, key, "must be six hexadecimal digits in quotes, like \"FF0000\"");
     const unsigned long rgb = std::stoul(text, nullptr, 16);
     return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255),
@@ -90,7 +90,8 @@ class Reader {
 
   bool flag(const YAML::Node& node, const std::string& key, bool fallback) const {
     bool value = fallback;
-    if (node && !YAML::convert<bool>::decode(node, value)) refuse(node, key, "must be true or false");
+    if (node && !YAML::convert<bool>::decode(node, value))
+      refuse(node, key, "must be true or false");
     return value;
   }
 
@@ -112,7 +113,8 @@ class Reader {
     for (const std::string& pattern : patterns) {
       if (pattern.empty()) refuse(list, key, "holds an empty pattern; name a body");
       if (!patterns_.insert(pattern).second) {
-        refuse(list ? list : node, key, fmt::format("pattern `{}` stands twice; keep one", pattern));
+        refuse(list ? list : node, key,
+               fmt::format("pattern `{}` stands twice; keep one", pattern));
       }
     }
     return patterns;

@@ -3,13 +3,13 @@
 
 #pragma once
 
+#include "core/classes.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "core/classes.hpp"
 
 namespace mapscore::sim {
 
@@ -19,8 +19,8 @@ struct ClassRule {
   std::vector<std::string> bodies;  ///< glob patterns over body names
   bool opaque = false;              ///< geoms with alpha below 1 are drawn and counted as solid
 
-  /// Body names follow the rules of the shell (`chair*`, `cup_?`). MuJoCo's `world` body, which holds
-  /// everything that is in no body, is only matched by its own name.
+  /// Body names follow the rules of the shell (`chair*`, `cup_?`). MuJoCo's `world` body, which
+  /// holds everything that is in no body, is only matched by its own name.
   [[nodiscard]] bool matches(const std::string& body) const;
 };
 
@@ -30,8 +30,8 @@ struct ClassRule {
 ///       - {name: cup, colour: "FF0000", detect: true, bodies: ["cup_*"], opaque: false}
 ///
 /// Ids follow the order, from 1. `name` is required; `colour` defaults to `palette_colour(id)`,
-/// `detect` to true, `bodies` to `NAME` and `NAME_*`, `opaque` to false. Throws Error with file, line
-/// and key for unknown keys, wrong types, and names or patterns that stand twice.
+/// `detect` to true, `bodies` to `NAME` and `NAME_*`, `opaque` to false. Throws Error with file,
+/// line and key for unknown keys, wrong types, and names or patterns that stand twice.
 [[nodiscard]] std::vector<ClassRule> read_class_file(const std::filesystem::path& file);
 
 /// Class of a body where there is no class file: its name up to the last `_number`.

@@ -3,15 +3,17 @@
 
 #include "sim/world/mujoco_session.hpp"
 
-#include <mutex>
-
 #include "core/error.hpp"
+
+#include <mutex>
 
 namespace mapscore::sim {
 namespace {
 
 /// MuJoCo asks that an error handler does not return.
-[[noreturn]] void raise(const char* message) { throw Error("MuJoCo: " + one_line(message)); }
+[[noreturn]] void raise(const char* message) {
+  throw Error("MuJoCo: " + one_line(message));
+}
 
 void drop(const char*) {}
 

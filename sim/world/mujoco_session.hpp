@@ -21,8 +21,8 @@ using ModelPtr = std::unique_ptr<mjModel, MujocoDeleter>;
 using DataPtr = std::unique_ptr<mjData, MujocoDeleter>;
 
 /// Keeps MuJoCo from printing, from writing MUJOCO_LOG.TXT and from ending the process: its errors
-/// become mapscore::Error, its warnings are dropped. Handlers that the host program installed before
-/// stay. Thread-safe; costs nothing after the first call.
+/// become mapscore::Error, its warnings are dropped. Handlers that the host program installed
+/// before stay. Thread-safe; costs nothing after the first call.
 void quiet_mujoco();
 
 /// MuJoCo's message on one line.

@@ -17,6 +17,8 @@ struct mjModel_;
 
 namespace mapscore::sim {
 
+struct DrawnScene;
+
 /// Files that make a world.
 struct WorldFiles {
   std::filesystem::path scene;  ///< MJCF
@@ -51,6 +53,8 @@ class World {
   /// Instance id of each geom of the model; 0 for background. Robot geoms: see `robot_geom`.
   [[nodiscard]] const std::vector<InstanceId>& geom_instances() const;
   [[nodiscard]] bool robot_geom(int geom) const;
+  /// What renderers draw; see sim/world/drawn_scene.hpp.
+  [[nodiscard]] const DrawnScene& drawn() const;
 
  private:
   struct State;

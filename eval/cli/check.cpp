@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "eval/cli/verbs.hpp"
+#include "eval/report/baseline.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+struct CheckFlags {
+  std::string results, baseline;
+  double allowed = 0.002;
+  bool write = false;
+};
+
+int check(const CheckFlags& flags) {
+  const std::vector<BaselineRow> now = baseline_of(summarise_store(flags.results));
+  if (flags.write) {
+    write_baseline(now, flags.baseline);
+    std::cout << fmt::format("{}: {} figures written\n", flags.baseline, now.size());
+    return 0;
+  }
+  const std::vector<BaselineRow> baseline = read_baseline(flags.baseline);
+  const std::vector<Fall> fallen = falls(baseline, now, flags.allowed);
+  if (fallen.empty()) {
+    std::cout << fmt::format("{}: all {} figures hold (none fell by more than {})\n", flags.results,
+                             baseline.size(), flags.allowed);
+    return 0;
+  }
+  std::cout << to_text(fall_table(fallen))
+            << fmt::format("{}: {} of {} figures fell by more than {}\n", flags.results,
+                           fallen.size(), baseline.size(), flags.allowed);
+  return 1;
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, int& exit_code) {
+  auto* verb = program.add_subcommand("check", "Exit 1 and say which figure fell below a baseline");
+  const auto flags = std::make_shared<CheckFlags>();
+  verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
+  verb->add_option("--baseline", flags->baseline, "CSV: what,class,metric,value")->required();
+  verb->add_option("--allow", flags->allowed, "How far a figure may fall, absolutely [0.002]")
+      ->check(CLI::Range(0.0, 1.0));
+  verb->add_flag("--write", flags->write, "Write the baseline from these results instead");
+  verb->footer(
+      "Examples:\n"
+      "  mapscore check results/gate --baseline results/baselines/gate.csv\n"
+      "  mapscore check results/gate --baseline results/baselines/gate.csv --write");
+  verb->callback([flags, &exit_code] { exit_code = check(*flags); });
+}
+
+}  // namespace mapscore::eval

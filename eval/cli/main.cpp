@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "core/error.hpp"
+#include "eval/cli/verbs.hpp"
+
+namespace {
+
+constexpr int kWrongInput = 2;
+
+int complain(const std::string& message) {
+  std::cerr << "mapscore: " << message << '\n';
+  return kWrongInput;
+}
+
+int run(CLI::App& program, int argc, char** argv) {
+  int exit_code = 0;
+  namespace verbs = mapscore::eval;
+  verbs::add_record(program);
+  verbs::add_run(program);
+  verbs::add_sweep(program);
+  verbs::add_truth(program);
+  verbs::add_score(program);
+  verbs::add_table(program);
+  verbs::add_figures(program);
+  verbs::add_check(program, exit_code);
+  verbs::add_info(program);
+  program.parse(argc, argv);
+  std::cout.flush();
+  return std::cout ? exit_code : complain("standard output cannot be written; is the disk full?");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program(
+      "How good is a semantic 3D map, and how much calibration and localisation error can it take?");
+  program.require_subcommand(1);
+  program.set_version_flag("--version", std::string("mapscore ") + MAPSCORE_VERSION);
+  program.footer(
+      "Examples:\n"
+      "  mapscore sweep configs/demo.yaml -o results/demo     all trials of a study\n"
+      "  mapscore table results/demo                          their scores\n"
+      "  mapscore figures results/demo                        their figures and pictures\n"
+      "`mapscore VERB --help` tells more. Exit codes: 0 done, 1 the answer is no, 2 wrong input.");
+  try {
+    return run(program, argc, argv);
+  } catch (const CLI::Success& request) {
+    return program.exit(request);
+  } catch (const CLI::ParseError& error) {
+    return complain(std::string(error.what()) + "; see `mapscore --help`");
+  } catch (const mapscore::Error& error) {
+    return complain(error.what());
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory; use fewer --jobs, less --memory or larger voxels");
+  } catch (const std::exception& error) {
+    return complain(error.what());
+  }
+}

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "eval/experiment/study.hpp"
+
+namespace mapscore::eval {
+
+/// Flags that say which study, with what changed, and where its results go.
+struct StudyFlags {
+  std::string file;
+  std::vector<std::string> overrides;  ///< path=value
+  std::string results;
+
+  void add_to(CLI::App& verb);
+  [[nodiscard]] Study load() const { return load_study(file, overrides); }
+  /// `-o`, or results/NAME below the working folder.
+  [[nodiscard]] std::filesystem::path results_folder(const Study& study) const;
+};
+
+/// Flags of verbs that work long.
+struct WorkFlags {
+  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::size_t memory_bytes = std::size_t{1} << 30;
+  bool quiet = false;
+
+  void add_to(CLI::App& verb);
+};
+
+}  // namespace mapscore::eval

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "eval/cli/options.hpp"
+#include "eval/cli/progress.hpp"
+#include "eval/cli/verbs.hpp"
+#include "eval/experiment/study_recording.hpp"
+#include "eval/recording/recording.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+struct RecordFlags {
+  std::string source, folder, trajectory;
+  std::vector<std::string> overrides;
+  WorkFlags work;
+};
+
+bool is_scene(const std::string& path) { return std::filesystem::path(path).extension() == ".xml"; }
+
+void record(const RecordFlags& flags) {
+  if (is_scene(flags.source) && flags.trajectory.empty())
+    throw Error(flags.source + ": a scene by itself says no way to drive; add --trajectory FILE, or record a "
+                               "study");
+  const Study study = is_scene(flags.source) ? study_of_scene(flags.source, flags.overrides)
+                                             : load_study(flags.source, flags.overrides);
+  Progress progress("record", "frames", flags.work.quiet);
+  record_study(study, flags.folder, flags.work.jobs,
+               [&](int done, int total) { progress.show(done, total); }, flags.trajectory);
+}
+
+}  // namespace
+
+void add_record(CLI::App& program) {
+  auto* verb = program.add_subcommand("record", "Drive, render, write a recording");
+  const auto flags = std::make_shared<RecordFlags>();
+  verb->add_option("SOURCE", flags->source, "Study file, or a scene (MJCF) with --trajectory")
+      ->required();
+  verb->add_option("-o,--output", flags->folder, "Folder of the recording; must not exist")
+      ->required();
+  verb->add_option("--trajectory", flags->trajectory,
+                   "TUM lines (stamp tx ty tz qx qy qz qw) of the colour camera's optical frame in the "
+                   "world; replaces the study's drive");
+  verb->add_option("--set", flags->overrides, "Override a key of the study; may be repeated")
+      ->allow_extra_args(false);
+  flags->work.add_to(*verb);
+  verb->footer(
+      "Examples:\n"
+      "  mapscore record configs/demo.yaml -o /data/apartment\n"
+      "  mapscore record configs/demo.yaml -o /data/shaded --set cameras.shadows=true\n"
+      "  mapscore record scenes/apartment.xml --trajectory poses.txt -o /data/handheld");
+  verb->callback([flags] { record(*flags); });
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "eval/cli/options.hpp"
+#include "eval/cli/progress.hpp"
+#include "eval/cli/verbs.hpp"
+#include "eval/experiment/plan.hpp"
+#include "eval/experiment/study_recording.hpp"
+#include "eval/experiment/study_store.hpp"
+#include "eval/experiment/trial_run.hpp"
+#include "eval/recording/frame_cache.hpp"
+#include "eval/report/summary.hpp"
+#include "eval/report/table.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+struct RunFlags {
+  StudyFlags study;
+  WorkFlags work;
+  std::string method;
+  int seed = 0;
+};
+
+TrialSpec spec_of(const Study& study, const RunFlags& flags) {
+  for (const TrialSpec& spec : trials(study))
+    if (spec.seed_index == flags.seed && (flags.method.empty() || spec.method == flags.method))
+      return spec;
+  std::string names;
+  for (const MethodSettings& method : study.methods) names += " " + method.name;
+  throw Error(fmt::format("no trial of method '{}' and seed {}; methods:{}; seeds: 0 to {}",
+                          flags.method, flags.seed, names, study.seeds - 1));
+}
+
+std::string score_text(const TrialResult& result, const ClassTable& table) {
+  Table scores;
+  scores.columns = {"class", "precision", "recall", "F1", "IoU", "predicted", "near", "leak",
+                    "floating", "visible", "missed"};
+  const auto add = [&](const std::string& name, const ClassCounts& c) {
+    std::vector<std::string> row{name};
+    for (const auto& value : {precision(c), recall(c), f1(c), iou(c)})
+      row.push_back(value ? fmt::format("{:.3f}", *value) : "-");
+    for (const std::int64_t count : {c.predicted, c.false_near, c.false_leak, c.false_floating,
+                                     c.visible, c.visible - c.found})
+      row.push_back(std::to_string(count));
+    scores.rows.push_back(std::move(row));
+  };
+  for (const SemanticClass& c : table.classes)
+    if (c.detect) add(c.name, result.counts[c.id]);
+  add(std::string(kPooled), pool_detected(result.counts, table));
+  return to_text(scores);
+}
+
+void run(const RunFlags& flags) {
+  const Study study = flags.study.load();
+  const std::filesystem::path results = flags.study.results_folder(study);
+  Progress recording_progress("record", "frames", flags.work.quiet);
+  const Recording recording =
+      recording_of(study, results, flags.work.jobs,
+                   [&](int done, int total) { recording_progress.show(done, total); });
+  const ClassTable table = detected_table(study, recording.info().table);
+  const TrialSpec spec = spec_of(study, flags);
+  const Task task = task_of(study, spec, Labels::detected, recording.content_hash());
+
+  FrameCache frames(recording, {.color = false, .label = true, .depth = true, .depth_label = true},
+                    flags.work.memory_bytes);
+  TruthCache truths(recording, table, frames, 1);
+  TrialRun trial(task, recording, table, truths);
+  Progress progress("run", "frames", flags.work.quiet);
+  for (int frame = 0; frame < recording.frame_count(); ++frame) {
+    trial.advance(*frames.get(frame));
+    progress.show(frame + 1, recording.frame_count());
+  }
+  const std::filesystem::path folder =
+      results / "runs" / fmt::format("{}-seed{}", spec.method, spec.seed_index);
+  std::filesystem::create_directories(folder);
+  trial.map().save(folder / "map.ot");
+  trial.map().export_color(folder / "map_colour.ot", table, trial.threshold());
+  const TrialResult result = trial.finish();
+  std::cout << fmt::format("# {} seed {} {}\n", spec.method, spec.seed_index, text_of(spec.cell))
+            << score_text(result, table) << (folder / "map.ot").string() << '\n'
+            << (folder / "map_colour.ot").string() << '\n';
+}
+
+}  // namespace
+
+void add_run(CLI::App& program) {
+  auto* verb = program.add_subcommand("run", "One trial, with its map and pictures of its errors");
+  const auto flags = std::make_shared<RunFlags>();
+  flags->study.add_to(*verb);
+  flags->work.add_to(*verb);
+  verb->add_option("--method", flags->method, "Name of a method of the study [the first]");
+  verb->add_option("--seed", flags->seed, "Index of the seed [0]");
+  verb->footer(
+      "The trial is the first cell of the sweep; --set changes doses.\n"
+      "Examples:\n"
+      "  mapscore run configs/demo.yaml --method region_growing\n"
+      "  mapscore run configs/demo.yaml --set 'sweep={}' --set "
+      "faults.misregistration.magnitude_m=0.04");
+  verb->callback([flags] { run(*flags); });
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "eval/cli/options.hpp"
+#include "eval/cli/progress.hpp"
+#include "eval/cli/verbs.hpp"
+#include "eval/experiment/plan.hpp"
+#include "eval/experiment/runner.hpp"
+#include "eval/experiment/store.hpp"
+#include "eval/experiment/study_recording.hpp"
+#include "eval/experiment/study_store.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+struct SweepFlags {
+  StudyFlags study;
+  WorkFlags work;
+  std::string shard = "1/1";
+};
+
+/// "i/n" with 1 <= i <= n.
+std::pair<int, int> parse_shard(const std::string& text) {
+  int shard = 0, shards = 0, read = 0;
+  if (std::sscanf(text.c_str(), "%d/%d%n", &shard, &shards, &read) != 2 ||
+      read != static_cast<int>(text.size()) || shard < 1 || shard > shards)
+    throw Error("--shard " + text + ": must be i/n with 1 <= i <= n, e.g. 2/4");
+  return {shard, shards};
+}
+
+void sweep(const SweepFlags& flags) {
+  const Study study = flags.study.load();
+  const std::filesystem::path results = flags.study.results_folder(study);
+  const auto [shard, shards] = parse_shard(flags.shard);
+
+  Progress recording_progress("record", "frames", flags.work.quiet);
+  const Recording recording =
+      recording_of(study, results, flags.work.jobs,
+                   [&](int done, int total) { recording_progress.show(done, total); });
+  const ClassTable table = detected_table(study, recording.info().table);
+  const Plan plan = plan_of(study, recording.content_hash());
+
+  ResultStore store = ResultStore::open(results / "results.sqlite");
+  write_study(store,
+              {study, table, recording.content_hash(),
+               std::filesystem::relative(recording.folder(), results).string()},
+              results);
+  Progress progress("sweep", "frame evaluations", flags.work.quiet);
+  const RunnerOutcome outcome =
+      run_plan(plan, recording, table, store,
+               {flags.work.jobs, flags.work.memory_bytes, shard, shards,
+                [&](std::int64_t done, std::int64_t total) { progress.show(done, total); }});
+  if (!flags.work.quiet)
+    std::cerr << fmt::format("sweep {}: {} trials computed, {} already there or of other shards; {}\n",
+                             study.name, outcome.computed, outcome.reused,
+                             (results / "results.sqlite").string());
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& program) {
+  auto* verb = program.add_subcommand("sweep", "Compute all trials of a study; resumes");
+  const auto flags = std::make_shared<SweepFlags>();
+  flags->study.add_to(*verb);
+  flags->work.add_to(*verb);
+  verb->add_option("--shard", flags->shard, "Only every n-th trial: i/n; merge stores by sweeping again");
+  verb->footer(
+      "Records the scene first if its recording is not there. A trial that the store holds is never\n"
+      "computed again, so a killed sweep goes on where it stopped.\n"
+      "Examples:\n"
+      "  mapscore sweep configs/demo.yaml\n"
+      "  mapscore sweep configs/demo.yaml -o /data/demo --jobs 8 --memory 4GiB\n"
+      "  mapscore sweep configs/demo.yaml --set seeds=20 --set voxel_m=0.02");
+  verb->callback([flags] { sweep(*flags); });
+}
+
+}  // namespace mapscore::eval

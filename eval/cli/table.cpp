@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "eval/cli/verbs.hpp"
+#include "eval/report/summary.hpp"
+#include "eval/report/table.hpp"
+#include "eval/report/tidy_csv.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+struct TableFlags {
+  std::string results, group{kPooled}, format = "text";
+  bool tidy = false;
+};
+
+void print_table(const TableFlags& flags) {
+  const StudySummary summary = summarise_store(flags.results);
+  if (flags.tidy) return write_tidy_csv(summary, std::cout);
+  const Table table = score_table(summary, flags.group);
+  std::cout << (flags.format == "csv"    ? to_csv(table)
+                : flags.format == "json" ? to_json(table)
+                                         : to_text(table));
+}
+
+}  // namespace
+
+void add_table(CLI::App& program) {
+  auto* verb = program.add_subcommand("table", "Print the scores of a swept study");
+  const auto flags = std::make_shared<TableFlags>();
+  verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
+  verb->add_option("--class", flags->group, "pooled, macro, or the name of a detected class [pooled]");
+  verb->add_option("--format", flags->format, "text, csv or json [text]")
+      ->check(CLI::IsMember({"text", "csv", "json"}));
+  verb->add_flag("--tidy", flags->tidy, "Everything as tidy CSV: a row a trial, class and metric");
+  verb->footer(
+      "Examples:\n"
+      "  mapscore table results/demo\n"
+      "  mapscore table results/demo --class chair --format csv\n"
+      "  mapscore table results/demo --tidy > demo.csv");
+  verb->callback([flags] { print_table(*flags); });
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "eval/cli/options.hpp"
+#include "eval/cli/truth_source.hpp"
+#include "eval/cli/verbs.hpp"
+#include "eval/truth/truth_file.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+struct TruthFlags {
+  std::string source, file;
+  LatticeFlags lattice;
+  WorkFlags work;
+};
+
+void write_truth_of(const TruthFlags& flags) {
+  const SourceTruth source =
+      truth_of(flags.source, flags.lattice, false, flags.work.jobs, flags.work.memory_bytes);
+  const VisibleTruth* visible = source.has_views ? &source.truth.view(0).visible : nullptr;
+  write_truth(flags.file, source.truth.surface, visible, source.table);
+  std::cout << fmt::format("{:<16} {:>10} {:>10}\n", "class", "surface", "visible");
+  for (const SemanticClass& c : source.table.classes)
+    std::cout << fmt::format("{:<16} {:>10} {:>10}\n", c.name, source.truth.surface.count(c.id),
+                             visible ? std::to_string(visible->count(c.id)) : "-");
+}
+
+}  // namespace
+
+void add_truth(CLI::App& program) {
+  auto* verb = program.add_subcommand("truth", "Write the voxels that the surfaces really touch");
+  const auto flags = std::make_shared<TruthFlags>();
+  verb->add_option("SOURCE", flags->source, "Scene (MJCF: surfaces alone) or recording (and what it saw)")
+      ->required();
+  verb->add_option("-o,--output", flags->file, ".csv (i,j,k,class,touch_only,samples) or .ply")
+      ->required();
+  flags->lattice.add_to(*verb, true);
+  flags->work.add_to(*verb);
+  verb->footer(
+      "Prints voxels by class: on the surface, and visible to the recording.\n"
+      "Examples:\n"
+      "  mapscore truth scenes/apartment.xml --voxel_m 0.05 -o truth.ply\n"
+      "  mapscore truth results/demo/recordings/apartment-* --voxel_m 0.02 -o truth.csv");
+  verb->callback([flags] { write_truth_of(*flags); });
+}
+
+}  // namespace mapscore::eval

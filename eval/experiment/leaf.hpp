@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/experiment/fields.hpp"
+#include "eval/experiment/study.hpp"
+#include "eval/experiment/yaml_at.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// How a leaf of type T stands in a study file:
+///   read(at, range)   its value; throws Error when the type or the range is wrong
+///   text(value)       one canonical line of YAML that reads back as the same value
+///   type()            its type for people
+template <class T>
+struct Leaf;
+
+template <>
+struct Leaf<double> {
+  [[nodiscard]] static double read(const YamlAt& at, const Range& range);
+  [[nodiscard]] static std::string text(double value);
+  [[nodiscard]] static std::string type() { return "number"; }
+};
+
+template <>
+struct Leaf<int> {
+  [[nodiscard]] static int read(const YamlAt& at, const Range& range);
+  [[nodiscard]] static std::string text(int value) { return fmt::format("{}", value); }
+  [[nodiscard]] static std::string type() { return "whole number"; }
+};
+
+template <>
+struct Leaf<std::uint64_t> {
+  [[nodiscard]] static std::uint64_t read(const YamlAt& at, const Range&);
+  [[nodiscard]] static std::string text(std::uint64_t value) { return fmt::format("{}", value); }
+  [[nodiscard]] static std::string type() { return "whole number, 64 bits"; }
+};
+
+template <>
+struct Leaf<bool> {
+  [[nodiscard]] static bool read(const YamlAt& at, const Range&);
+  [[nodiscard]] static std::string text(bool value) { return value ? "true" : "false"; }
+  [[nodiscard]] static std::string type() { return "true, false"; }
+};
+
+template <>
+struct Leaf<std::string> {
+  [[nodiscard]] static std::string read(const YamlAt& at, const Range&);
+  [[nodiscard]] static std::string text(const std::string& value) { return yaml_text(value); }
+  [[nodiscard]] static std::string type() { return "text"; }
+};
+
+/// A number, or `auto`.
+template <>
+struct Leaf<AutoNumber> {
+  [[nodiscard]] static AutoNumber read(const YamlAt& at, const Range& range);
+  [[nodiscard]] static std::string text(const AutoNumber& number);
+  [[nodiscard]] static std::string type() { return "number or auto"; }
+};
+
+/// A list of class names, or `all`.
+template <>
+struct Leaf<DetectedSet> {
+  [[nodiscard]] static DetectedSet read(const YamlAt& at, const Range&);
+  [[nodiscard]] static std::string text(const DetectedSet& detected);
+  [[nodiscard]] static std::string type() { return "list of text, or all"; }
+};
+
+template <class Enum>
+requires std::is_enum_v<Enum>
+struct Leaf<Enum> {
+  [[nodiscard]] static Enum read(const YamlAt& at, const Range&) {
+    const std::string word = at.plain_scalar("one of " + type());
+    for (std::size_t i = 0; i < kNames<Enum>.size(); ++i) {
+      if (word == kNames<Enum>[i]) return static_cast<Enum>(i);
+    }
+    at.fail(fmt::format("is {}; write one of {}", yaml_text(word), type()));
+  }
+  [[nodiscard]] static std::string text(Enum value) {
+    return std::string(kNames<Enum>[static_cast<std::size_t>(value)]);
+  }
+  [[nodiscard]] static std::string type() {
+    return fmt::format("{}", fmt::join(kNames<Enum>, ", "));
+  }
+};
+
+/// "[a, b]" from the leaves of a list or an array.
+template <class List>
+[[nodiscard]] std::string list_text(const List& list) {
+  std::string result = "[";
+  for (const auto& element : list) {
+    if (result.size() > 1) result += ", ";
+    result += Leaf<std::remove_cvref_t<decltype(element)>>::text(element);
+  }
+  return result + ']';
+}
+
+template <class T, std::size_t N>
+struct Leaf<std::array<T, N>> {
+  [[nodiscard]] static std::array<T, N> read(const YamlAt& at, const Range& range) {
+    const std::vector<YamlAt> elements = at.elements();
+    if (elements.size() != N) {
+      at.fail(fmt::format("has {} elements; write {}", elements.size(), type()));
+    }
+    std::array<T, N> result{};
+    for (std::size_t i = 0; i < N; ++i) result[i] = Leaf<T>::read(elements[i], range);
+    return result;
+  }
+  [[nodiscard]] static std::string text(const std::array<T, N>& value) { return list_text(value); }
+  [[nodiscard]] static std::string type() { return fmt::format("[{} x {}]", N, Leaf<T>::type()); }
+};
+
+template <class T>
+struct Leaf<std::vector<T>> {
+  [[nodiscard]] static std::vector<T> read(const YamlAt& at, const Range& range) {
+    std::vector<T> result;
+    for (const YamlAt& element : at.elements()) result.push_back(Leaf<T>::read(element, range));
+    return result;
+  }
+  [[nodiscard]] static std::string text(const std::vector<T>& value) { return list_text(value); }
+  [[nodiscard]] static std::string type() { return "list of " + Leaf<T>::type(); }
+};
+
+/// Absent is "-", which the dumper leaves out of the file.
+template <class T>
+struct Leaf<std::optional<T>> {
+  [[nodiscard]] static std::optional<T> read(const YamlAt& at, const Range& range) {
+    return Leaf<T>::read(at, range);
+  }
+  [[nodiscard]] static std::string text(const std::optional<T>& value) {
+    return value ? Leaf<T>::text(*value) : "-";
+  }
+  [[nodiscard]] static std::string type() { return Leaf<T>::type(); }
+};
+
+}  // namespace mapscore::eval

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/experiment/plan.hpp"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+std::string content_hash(const std::string& text) {
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+/// Leaves only what determines the result, so that renaming a study or adding a method to it does not
+/// make its trials new. The recording stands for what it was made from.
+Study determining(Study config) {
+  const Study none;
+  config.name.clear();
+  config.seeds = 1;
+  for (auto* path : {&config.scene, &config.classes, &config.robot, &config.recording})
+    path->reset();
+  config.trajectory = none.trajectory;
+  config.cameras = none.cameras;
+  config.sweep.clear();
+  config.base_folder.clear();
+  for (MethodSettings& method : config.methods) method.name = "method";
+  return config;
+}
+
+Study with_method(Study config, const std::string& name) {
+  std::erase_if(config.methods, [&](const MethodSettings& method) { return method.name != name; });
+  config.sweep.clear();
+  return config;
+}
+
+Study without_faults(Study config) {
+  config.faults = {};
+  return config;
+}
+
+Study for_lattice_ceiling(Study config) {
+  config = without_faults(std::move(config));
+  config.methods = {{"lattice", DirectSettings{}, Place::points}};
+  config.place = Place::points;
+  return config;
+}
+
+Task make_task(Study config, int seed_index, Labels labels, const std::string& recording_hash) {
+  Task task;
+  task.description =
+      fmt::format("scoring_version: {}\nrecording: {}\nlabels: {}\nseed_index: {}\n{}",
+                  kScoringVersion, recording_hash, labels == Labels::truth ? "truth" : "detected",
+                  seed_index, to_yaml(determining(config)));
+  task.key = content_hash(task.description);
+  task.config = std::move(config);
+  task.seed_index = seed_index;
+  task.labels = labels;
+  return task;
+}
+
+/// Adds tasks to a plan, each once.
+class TaskList {
+ public:
+  explicit TaskList(std::vector<Task>& tasks) : tasks_(tasks) {}
+
+  std::size_t add(Task task) {
+    const auto [entry, is_new] = positions_.try_emplace(task.key, tasks_.size());
+    if (is_new) tasks_.push_back(std::move(task));
+    return entry->second;
+  }
+
+ private:
+  std::vector<Task>& tasks_;
+  std::unordered_map<std::string, std::size_t> positions_;
+};
+
+}  // namespace
+
+Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
+             const std::string& recording_hash) {
+  const Study config = resolve(study, spec.cell);
+  return make_task(labels == Labels::truth ? for_lattice_ceiling(config)
+                                           : with_method(config, spec.method),
+                   spec.seed_index, labels, recording_hash);
+}
+
+Plan plan_of(const Study& study, const std::string& recording_hash) {
+  for (const SweepAxis& axis : study.sweep)
+    if (decides_recording(axis.path))
+      throw Error("sweep." + axis.path +
+                  ": decides what is recorded; make one study for each of its values");
+  Plan plan;
+  TaskList list(plan.tasks);
+  for (const TrialSpec& spec : trials(study)) {
+    const Study config = with_method(resolve(study, spec.cell), spec.method);
+    const auto add = [&](Study&& of, Labels labels) {
+      return list.add(make_task(std::move(of), spec.seed_index, labels, recording_hash));
+    };
+    PlannedTrial trial;
+    trial.spec = spec;
+    trial.task = add(Study(config), Labels::detected);
+    trial.registration_ceiling = add(without_faults(config), Labels::detected);
+    trial.lattice_ceiling = add(for_lattice_ceiling(config), Labels::truth);
+    plan.trials.push_back(std::move(trial));
+  }
+  return plan;
+}
+
+}  // namespace mapscore::eval

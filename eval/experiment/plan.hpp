@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "eval/experiment/grid.hpp"
+#include "eval/experiment/study.hpp"
+
+namespace mapscore::eval {
+
+/// Version of everything between a frame and its counts; part of every key, so that results of different
+/// definitions never stand side by side. Raise it when a definition changes.
+inline constexpr int kScoringVersion = 1;
+
+/// Which labels a task maps.
+enum class Labels {
+  detected,  ///< label images of the colour camera, registered: what a method sees
+  truth      ///< instance ids of the depth camera's own pixels: the lattice ceiling
+};
+
+/// One map to make and score. Same key, same result.
+struct Task {
+  std::string key;          ///< content hash of `description`
+  std::string description;  ///< YAML of everything that determines the result
+  Study config;             ///< resolved: one method, no sweep
+  int seed_index = 0;
+  Labels labels = Labels::detected;
+};
+
+/// One trial of the sweep and its two ceilings, as positions in Plan::tasks.
+struct PlannedTrial {
+  TrialSpec spec;
+  std::size_t task = 0;
+  std::size_t registration_ceiling = 0;  ///< the same method with every fault at zero
+  std::size_t lattice_ceiling = 0;       ///< true labels on the depth pixels, true pose, same fusion
+};
+
+/// Everything that a study computes; tasks that several trials share stand once. Trials are in the order of
+/// the grid, tasks in the order of first use.
+struct Plan {
+  std::vector<Task> tasks;
+  std::vector<PlannedTrial> trials;
+};
+
+/// Throws Error when the sweep names a leaf that decides what is recorded.
+[[nodiscard]] Plan plan_of(const Study& study, const std::string& recording_hash);
+
+/// The task of one trial by itself.
+[[nodiscard]] Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
+                           const std::string& recording_hash);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/experiment/runner.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "eval/experiment/lattice_truth.hpp"
+#include "eval/experiment/trial_run.hpp"
+#include "eval/recording/frame_cache.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+/// Maps that are under way at once when the frames do not all fit into memory.
+constexpr std::size_t kTrialsAtOnce = 64;
+
+/// Calls `work(i)` for i in 0..count-1 from `jobs` threads; rethrows the first exception.
+void for_each_in_parallel(std::size_t count, int jobs,
+                          const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  const auto worker = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        work(i);
+      } catch (...) {
+        const std::scoped_lock lock(failure_mutex);
+        if (!failure) failure = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    const std::size_t workers = std::min(count, static_cast<std::size_t>(std::max(1, jobs)));
+    for (std::size_t t = 1; t < workers; ++t) threads.emplace_back(worker);
+    worker();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+std::size_t bytes_of_a_frame(const Recording& recording) {
+  const CameraModel& color = recording.info().calibration.color;
+  const CameraModel& depth = recording.info().calibration.depth;
+  const auto pixels = [](const CameraModel& camera) {
+    return static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
+  };
+  return sizeof(std::uint16_t) * (pixels(color) + 2 * pixels(depth));
+}
+
+/// The missing tasks of this shard, those of one lattice together.
+std::vector<const Task*> missing_tasks(const Plan& plan, const ResultStore& store,
+                                       const RunnerOptions& options) {
+  const auto done = store.keys();
+  std::vector<const Task*> missing;
+  int position = 0;
+  for (const Task& task : plan.tasks) {
+    const bool mine = position++ % options.shards == options.shard - 1;
+    if (mine && !done.contains(task.key)) missing.push_back(&task);
+  }
+  std::stable_sort(missing.begin(), missing.end(), [](const Task* a, const Task* b) {
+    return std::pair(a->seed_index, a->config.voxel_m) < std::pair(b->seed_index, b->config.voxel_m);
+  });
+  return missing;
+}
+
+/// Everything that the trials of one recording share.
+class Sweep {
+ public:
+  Sweep(const Recording& recording, const ClassTable& table, ResultStore& store,
+        const RunnerOptions& options)
+      : recording_(recording),
+        table_(table),
+        store_(store),
+        options_(options),
+        frames_(recording, Channels{.color = false, .label = true, .depth = true, .depth_label = true},
+                options.memory_bytes),
+        truths_(recording, table, frames_, static_cast<std::size_t>(std::max(1, options.jobs)) + 1) {}
+
+  void run(const std::vector<const Task*>& tasks) {
+    const int block = block_of_frames();
+    const bool all_fit = block == recording_.frame_count();
+    const std::size_t batch = all_fit ? tasks.size() : kTrialsAtOnce;
+    total_ = static_cast<std::int64_t>(tasks.size()) * recording_.frame_count();
+    for (std::size_t first = 0; first < tasks.size(); first += batch) {
+      const auto end = std::min(tasks.size(), first + batch);
+      run_batch({tasks.begin() + static_cast<std::ptrdiff_t>(first),
+                 tasks.begin() + static_cast<std::ptrdiff_t>(end)},
+                block);
+    }
+  }
+
+ private:
+  [[nodiscard]] int block_of_frames() const {
+    const std::size_t fitting = options_.memory_bytes / bytes_of_a_frame(recording_);
+    return static_cast<int>(
+        std::clamp<std::size_t>(fitting, 1, static_cast<std::size_t>(recording_.frame_count())));
+  }
+
+  /// All trials of the batch take one block of frames after the other; a trial is finished, stored and let
+  /// go with the last block.
+  void run_batch(const std::vector<const Task*>& batch, int block) {
+    std::vector<std::unique_ptr<TrialRun>> runs(batch.size());
+    for (int first = 0; first < recording_.frame_count(); first += block) {
+      const int end = std::min(first + block, recording_.frame_count());
+      for_each_in_parallel(batch.size(), options_.jobs, [&](std::size_t i) {
+        if (!runs[i])
+          runs[i] = std::make_unique<TrialRun>(*batch[i], recording_, table_, truths_);
+        advance(*runs[i], first, end);
+        if (end < recording_.frame_count()) return;
+        finish(*batch[i], *runs[i]);
+        runs[i].reset();
+      });
+    }
+  }
+
+  void advance(TrialRun& run, int first, int end) {
+    for (int index = first; index < end; ++index) {
+      run.advance(*frames_.get(index));
+      const std::int64_t done = ++done_;
+      if (options_.progress) options_.progress(done, total_);
+    }
+  }
+
+  void finish(const Task& task, TrialRun& run) {
+    const TrialResult result = run.finish();
+    const std::scoped_lock lock(store_mutex_);
+    store_.add(task.key, task.description, result);
+  }
+
+  const Recording& recording_;
+  const ClassTable& table_;
+  ResultStore& store_;
+  const RunnerOptions& options_;
+  FrameCache frames_;
+  TruthCache truths_;
+  std::mutex store_mutex_;
+  std::atomic<std::int64_t> done_{0};
+  std::int64_t total_ = 0;
+};
+
+}  // namespace
+
+RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
+                       ResultStore& store, const RunnerOptions& options) {
+  const std::vector<const Task*> missing = missing_tasks(plan, store, options);
+  if (!missing.empty()) Sweep(recording, table, store, options).run(missing);
+  return {missing.size(), plan.tasks.size() - missing.size()};
+}
+
+}  // namespace mapscore::eval

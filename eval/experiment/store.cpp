@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/experiment/store.hpp"
+
+#include <sqlite3.h>
+
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+#include "eval/experiment/result_json.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+constexpr int kStoreFormat = 1;
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
+  throw Error(file.string() + ": " + reason);
+}
+
+/// One prepared statement; positions of parameters and columns as SQLite counts them.
+class Statement {
+ public:
+  Statement(sqlite3* database, const std::filesystem::path& file, const char* sql)
+      : database_(database), file_(file) {
+    if (sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr) != SQLITE_OK) refuse();
+  }
+  ~Statement() { sqlite3_finalize(statement_); }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  Statement& bind(int parameter, const std::string& text) {
+    sqlite3_bind_text(statement_, parameter, text.data(), static_cast<int>(text.size()),
+                      SQLITE_TRANSIENT);
+    return *this;
+  }
+  /// True while there is a row.
+  [[nodiscard]] bool step() {
+    const int outcome = sqlite3_step(statement_);
+    if (outcome != SQLITE_ROW && outcome != SQLITE_DONE) refuse();
+    return outcome == SQLITE_ROW;
+  }
+  void run() {
+    while (step()) {
+    }
+  }
+  [[nodiscard]] std::string text(int column) const {
+    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+    return bytes ? std::string(bytes, static_cast<std::size_t>(
+                                          sqlite3_column_bytes(statement_, column)))
+                 : std::string();
+  }
+
+ private:
+  [[noreturn]] void refuse() {
+    const std::string reason = sqlite3_errmsg(database_);
+    sqlite3_finalize(std::exchange(statement_, nullptr));
+    fail(file_, "result store: " + reason + "; check free space, permissions and that it is a store");
+  }
+
+  sqlite3* database_;
+  const std::filesystem::path& file_;
+  sqlite3_stmt* statement_ = nullptr;
+};
+
+}  // namespace
+
+void ResultStore::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
+
+ResultStore::ResultStore(std::unique_ptr<sqlite3, Close> database, std::filesystem::path file)
+    : database_(std::move(database)), file_(std::move(file)) {
+  sqlite3_busy_timeout(database_.get(), 10000);
+}
+
+ResultStore ResultStore::open(const std::filesystem::path& file) {
+  std::error_code error;
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
+  sqlite3* raw = nullptr;
+  const int outcome = sqlite3_open(file.c_str(), &raw);
+  ResultStore store(std::unique_ptr<sqlite3, Close>(raw), file);
+  if (outcome != SQLITE_OK) fail(file, "cannot be written; check the folder and its permissions");
+  store.execute("CREATE TABLE IF NOT EXISTS texts (name TEXT PRIMARY KEY, value TEXT NOT NULL)");
+  store.execute(
+      "CREATE TABLE IF NOT EXISTS trials (key TEXT PRIMARY KEY, description TEXT NOT NULL,"
+      " result TEXT NOT NULL)");
+  const std::string format = store.text("format_version");
+  if (format.empty())
+    store.set_text("format_version", std::to_string(kStoreFormat));
+  else if (format != std::to_string(kStoreFormat))
+    fail(file, "result store of format " + format + ", this mapscore reads " +
+                   std::to_string(kStoreFormat) + "; sweep again into another folder");
+  return store;
+}
+
+ResultStore ResultStore::open_existing(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file))
+    fail(file, "no result store there; run `mapscore sweep` first");
+  sqlite3* raw = nullptr;
+  const int outcome = sqlite3_open_v2(file.c_str(), &raw, SQLITE_OPEN_READONLY, nullptr);
+  ResultStore store(std::unique_ptr<sqlite3, Close>(raw), file);
+  if (outcome != SQLITE_OK) fail(file, "cannot be opened; check its permissions");
+  if (store.text("format_version") != std::to_string(kStoreFormat))
+    fail(file, "result store of another format; sweep again into another folder");
+  return store;
+}
+
+void ResultStore::execute(const std::string& sql) {
+  Statement(database_.get(), file_, sql.c_str()).run();
+}
+
+void ResultStore::set_text(const std::string& name, const std::string& value) {
+  if (text(name) == value) return;
+  Statement(database_.get(), file_, "INSERT OR REPLACE INTO texts VALUES (?, ?)")
+      .bind(1, name)
+      .bind(2, value)
+      .run();
+}
+
+std::string ResultStore::text(const std::string& name) const {
+  Statement query(database_.get(), file_, "SELECT value FROM texts WHERE name = ?");
+  query.bind(1, name);
+  return query.step() ? query.text(0) : std::string();
+}
+
+bool ResultStore::contains(const std::string& key) const {
+  Statement query(database_.get(), file_, "SELECT 1 FROM trials WHERE key = ?");
+  query.bind(1, key);
+  return query.step();
+}
+
+std::unordered_set<std::string> ResultStore::keys() const {
+  Statement query(database_.get(), file_, "SELECT key FROM trials");
+  std::unordered_set<std::string> keys;
+  while (query.step()) keys.insert(query.text(0));
+  return keys;
+}
+
+void ResultStore::add(const std::string& key, const std::string& description,
+                      const TrialResult& result) {
+  Statement(database_.get(), file_, "INSERT OR IGNORE INTO trials VALUES (?, ?, ?)")
+      .bind(1, key)
+      .bind(2, description)
+      .bind(3, to_json(result))
+      .run();
+}
+
+std::optional<TrialResult> ResultStore::find(const std::string& key) const {
+  Statement query(database_.get(), file_, "SELECT result FROM trials WHERE key = ?");
+  query.bind(1, key);
+  if (!query.step()) return std::nullopt;
+  return result_from_json(query.text(0));
+}
+
+int ResultStore::merge(const ResultStore& other) {
+  Statement query(other.database_.get(), other.file_,
+                  "SELECT key, description, result FROM trials ORDER BY key");
+  const int before = sqlite3_total_changes(database_.get());
+  execute("BEGIN");
+  while (query.step())
+    Statement(database_.get(), file_, "INSERT OR IGNORE INTO trials VALUES (?, ?, ?)")
+        .bind(1, query.text(0))
+        .bind(2, query.text(1))
+        .bind(3, query.text(2))
+        .run();
+  execute("COMMIT");
+  return sqlite3_total_changes(database_.get()) - before;
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/experiment/study.hpp"
+
+#include "core/error.hpp"
+#include "eval/experiment/study_tree.hpp"
+
+#include <algorithm>
+
+namespace mapscore::eval {
+
+void check_method_name(const YamlAt& at, const std::string& name) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  if (name.empty() || !std::ranges::all_of(name, allowed)) {
+    at.fail(fmt::format("{} cannot name a method; use letters, digits, _ and -", yaml_text(name)));
+  }
+}
+
+void set_leaf(Study& study, std::string_view path, const YamlAt& at) {
+  const auto set = [&](const Field& field, auto& leaf) {
+    leaf = Leaf<std::remove_reference_t<decltype(leaf)>>::read(at, field.range);
+  };
+  at_section_leaf(at, study, path, set);
+}
+
+void set_leaf(Study& study, std::string_view path, const std::string& yaml_value) {
+  set_leaf(study, path, parse_yaml_value(yaml_value, "", std::string(path)));
+}
+
+std::string leaf_text(const Study& study, std::string_view path) {
+  std::string text;
+  const auto get = [&](const Field&, const auto& leaf) {
+    text = Leaf<std::remove_cvref_t<decltype(leaf)>>::text(leaf);
+  };
+  at_section_leaf(YamlAt{{}, "", 0, std::string(path)}, study, path, get);
+  return text;
+}
+
+std::filesystem::path resolve_path(const Study& study, const std::string& path) {
+  return (study.base_folder / path).lexically_normal();
+}
+
+std::filesystem::path robot_path(const Study& study) {
+  if (study.robot) return resolve_path(study, *study.robot);
+  if (!study.scene) throw Error("robot: neither robot nor scene is given; write robot: PATH");
+  return resolve_path(study, *study.scene).parent_path() / "robot.xml";
+}
+
+Place place_of(const Study& study, const MethodSettings& method) {
+  return method.place.value_or(study.place);
+}
+
+bool decides_recording(std::string_view path) {
+  constexpr auto kHeads = std::to_array<std::string_view>(
+      {"scene", "classes", "robot", "recording", "trajectory", "cameras"});
+  return std::ranges::find(kHeads, split_path(path).first) != kHeads.end();
+}
+
+}  // namespace mapscore::eval

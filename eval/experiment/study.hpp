@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/mapping/pose_belief.hpp"
+#include "core/segmentation/segmentation.hpp"
+#include "sim/faults/pose_fault.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace mapscore::eval {
+
+// The structs below mirror the study file key by key, in its units: the unit is the member's
+// suffix, and the conversion to SI happens where they are turned into types of core and sim. Keys,
+// ranges and meanings stand in study_fields.hpp.
+
+struct TrajectorySettings {
+  std::vector<std::array<double, 3>> waypoints_m_deg;  ///< x, y, heading
+  double speed_mps = 0.4;
+  double turn_rate_dps = 40;
+  double frames_per_s = 2;
+  int max_frames = 0;
+
+  bool operator==(const TrajectorySettings&) const = default;
+};
+
+struct CameraSettings {
+  int width_px = 640, height_px = 480;
+  double range_min_m = 0.6, range_max_m = 8;
+  bool shadows = false;
+
+  bool operator==(const CameraSettings&) const = default;
+};
+
+/// How an observation reaches the map's lattice: its points moved by the pose, or its voxels'
+/// centres.
+enum class Place { points, voxels };
+
+struct DirectSettings {
+  static constexpr std::string_view kKind = "direct";
+  static constexpr std::string_view kMeaning = "every point of the mask";
+  bool operator==(const DirectSettings&) const = default;
+};
+
+struct ErosionSettings {
+  static constexpr std::string_view kKind = "erosion";
+  static constexpr std::string_view kMeaning = "erode the mask, then direct";
+  int radius_px = 5;
+  bool operator==(const ErosionSettings&) const = default;
+};
+
+struct RegionGrowingSettings {
+  static constexpr std::string_view kKind = "region_growing";
+  static constexpr std::string_view kMeaning =
+      "grow voxels from a seed point (algorithm 1 of the paper)";
+  double radius_factor = 1;
+  bool released = false;
+  SeedRule seed = SeedRule::box_centre;
+  bool operator==(const RegionGrowingSettings&) const = default;
+};
+
+using SegmentationSettings = std::variant<DirectSettings, ErosionSettings, RegionGrowingSettings>;
+
+struct MethodSettings {
+  std::string name;  ///< letters, digits, _ and -
+  SegmentationSettings segmentation;
+  std::optional<Place> place;  ///< empty: the study's
+
+  bool operator==(const MethodSettings&) const = default;
+};
+
+struct BlendSettings {
+  static constexpr std::string_view kKind = "blend";
+  static constexpr std::string_view kMeaning =
+      "weighted mean of the map and the draws of an observation";
+  double K = 0.5;
+  int N = 1;
+  NoiseAt noise_at = NoiseAt::base;
+  CovarianceUse covariance = CovarianceUse::diagonal;
+  bool operator==(const BlendSettings&) const = default;
+};
+
+using FusionSettings = std::variant<BlendSettings>;
+
+/// T_believed_color_depth = E * T_color_depth, and wrong intrinsics of the colour camera.
+struct MisregistrationSettings {
+  double magnitude_m = 0, angle_deg = 0;  ///< direction drawn by the seed, in the image plane
+  std::array<double, 3> translation_m{}, rotation_deg{};
+  double focal_error_percent = 0;
+  std::array<double, 2> principal_point_px{};
+
+  bool operator==(const MisregistrationSettings&) const = default;
+};
+
+/// T_believed_base_depth = T_base_depth * M.
+struct MountSettings {
+  double magnitude_m = 0, angle_deg = 0;
+  std::array<double, 3> translation_m{}, rotation_deg{};
+
+  bool operator==(const MountSettings&) const = default;
+};
+
+/// T_believed = T_true * Exp(xi), xi ~ N(0, E).
+struct PoseNoiseSettings {
+  double sigma_xy_m = 0, sigma_z_m = 0, sigma_roll_pitch_deg = 0, sigma_yaw_deg = 0;
+  std::optional<std::array<std::array<double, 6>, 6>> covariance_m_rad;  ///< in place of the sigmas
+  double sigma_scale = 1;  ///< of every standard deviation
+  sim::PoseNoiseKind kind = sim::PoseNoiseKind::white;
+  double reported_scale = 1;  ///< reported covariance over the true one
+
+  bool operator==(const PoseNoiseSettings&) const = default;
+};
+
+struct FaultSettings {
+  MisregistrationSettings misregistration;
+  MountSettings mount;
+  PoseNoiseSettings pose;
+
+  bool operator==(const FaultSettings&) const = default;
+};
+
+/// A number, or `auto` (empty).
+struct AutoNumber {
+  std::optional<double> value;
+  bool operator==(const AutoNumber&) const = default;
+};
+
+enum class ScoreUnit { map, frame };
+
+struct ScoreSettings {
+  ScoreUnit unit = ScoreUnit::map;
+  AutoNumber threshold;
+  int min_samples = 1;
+  double epsilon_m = 0.0005;
+  std::vector<int> tolerances{0, 1};
+  std::vector<double> distances_m{0.01, 0.02, 0.05, 0.1};
+
+  bool operator==(const ScoreSettings&) const = default;
+};
+
+/// Names of the classes that become detections, or all of them.
+struct DetectedSet {
+  bool all = false;
+  std::vector<std::string> classes;
+  bool operator==(const DetectedSet&) const = default;
+};
+
+/// One swept leaf. Values are canonical texts (0.010 is 0.01), in the order of the file.
+struct SweepAxis {
+  std::string path;
+  std::vector<std::string> values;
+  bool operator==(const SweepAxis&) const = default;
+};
+
+/// One study file (docs/study_reference.md lists its keys). Paths stay as they are written; those
+/// that are relative start at `base_folder`, which is not part of the file.
+struct Study {
+  std::string name;
+  std::uint64_t seed = 1;
+  int seeds = 1;
+  std::optional<std::string> scene, classes, robot, recording;
+  TrajectorySettings trajectory;
+  CameraSettings cameras;
+  double voxel_m = 0.05;
+  Place place = Place::points;
+  std::optional<std::array<double, 3>> map_origin_m;  ///< empty: drawn by the seed, within a voxel
+  double map_yaw_deg = 0;
+  std::optional<DetectedSet> detect;  ///< empty: as the class file says
+  std::vector<MethodSettings> methods;
+  FusionSettings fusion;
+  FaultSettings faults;
+  ScoreSettings score;
+  std::vector<SweepAxis> sweep;
+
+  std::filesystem::path base_folder;
+
+  bool operator==(const Study&) const = default;
+};
+
+/// Reads a study file. `overrides` are `path=value` texts of flags, applied after the file in their
+/// order; a value is YAML (`faults.pose.sigma_xy_m=0.02`, `sweep.voxel_m=[0.05, 0.1]`, `sweep={}`).
+/// Every value and every cell of the sweep is checked. Throws Error "FILE:LINE: key.path: what;
+/// mend".
+[[nodiscard]] Study load_study(const std::filesystem::path& file,
+                               const std::vector<std::string>& overrides = {});
+
+/// As load_study, from the text of a file; `file` names it in errors and gives name and base
+/// folder.
+[[nodiscard]] Study parse_study(const std::string& text, const std::filesystem::path& file,
+                                const std::vector<std::string>& overrides = {});
+
+/// Sets the leaf at a dotted path (`methods.erosion.segmentation.erosion.radius_px`) from YAML
+/// text, and checks its type and range; what must hold between leaves is checked by `check`. Throws
+/// Error naming the path, and then leaves the study as it was.
+void set_leaf(Study& study, std::string_view path, const std::string& yaml_value);
+
+/// Canonical text of the leaf at a dotted path; an unset optional leaf is "-". Throws as set_leaf.
+[[nodiscard]] std::string leaf_text(const Study& study, std::string_view path);
+
+/// Throws Error naming the key when leaves do not fit each other, for the study and each cell of
+/// its sweep.
+void check(const Study& study);
+
+/// The resolved configuration: every key, defaults included, in the order of the reference. The
+/// same study gives the same bytes; parsing them gives an equal study. Holds no path that the study
+/// did not hold.
+[[nodiscard]] std::string to_yaml(const Study& study);
+
+/// Table of all keys in Markdown: type, unit, default, range, meaning. docs/study_reference.md is
+/// this text.
+[[nodiscard]] std::string config_reference();
+
+/// `path` if absolute, otherwise below the study's base folder.
+[[nodiscard]] std::filesystem::path resolve_path(const Study& study, const std::string& path);
+
+/// The robot's MJCF: `robot`, or robot.xml beside the scene. Needs `scene` or `robot`.
+[[nodiscard]] std::filesystem::path robot_path(const Study& study);
+
+/// How a method places its observations: its own `place`, or the study's.
+[[nodiscard]] Place place_of(const Study& study, const MethodSettings& method);
+
+/// True when the leaf decides what a recording holds (scene, trajectory, cameras, ...), so that a
+/// sweep over it needs a recording for each of its values.
+[[nodiscard]] bool decides_recording(std::string_view path);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/experiment/study_check.hpp"
+
+#include "core/error.hpp"
+#include "eval/experiment/grid.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr std::size_t kMostTrials = 1000000;
+
+void check_input(const Study& study, const Blame& blame) {
+  if (study.recording) return;
+  if (!study.scene) {
+    blame("scene", "is missing; write scene: PATH, or recording: PATH to replay one");
+  }
+  if (study.trajectory.waypoints_m_deg.empty()) {
+    blame("trajectory.waypoints_m_deg",
+          "the trajectory is empty; write at least one waypoint, [[x, y, yaw], ...]");
+  }
+}
+
+void check_cameras(const CameraSettings& cameras, const Blame& blame) {
+  if (cameras.range_min_m < cameras.range_max_m) return;
+  blame("cameras.range_min_m", fmt::format("{} is not below range_max_m, {}; write a lesser number",
+                                           cameras.range_min_m, cameras.range_max_m));
+}
+
+template <class Rigid>
+void check_rigid(const Rigid& dose, const std::string& path, const Blame& blame) {
+  constexpr std::array<double, 3> kNone{};
+  if (dose.magnitude_m != 0 && dose.translation_m != kNone) {
+    blame(path + ".translation_m", "stands beside a magnitude_m; keep one of the two");
+  }
+  if (dose.angle_deg != 0 && dose.rotation_deg != kNone) {
+    blame(path + ".rotation_deg", "stands beside an angle_deg; keep one of the two");
+  }
+}
+
+constexpr std::string_view kCovariancePath = "faults.pose.covariance_m_rad";
+
+void check_symmetric(const Covariance6& E, const Blame& blame) {
+  const double tolerance = 1e-10 * E.cwiseAbs().maxCoeff();
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < i; ++j) {
+      if (std::abs(E(i, j) - E(j, i)) <= tolerance) continue;
+      blame(kCovariancePath,
+            fmt::format("is not symmetric: row {} column {} is {}, row {} column {} is {}; make "
+                        "them equal",
+                        i + 1, j + 1, E(i, j), j + 1, i + 1, E(j, i)));
+    }
+  }
+}
+
+/// By the very test of the mapper, so that what is accepted here is not refused there.
+bool has_root(const Covariance6& E) {
+  try {
+    (void)covariance_root(E);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+void check_covariance(const PoseNoiseSettings& pose, const Blame& blame) {
+  if (!pose.covariance_m_rad) return;
+  if (pose.sigma_xy_m != 0 || pose.sigma_z_m != 0 || pose.sigma_roll_pitch_deg != 0 ||
+      pose.sigma_yaw_deg != 0) {
+    blame(kCovariancePath, "stands beside a sigma; keep the covariance or the sigmas");
+  }
+  Covariance6 E;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) E(i, j) = (*pose.covariance_m_rad)[i][j];
+  }
+  check_symmetric(E, blame);
+  if (has_root(E)) return;
+  const double least = Eigen::SelfAdjointEigenSolver<Covariance6>(E).eigenvalues().minCoeff();
+  blame(kCovariancePath,
+        fmt::format("is not positive semi-definite: its least eigenvalue is {:.3g}; write the "
+                    "covariance of a distribution",
+                    least));
+}
+
+template <class T>
+void check_distinct(const std::vector<T>& list, std::string_view path, const Blame& blame) {
+  std::set<T> seen;
+  for (const T& element : list) {
+    if (!seen.insert(element).second) {
+      blame(path, fmt::format("{} stands twice; keep one", element));
+    }
+  }
+}
+
+void check_methods(const std::vector<MethodSettings>& methods, const Blame& blame) {
+  if (methods.empty()) {
+    blame("methods", "there is no method; write methods: {direct: {segmentation: {direct: {}}}}");
+  }
+}
+
+/// One point of the grid, or a study without a sweep.
+void check_leaves(const Study& study, const Blame& blame) {
+  check_input(study, blame);
+  check_methods(study.methods, blame);
+  check_cameras(study.cameras, blame);
+  if (study.detect) check_distinct(study.detect->classes, "detect", blame);
+  check_rigid(study.faults.misregistration, "faults.misregistration", blame);
+  check_rigid(study.faults.mount, "faults.mount", blame);
+  check_covariance(study.faults.pose, blame);
+  check_distinct(study.score.tolerances, "score.tolerances", blame);
+  check_distinct(study.score.distances_m, "score.distances_m", blame);
+}
+
+void check_size(const Study& study, const Blame& blame) {
+  std::size_t trials = study.methods.size() * static_cast<std::size_t>(study.seeds);
+  for (const SweepAxis& axis : study.sweep) {
+    if (axis.values.empty()) blame("sweep." + axis.path, "has no values; write at least one");
+    check_distinct(axis.values, "sweep." + axis.path, blame);
+    trials *= axis.values.size();
+    if (trials > kMostTrials) {
+      blame("sweep." + axis.path,
+            fmt::format("the grid grows beyond {} trials; sweep fewer values", kMostTrials));
+    }
+  }
+}
+
+void check_cell(const Study& study, const Cell& cell, const Blame& blame) {
+  const auto blame_cell = [&](std::string_view path, const std::string& problem) {
+    blame("sweep", fmt::format("with {}, {}: {}", text_of(cell), path, problem));
+  };
+  check_leaves(resolve(study, cell), blame_cell);
+}
+
+}  // namespace
+
+void check(const Study& study, const Blame& blame) {
+  check_size(study, blame);
+  if (study.sweep.empty()) return check_leaves(study, blame);
+  check_methods(study.methods, blame);
+  for (const Cell& cell : cells(study)) check_cell(study, cell, blame);
+}
+
+void check(const Study& study) {
+  check(study, [](std::string_view path, const std::string& problem) {
+    throw Error(fmt::format("{}: {}", path, problem));
+  });
+}
+
+}  // namespace mapscore::eval

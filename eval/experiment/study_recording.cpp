@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/experiment/study_recording.hpp"
+
+#include "core/error.hpp"
+#include "eval/recording/stamp_list.hpp"
+
+#ifdef MAPSCORE_SIMULATOR
+#include <xxhash.h>
+
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "sim/recorder.hpp"
+#include "sim/world/world.hpp"
+#endif
+
+namespace mapscore::eval {
+
+#ifdef MAPSCORE_SIMULATOR
+
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
+sim::World world_of(const Study& study) {
+  sim::WorldFiles files;
+  files.scene = resolve_path(study, study.scene.value());
+  if (study.classes) files.classes = resolve_path(study, *study.classes);
+  files.robot = robot_path(study);
+  const CameraSettings& cameras = study.cameras;
+  return sim::World::load(files, {cameras.width_px, cameras.height_px, cameras.range_min_m,
+                                  cameras.range_max_m});
+}
+
+sim::Drive drive_of(const TrajectorySettings& settings) {
+  sim::Drive drive;
+  for (const auto& [x, y, yaw_deg] : settings.waypoints_m_deg)
+    drive.waypoints.push_back({x, y, yaw_deg * kRadiansPerDegree});
+  drive.speed_mps = settings.speed_mps;
+  drive.turn_rate_radps = settings.turn_rate_dps * kRadiansPerDegree;
+  drive.frames_per_s = settings.frames_per_s;
+  drive.max_frames = settings.max_frames;
+  return drive;
+}
+
+/// Base poses that put the colour camera at the poses of a file.
+std::vector<sim::StampedPose> poses_from(const std::filesystem::path& trajectory,
+                                         const Calibration& calibration) {
+  const Pose T_color_base = calibration.T_color_depth * calibration.T_base_depth.inverse();
+  std::vector<sim::StampedPose> poses;
+  for (const TrajectoryPose& line : read_trajectory(trajectory))
+    poses.push_back({line.stamp_s, line.T_world_base * T_color_base});
+  return poses;
+}
+
+double rate_of(const std::vector<sim::StampedPose>& poses) {
+  const double seconds = poses.back().stamp_s - poses.front().stamp_s;
+  return seconds > 0.0 ? static_cast<double>(poses.size() - 1) / seconds : 1.0;
+}
+
+RecordingInfo info_of(const Study& study, const sim::World& world,
+                      const std::vector<sim::StampedPose>& poses) {
+  RecordingInfo info;
+  info.calibration = world.calibration();
+  info.color_rate_hz = info.depth_rate_hz = rate_of(poses);
+  info.table = world.classes();
+  info.scene = std::filesystem::path(study.scene.value()).filename().string();
+  info.scene_hash = world.hash();
+  info.mujoco_version = sim::mujoco_version();
+  info.seed = study.seed;
+  info.frame_count = static_cast<int>(poses.size());
+  return info;
+}
+
+void record_world(const Study& study, const sim::World& world,
+                  const std::vector<sim::StampedPose>& poses, const std::filesystem::path& folder,
+                  int jobs, const FrameProgress& progress) {
+  RecordingWriter writer(folder, info_of(study, world, poses));
+  writer.write_shapes(world.shapes());
+  sim::record(
+      world, poses, {jobs, study.cameras.shadows},
+      [&](const Frame& frame) { writer.write(frame); }, progress);
+  writer.finish();
+}
+
+/// Names what a recording is rendered from.
+std::string recording_name(const Study& study, const sim::World& world) {
+  Study rendered;
+  rendered.trajectory = study.trajectory;
+  rendered.cameras = study.cameras;
+  const std::string text = world.hash() + '\n' + sim::mujoco_version() + '\n' + to_yaml(rendered);
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  return fmt::format("{}-{:012x}", std::filesystem::path(study.scene.value()).stem().string(),
+                     hash.high64 >> 16);
+}
+
+}  // namespace
+
+void record_study(const Study& study, const std::filesystem::path& folder, int jobs,
+                  const FrameProgress& progress, const std::filesystem::path& trajectory) {
+  if (!study.scene) throw Error("scene: nothing to record; name an MJCF file");
+  const sim::World world = world_of(study);
+  const std::vector<sim::StampedPose> poses =
+      trajectory.empty() ? sim::poses_along(drive_of(study.trajectory))
+                         : poses_from(trajectory, world.calibration());
+  record_world(study, world, poses, folder, jobs, progress);
+}
+
+Recording recording_of(const Study& study, const std::filesystem::path& results, int jobs,
+                       const FrameProgress& progress) {
+  if (study.recording) return Recording::open(resolve_path(study, *study.recording));
+  const sim::World world = world_of(study);
+  const std::filesystem::path folder = results / "recordings" / recording_name(study, world);
+  if (!std::filesystem::exists(folder))
+    record_world(study, world, sim::poses_along(drive_of(study.trajectory)), folder, jobs, progress);
+  return Recording::open(folder);
+}
+
+SceneSurfaces surfaces_of_scene(const std::filesystem::path& scene) {
+  const sim::World world = world_of(study_of_scene(scene, {}));
+  return {world.classes(), world.shapes(), world.unmatched_bodies()};
+}
+
+#else
+
+namespace {
+
+[[noreturn]] void refuse() {
+  throw Error(
+      "scene: this mapscore was built without the simulator; give `recording`, or build with "
+      "-DMAPSCORE_SIMULATOR=ON");
+}
+
+}  // namespace
+
+void record_study(const Study&, const std::filesystem::path&, int, const FrameProgress&,
+                  const std::filesystem::path&) {
+  refuse();
+}
+
+Recording recording_of(const Study& study, const std::filesystem::path&, int,
+                       const FrameProgress&) {
+  if (!study.recording) refuse();
+  return Recording::open(resolve_path(study, *study.recording));
+}
+
+SceneSurfaces surfaces_of_scene(const std::filesystem::path&) { refuse(); }
+
+#endif
+
+Study study_of_scene(const std::filesystem::path& scene,
+                     const std::vector<std::string>& overrides) {
+  Study study;
+  study.name = scene.stem().string();
+  study.scene = scene.filename().string();
+  study.base_folder = scene.parent_path();
+  for (const std::string& override : overrides) {
+    const std::size_t equals = override.find('=');
+    if (equals == std::string::npos)
+      throw Error("--set " + override + ": must be path=value, e.g. cameras.width_px=320");
+    set_leaf(study, override.substr(0, equals), override.substr(equals + 1));
+  }
+  return study;
+}
+
+}  // namespace mapscore::eval

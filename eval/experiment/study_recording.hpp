@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "eval/experiment/study.hpp"
+#include "eval/recording/recording.hpp"
+
+namespace mapscore::eval {
+
+using FrameProgress = std::function<void(int done, int total)>;
+
+/// Renders the drive of a study and writes it as a recording. A `trajectory` file (TUM lines: poses of the
+/// colour camera's optical frame in the world) takes the place of the drive. Throws Error when the program
+/// was built without the simulator, the scene is refused, or the folder exists or cannot be written.
+void record_study(const Study& study, const std::filesystem::path& folder, int jobs,
+                  const FrameProgress& progress, const std::filesystem::path& trajectory = {});
+
+/// A study of nothing but a scene, to record it along given poses.
+[[nodiscard]] Study study_of_scene(const std::filesystem::path& scene,
+                                   const std::vector<std::string>& overrides);
+
+/// The recording that a study replays: its own `recording`, or the one below `results`/recordings that was
+/// rendered from the same scene, robot, trajectory and cameras; rendered now if there is none.
+[[nodiscard]] Recording recording_of(const Study& study, const std::filesystem::path& results,
+                                     int jobs, const FrameProgress& progress);
+
+/// Drawn surfaces and classes of a scene by itself.
+struct SceneSurfaces {
+  ClassTable table;
+  std::vector<Shape> shapes;
+  std::vector<std::string> unmatched_bodies;  ///< with drawn geoms, of no class
+};
+
+/// Throws Error when the program was built without the simulator or the scene is refused.
+[[nodiscard]] SceneSurfaces surfaces_of_scene(const std::filesystem::path& scene);
+
+}  // namespace mapscore::eval

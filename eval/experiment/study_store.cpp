@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/experiment/study_store.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+using nlohmann::json;
+
+std::string table_to_json(const ClassTable& table) {
+  json object{{"classes", json::array()}, {"instances", json::array()}};
+  for (const SemanticClass& c : table.classes)
+    object["classes"].push_back({{"id", c.id},
+                                 {"name", c.name},
+                                 {"colour", {c.colour.r, c.colour.g, c.colour.b}},
+                                 {"detect", c.detect}});
+  for (const Instance& i : table.instances)
+    object["instances"].push_back({{"id", i.id}, {"name", i.name}, {"class", i.class_id}});
+  return object.dump();
+}
+
+ClassTable table_from_json(const std::string& text) {
+  const json object = json::parse(text);
+  ClassTable table;
+  table.classes.clear();
+  table.instances.clear();
+  for (const json& c : object.at("classes"))
+    table.classes.push_back({c.at("id"),
+                             c.at("name"),
+                             {c.at("colour").at(0), c.at("colour").at(1), c.at("colour").at(2)},
+                             c.at("detect")});
+  for (const json& i : object.at("instances"))
+    table.instances.push_back({i.at("id"), i.at("name"), i.at("class")});
+  return table;
+}
+
+}  // namespace
+
+void write_study(ResultStore& store, const StudyRecord& record,
+                 const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  store.set_text("study_folder",
+                 fs::absolute(record.study.base_folder).lexically_normal().lexically_relative(
+                     fs::absolute(folder).lexically_normal()));
+  store.set_text("study", to_yaml(record.study));
+  store.set_text("classes", table_to_json(record.table));
+  store.set_text("recording_hash", record.recording_hash);
+  store.set_text("recording", record.recording);
+  store.set_text("mapscore_version", MAPSCORE_VERSION);
+}
+
+StudyRecord read_study(const ResultStore& store, const std::filesystem::path& folder) try {
+  const std::string study = store.text("study");
+  if (study.empty()) throw Error("result store: holds no study; run `mapscore sweep` first");
+  const std::filesystem::path base = folder / store.text("study_folder");
+  return {parse_study(study, (base / "stored study").lexically_normal()),
+          table_from_json(store.text("classes")), store.text("recording_hash"),
+          store.text("recording")};
+} catch (const json::exception& error) {
+  throw Error(std::string("result store: class table not readable (") + error.what() +
+              "); sweep again into another folder");
+}
+
+ClassTable detected_table(const Study& study, ClassTable table) {
+  if (!study.detect) return table;
+  for (const std::string& name : study.detect->classes) {
+    const auto named = [&](const SemanticClass& c) { return c.name == name; };
+    if (std::none_of(table.classes.begin() + 1, table.classes.end(), named))
+      throw Error("detect: the scene has no class '" + name + "'; `mapscore info SCENE` lists them");
+  }
+  for (SemanticClass& c : table.classes)
+    c.detect = c.id != kBackground &&
+               (study.detect->all || std::find(study.detect->classes.begin(),
+                                               study.detect->classes.end(),
+                                               c.name) != study.detect->classes.end());
+  return table;
+}
+
+}  // namespace mapscore::eval

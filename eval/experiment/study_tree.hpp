@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/experiment/leaf.hpp"
+#include "eval/experiment/study_fields.hpp"
+#include "eval/experiment/yaml_at.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace mapscore::eval {
+
+// A study is a tree: sections, choices between sections, methods by name, the sweep, and leaves.
+// These templates walk it; each node type is one branch.
+
+using Methods = std::vector<MethodSettings>;
+using Sweep = std::vector<SweepAxis>;
+
+[[nodiscard]] std::vector<std::string> keys_of(const Section auto& section) {
+  std::vector<std::string> keys;
+  fields([&](const Field& field, const auto&) { keys.emplace_back(field.key); }, section);
+  return keys;
+}
+
+template <class... Kinds>
+[[nodiscard]] std::vector<std::string> kinds_of(const std::variant<Kinds...>&) {
+  return {std::string(Kinds::kKind)...};
+}
+
+// --- reading -------------------------------------------------------------------------------------
+
+/// Sets `value` from YAML; keys that are absent keep their defaults. The sweep is left out: its
+/// values have the types of leaves that may come later. Throws Error.
+template <class T>
+void read_tree(const YamlAt& at, const Field& field, T& value);
+
+template <Section T>
+void read_section(const YamlAt& at, T& section) {
+  const auto entries = at.entries();
+  const std::vector<std::string> keys = keys_of(section);
+  for (const auto& [key, child] : entries) {
+    if (std::ranges::find(keys, key) != keys.end()) continue;
+    child.fail(fmt::format("unknown key '{}'; {}", key, suggestion(key, keys)));
+  }
+  const auto read_field = [&](const Field& field, auto& member) {
+    for (const auto& [key, child] : entries) {
+      if (key == field.key) return read_tree(child, field, member);
+    }
+    if (field.required) at.fail(fmt::format("'{0}' is missing; write {0}: ...", field.key));
+  };
+  fields(read_field, section);
+}
+
+template <class Kind>
+bool read_kind(const std::pair<std::string, YamlAt>& entry, Choice auto& choice) {
+  if (entry.first != Kind::kKind) return false;
+  Kind section;
+  read_section(entry.second, section);
+  choice = section;
+  return true;
+}
+
+template <class... Kinds>
+void read_choice(const YamlAt& at, std::variant<Kinds...>& choice) {
+  const std::vector<std::string> kinds = kinds_of(choice);
+  const auto entries = at.entries();
+  if (entries.size() != 1) {
+    at.fail(fmt::format("names {} kinds; write one of {}, as {{{}: {{}}}}", entries.size(),
+                        fmt::join(kinds, ", "), kinds.front()));
+  }
+  if (!(read_kind<Kinds>(entries[0], choice) || ...)) {
+    entries[0].second.fail(fmt::format("unknown kind '{}'; {}", entries[0].first,
+                                       suggestion(entries[0].first, kinds)));
+  }
+}
+
+/// Throws Error when the name cannot be a part of a dotted path.
+void check_method_name(const YamlAt& at, const std::string& name);
+
+inline void read_methods(const YamlAt& at, Methods& methods) {
+  methods.clear();
+  for (const auto& [name, child] : at.entries()) {
+    check_method_name(child, name);
+    methods.push_back({name, {}, {}});
+    read_section(child, methods.back());
+  }
+}
+
+template <class T>
+void read_tree(const YamlAt& at, const Field& field, T& value) {
+  if constexpr (std::same_as<T, Methods>) {
+    read_methods(at, value);
+  } else if constexpr (Choice<T>) {
+    read_choice(at, value);
+  } else if constexpr (Section<T>) {
+    read_section(at, value);
+  } else if constexpr (!std::same_as<T, Sweep>) {
+    value = Leaf<T>::read(at, field.range);
+  }
+}
+
+// --- one leaf ------------------------------------------------------------------------------------
+
+/// Calls act(field, leaf) for the leaf `rest` (a dotted path) below `value`. `at` is what to blame:
+/// throws Error there when `rest` names no leaf.
+template <class T, class Act>
+void at_leaf(const YamlAt& at, const Field& field, T& value, std::string_view rest, const Act& act);
+
+/// "head.tail" -> head, tail.
+[[nodiscard]] inline std::pair<std::string_view, std::string_view> split_path(
+    std::string_view path) {
+  const std::size_t dot = std::min(path.find('.'), path.size());
+  return {path.substr(0, dot), path.substr(std::min(dot + 1, path.size()))};
+}
+
+/// Throws Error when the path ends at something that has keys of its own, or goes on with none of
+/// them.
+[[noreturn]] inline void fail_on_key(const YamlAt& at, std::string_view key,
+                                     const std::vector<std::string>& keys) {
+  if (key.empty()) {
+    at.fail(
+        fmt::format("is a section, not a value; name a key below it: {}", fmt::join(keys, ", ")));
+  }
+  at.fail(fmt::format("unknown key '{}'; {}", key, suggestion(key, keys)));
+}
+
+template <class T, class Act>
+void at_section_leaf(const YamlAt& at, T& section, std::string_view path, const Act& act) {
+  const auto [head, tail] = split_path(path);
+  bool found = false;
+  const auto try_field = [&, head = head, tail = tail](const Field& field, auto& member) {
+    if (field.key != head) return;
+    found = true;
+    at_leaf(at, field, member, tail, act);
+  };
+  fields(try_field, section);
+  if (!found) fail_on_key(at, head, keys_of(section));
+}
+
+template <class T, class Act>
+void at_choice_leaf(const YamlAt& at, T& choice, std::string_view path, const Act& act) {
+  const auto [head, tail] = split_path(path);
+  const auto try_kind = [&, head = head, tail = tail](auto& section) {
+    if (head != section.kKind) fail_on_key(at, head, {std::string(section.kKind)});
+    at_section_leaf(at, section, tail, act);
+  };
+  std::visit(try_kind, choice);
+}
+
+template <class T, class Act>
+void at_method_leaf(const YamlAt& at, T& methods, std::string_view path, const Act& act) {
+  const auto [head, tail] = split_path(path);
+  std::vector<std::string> names;
+  for (auto& method : methods) {
+    if (method.name == head) return at_section_leaf(at, method, tail, act);
+    names.push_back(method.name);
+  }
+  fail_on_key(at, head, names);
+}
+
+template <class T, class Act>
+void at_leaf(const YamlAt& at, const Field& field, T& value, std::string_view rest,
+             const Act& act) {
+  using Plain = std::remove_const_t<T>;
+  if constexpr (std::same_as<Plain, Methods>) {
+    at_method_leaf(at, value, rest, act);
+  } else if constexpr (std::same_as<Plain, Sweep>) {
+    at.fail("the sweep is not a leaf; change it in the file or by a flag sweep.PATH=[...]");
+  } else if constexpr (Choice<T>) {
+    at_choice_leaf(at, value, rest, act);
+  } else if constexpr (Section<T>) {
+    at_section_leaf(at, value, rest, act);
+  } else {
+    if (!rest.empty())
+      at.fail(
+          fmt::format("'{}' is a value and has no key '{}'; end the path there", field.key, rest));
+    act(field, value);
+  }
+}
+
+/// As set_leaf of study.hpp, from a value whose place is known.
+void set_leaf(Study& study, std::string_view path, const YamlAt& at);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/experiment/study_tree.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+/// Writes a tree of settings in block style, leaves on one line each.
+class Dumper {
+ public:
+  void section(const Section auto& value) {
+    fields([this](const Field& field, const auto& member) { this->key(field.key, member); }, value);
+  }
+
+  [[nodiscard]] std::string take() && { return std::move(text_); }
+
+ private:
+  template <class T>
+  void key(std::string_view name, const T& value) {
+    if constexpr (Section<const T> || Choice<T> || std::same_as<T, Methods> ||
+                  std::same_as<T, Sweep>) {
+      nest(name, [&] { body(value); });
+    } else if (const std::string leaf = Leaf<T>::text(value); leaf != "-") {
+      line(fmt::format("{}: {}", name, leaf));
+    }
+  }
+
+  void body(const Section auto& value) { section(value); }
+  void body(const Choice auto& choice) {
+    const auto write_kind = [this](const auto& kind) { this->key(kind.kKind, kind); };
+    std::visit(write_kind, choice);
+  }
+  void body(const Methods& methods) {
+    for (const MethodSettings& method : methods) key(method.name, method);
+  }
+  void body(const Sweep& sweep) {
+    for (const SweepAxis& axis : sweep) {
+      line(fmt::format("{}: [{}]", axis.path, fmt::join(axis.values, ", ")));
+    }
+  }
+
+  /// "name:" over an indented body, or "name: {}" where the body is empty.
+  void nest(std::string_view name, const auto& write_body) {
+    line(fmt::format("{}:", name));
+    const std::size_t before = text_.size();
+    ++depth_;
+    write_body();
+    --depth_;
+    if (text_.size() == before) text_.insert(before - 1, " {}");
+  }
+
+  void line(std::string_view content) {
+    text_ += fmt::format("{:{}}{}\n", "", 2 * depth_, content);
+  }
+
+  std::string text_;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+std::string to_yaml(const Study& study) {
+  Dumper dumper;
+  dumper.section(study);
+  return std::move(dumper).take();
+}
+
+}  // namespace mapscore::eval

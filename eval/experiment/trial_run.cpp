@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/experiment/trial_run.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "core/mapping/placement.hpp"
+#include "core/mapping/pose_belief.hpp"
+#include "eval/experiment/doses.hpp"
+#include "eval/experiment/map_frame.hpp"
+#include "eval/score/distance_score.hpp"
+#include "eval/score/voxel_score.hpp"
+#include "eval/truth/distance.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+/// The seed of everything that one repetition draws; shared by all methods and doses.
+std::uint64_t trial_seed(const Task& task) {
+  return RandomStream(task.config.seed, "trial", {static_cast<std::uint64_t>(task.seed_index)})
+      .bits();
+}
+
+Calibration believed_calibration(const Calibration& truth, const Task& task) {
+  const std::uint64_t seed = trial_seed(task);
+  const Calibration misregistered =
+      sim::misregister(truth, dose_of(task.config.faults.misregistration), seed);
+  return sim::misplace_mount(misregistered, dose_of(task.config.faults.mount), seed);
+}
+
+/// Believed T_map_base of every frame.
+std::vector<Pose> believed_poses(const Recording& recording, const Task& task) {
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < recording.frame_count(); ++frame)
+    poses.push_back(recording.T_world_base(frame));
+  poses = sim::believe_poses(poses, dose_of(task.config.faults.pose), trial_seed(task));
+  const Pose T_map_world = map_frame(task.config, task.seed_index).T_map_world();
+  for (Pose& pose : poses) pose = T_map_world * pose;
+  return poses;
+}
+
+/// The detected set of the lattice ceiling's labels: every depth pixel of a detected instance.
+ObservedObject& object_of(ClassId class_id, Observation& observation) {
+  for (ObservedObject& object : observation)
+    if (object.class_id == class_id) return object;
+  return observation.emplace_back(ObservedObject{class_id, 1.0, {}});
+}
+
+std::vector<int> positive(const std::vector<int>& tolerances) {
+  std::vector<int> kept;
+  for (const int tolerance : tolerances)
+    if (tolerance > 0) kept.push_back(tolerance);
+  return kept;
+}
+
+}  // namespace
+
+TruthOptions truth_options(const Study& config) {
+  return {.epsilon_m = config.score.epsilon_m,
+          .min_samples = config.score.min_samples,
+          .by_frame = config.score.unit == ScoreUnit::frame,
+          .distances = !config.score.distances_m.empty()};
+}
+
+TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
+                   TruthCache& truths)
+    : task_(task),
+      table_(table),
+      true_(recording.info().calibration),
+      believed_(believed_calibration(true_, task)),
+      T_map_base_(believed_poses(recording, task)),
+      reported_covariance_(reported_covariance(task.config.faults.pose)),
+      segmentation_(segmentation_params(task.config.methods.front().segmentation)),
+      place_voxels_(place_of(task.config, task.config.methods.front()) == Place::voxels),
+      blend_(std::get<BlendSettings>(task.config.fusion)),
+      threshold_(task.config.score.threshold.value.value_or(default_threshold(blend_.K))),
+      score_options_{positive(task.config.score.tolerances), task.config.score.distances_m},
+      truth_(truths.get(map_frame(task.config, task.seed_index), truth_options(task.config))),
+      map_(task.config.voxel_m) {
+  result_.counts = zero_counts(table.classes.size(), score_options_);
+}
+
+void TrialRun::advance(const Frame& frame) {
+  const Observation observation =
+      task_.labels == Labels::truth ? observe_truth(frame) : observe(frame);
+  const auto hits = place(observation, sensor_poses(frame.index), map_.edge_m());
+  map_.blend(hits, blend_.N, blend_.K);
+  ++result_.accounting.frames;
+  if (task_.config.score.unit == ScoreUnit::map) return;
+  score(truth_->view(frame.index));
+  map_ = SemanticMap(map_.edge_m());
+}
+
+TrialResult TrialRun::finish() {
+  if (task_.config.score.unit == ScoreUnit::map) score(truth_->view(0));
+  return std::move(result_);
+}
+
+Observation TrialRun::observe(const Frame& frame) {
+  const std::vector<Detection> detections = detections_of(frame.label, table_);
+  const RegisteredCloud cloud =
+      register_depth(frame.depth, believed_,
+                     pixels_wanted(detections, frame.label.cols, frame.label.rows));
+  Observation observation;
+  for (const Detection& detection : detections) {
+    Segment found = segment(detection, cloud, map_.edge_m(), segmentation_, place_voxels_);
+    account(found);
+    observation.push_back({found.class_id, found.score,
+                           std::move(place_voxels_ ? found.voxel_centres : found.points)});
+  }
+  return observation;
+}
+
+Observation TrialRun::observe_truth(const Frame& frame) const {
+  Observation observation;
+  for (int v = 0; v < frame.depth.rows; ++v) {
+    for (int u = 0; u < frame.depth.cols; ++u) {
+      const ClassId class_id = table_.class_of(frame.depth_label(v, u));
+      const double z = frame.depth(v, u) / kDepthUnitsPerMetre;
+      if (!table_.detected(class_id) || z == 0.0 || z < true_.range_min_m || z > true_.range_max_m)
+        continue;
+      object_of(class_id, observation).positions.push_back(true_.depth.back_project(u, v, z));
+    }
+  }
+  return observation;
+}
+
+void TrialRun::account(const Segment& segment) {
+  Accounting& accounting = result_.accounting;
+  ++accounting.detections;
+  accounting.points += static_cast<std::int64_t>(segment.points.size());
+  switch (segment.skipped) {
+    case SkipReason::none: break;
+    case SkipReason::no_points: ++accounting.skipped_no_points; break;
+    case SkipReason::eroded_away: ++accounting.skipped_eroded_away; break;
+    case SkipReason::no_seed_point: ++accounting.skipped_no_seed_point; break;
+    case SkipReason::seed_off_object: ++accounting.skipped_seed_off_object; break;
+  }
+}
+
+std::vector<Pose> TrialRun::sensor_poses(int frame) const {
+  PoseBelief belief;
+  belief.T_odom_base = T_map_base_.at(static_cast<std::size_t>(frame));
+  belief.covariance = reported_covariance_;
+  RandomStream stream(trial_seed(task_), "belief", {static_cast<std::uint64_t>(frame)});
+  std::vector<Pose> poses =
+      draw_poses(belief, blend_.N, blend_.noise_at, blend_.covariance, stream);
+  for (Pose& pose : poses) pose = pose * believed_.T_base_depth;
+  return poses;
+}
+
+void TrialRun::score(const ViewTruth& view) {
+  const MapSnapshot snapshot(map_.voxels());
+  result_.accounting.map_voxels += static_cast<std::int64_t>(snapshot.voxels().size());
+  Counts counts = score_voxels(snapshot, threshold_, truth_->surface, view.visible,
+                               table_.classes.size(), score_options_);
+  if (!score_options_.distances_m.empty())
+    score_distances(
+        snapshot, threshold_,
+        [&](const VoxelKey& key, ClassId class_id) {
+          const Eigen::Vector3d low = low_corner_of(key, map_.edge_m());
+          const Eigen::Vector3d edges = Eigen::Vector3d::Constant(map_.edge_m());
+          return truth_->distance_to_class[class_id](Box(low, low + edges));
+        },
+        view.samples, score_options_, counts);
+  pool_into(result_.counts, counts);
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/classes.hpp"
+#include "core/frame.hpp"
+#include "core/mapping/observation.hpp"
+#include "core/mapping/semantic_map.hpp"
+#include "core/segmentation/segmentation.hpp"
+#include "eval/experiment/lattice_truth.hpp"
+#include "eval/experiment/plan.hpp"
+#include "eval/experiment/store.hpp"
+#include "eval/recording/recording.hpp"
+
+namespace mapscore::eval {
+
+/// One trial under way: takes the frames of a recording in order and ends in counts. Used by one thread at
+/// a time; `task`, `recording`, `table` and `truths` must outlive it.
+class TrialRun {
+ public:
+  TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
+           TruthCache& truths);
+
+  /// Register, segment, place and fuse one frame under the trial's faults; and score it, where each frame
+  /// is scored by itself.
+  void advance(const Frame& frame);
+
+  /// Scores the map and gives the counts of the whole trial.
+  [[nodiscard]] TrialResult finish();
+
+  /// The map as it stands; of the last frame where each is scored by itself.
+  [[nodiscard]] const SemanticMap& map() const { return map_; }
+  [[nodiscard]] double threshold() const { return threshold_; }
+  [[nodiscard]] const LatticeTruth& truth() const { return *truth_; }
+
+ private:
+  [[nodiscard]] Observation observe(const Frame& frame);
+  [[nodiscard]] Observation observe_truth(const Frame& frame) const;
+  void account(const Segment& segment);
+  [[nodiscard]] std::vector<Pose> sensor_poses(int frame) const;
+  void score(const ViewTruth& view);
+
+  const Task& task_;
+  const ClassTable& table_;
+  Calibration true_;             ///< what rendered the images
+  Calibration believed_;         ///< what the method is told
+  std::vector<Pose> T_map_base_;  ///< believed, by frame
+  Covariance6 reported_covariance_;
+  SegmentationParams segmentation_;
+  bool place_voxels_;
+  BlendSettings blend_;
+  double threshold_;
+  ScoreOptions score_options_;
+  std::shared_ptr<const LatticeTruth> truth_;
+  SemanticMap map_;
+  TrialResult result_;
+};
+
+/// How a task's truth is made.
+[[nodiscard]] TruthOptions truth_options(const Study& config);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/experiment/yaml_at.hpp"
+
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr std::string_view kTagOfQuotes = "!";
+
+std::string describe(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Map:
+      return "is a section";
+    case YAML::NodeType::Sequence:
+      return "is a list";
+    case YAML::NodeType::Scalar:
+      return fmt::format("is {}", yaml_text(node.Scalar()));
+    default:
+      return "has no value";
+  }
+}
+
+int line_of(const YAML::Mark& mark) {
+  return mark.is_null() ? 0 : mark.line + 1;
+}
+
+std::string located(const std::string& source, int line) {
+  if (source.empty()) return "";
+  return line > 0 ? fmt::format("{}:{}: ", source, line) : source + ": ";
+}
+
+/// What the parser would pass over in silence or report in the dark.
+void refuse_hidden_characters(const std::string& text, const std::string& source) {
+  int line = 1;
+  bool indenting = true;
+  for (const char c : text) {
+    if (c == '\n') {
+      ++line;
+      indenting = true;
+    } else if (c == '\t') {
+      if (indenting) {
+        throw Error(located(source, line) + "a tab indents this line; indent with spaces");
+      }
+    } else if (c != '\r' && static_cast<unsigned char>(c) < 0x20) {
+      throw Error(fmt::format("{}control character 0x{:02x}; remove it", located(source, line),
+                              static_cast<int>(c)));
+    } else if (c != ' ') {
+      indenting = false;
+    }
+  }
+}
+
+std::vector<YAML::Node> load_all(const std::string& text, const std::string& source, bool lines) {
+  try {
+    return YAML::LoadAll(text);
+  } catch (const YAML::Exception& error) {
+    const int line = lines ? line_of(error.mark) : 0;
+    throw Error(
+        fmt::format("{}not YAML: {}; mend the syntax near here", located(source, line), error.msg));
+  }
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// Most often the unit is what is missing: a choice that continues the word is the nearest of all.
+std::size_t distance(std::string_view word, std::string_view choice) {
+  return choice.starts_with(std::string(word) + "_") ? 0 : edit_distance(word, choice);
+}
+
+}  // namespace
+
+void YamlAt::fail(std::string_view problem) const {
+  throw Error(
+      fmt::format("{}{}{}{}", located(source, line), path, path.empty() ? "" : ": ", problem));
+}
+
+std::vector<std::pair<std::string, YamlAt>> YamlAt::entries() const {
+  if (!node.IsMap()) fail(describe(node) + "; write a section, key: value");
+  std::vector<std::pair<std::string, YamlAt>> result;
+  std::set<std::string> seen;
+  for (const auto& entry : node) {
+    const int key_line = line > 0 ? line_of(entry.first.Mark()) : 0;
+    if (!entry.first.IsScalar()) fail("a key is not a word; write key: value");
+    const std::string& key = entry.first.Scalar();
+    YamlAt value{entry.second, source, key_line, join_path(path, key)};
+    if (!seen.insert(key).second) value.fail(fmt::format("key '{}' stands twice; keep one", key));
+    result.emplace_back(key, std::move(value));
+  }
+  return result;
+}
+
+std::vector<YamlAt> YamlAt::elements() const {
+  if (!node.IsSequence()) fail(describe(node) + "; write a list, [a, b, ...]");
+  std::vector<YamlAt> result;
+  for (const auto& element : node) {
+    const int own_line = line > 0 ? line_of(element.Mark()) : 0;
+    result.push_back({element, source, own_line, fmt::format("{}[{}]", path, result.size())});
+  }
+  return result;
+}
+
+std::string YamlAt::scalar(std::string_view wanted) const {
+  if (!node.IsScalar()) fail(fmt::format("{}; write {}", describe(node), wanted));
+  return node.Scalar();
+}
+
+std::string YamlAt::plain_scalar(std::string_view wanted) const {
+  std::string text = scalar(wanted);
+  if (node.Tag() == kTagOfQuotes) {
+    fail(fmt::format("is the text {}; write {}, without quotes", yaml_text(text), wanted));
+  }
+  return text;
+}
+
+YamlAt parse_yaml(const std::string& text, const std::string& source) {
+  refuse_hidden_characters(text, source);
+  const std::vector<YAML::Node> documents = load_all(text, source, true);
+  if (documents.empty() || documents[0].IsNull()) {
+    throw Error(located(source, 1) + "the file is empty; write key: value");
+  }
+  if (documents.size() > 1) {
+    throw Error(located(source, line_of(documents[1].Mark())) +
+                "a second document begins; keep one a file");
+  }
+  return {documents[0], source, std::max(1, line_of(documents[0].Mark())), ""};
+}
+
+YamlAt parse_yaml_value(const std::string& text, const std::string& source,
+                        const std::string& path) {
+  refuse_hidden_characters(text, source);
+  const std::vector<YAML::Node> documents = load_all(text, source, false);
+  YamlAt at{documents.empty() ? YAML::Node() : documents[0], source, 0, path};
+  if (documents.size() > 1) at.fail("holds more than one YAML document; write one value");
+  return at;
+}
+
+YamlAt find(const YamlAt& root, std::string_view path) {
+  YamlAt at = root;
+  std::string_view rest = path;
+  while (!rest.empty() && at.node.IsMap()) {
+    const auto children = at.entries();
+    const auto child = std::ranges::find_if(children, [&](const auto& entry) {
+      return entry.first == rest || entry.first == rest.substr(0, rest.find('.'));
+    });
+    if (child == children.end()) break;
+    at = child->second;
+    rest.remove_prefix(std::min(rest.size(), child->first.size() + 1));
+  }
+  at.path = path;
+  return at;
+}
+
+std::string yaml_text(std::string_view text) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.' || c == '/';
+  };
+  const bool word = !text.empty() && text.front() != '-' && std::ranges::all_of(text, plain) &&
+                    text != "null" && text != "Null" && text != "NULL" && text != "...";
+  if (word) return std::string(text);
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (c == '\n') {
+      result += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      result += fmt::format("\\x{:02x}", static_cast<int>(c));
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& choices) {
+  const auto nearest = std::ranges::min_element(
+      choices, {}, [&](const std::string& choice) { return distance(word, choice); });
+  if (nearest == choices.end()) return "remove it";
+  const std::size_t most = std::max<std::size_t>(1, std::min<std::size_t>(3, word.size() / 3));
+  if (distance(word, *nearest) <= most) return fmt::format("did you mean '{}'?", *nearest);
+  return fmt::format("write one of {}", fmt::join(choices, ", "));
+}
+
+std::string join_path(std::string_view head, std::string_view tail) {
+  return head.empty() ? std::string(tail) : fmt::format("{}.{}", head, tail);
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/recording/info_yaml.hpp"
+
+#include "eval/recording/pose_text.hpp"
+#include "eval/recording/yaml_value.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr std::uint64_t kMaxSize =
+    16384;  // pixels; also keeps a damaged file from asking for all memory
+constexpr std::uint64_t kMaxFrames = 1'000'000;  // file names have six digits
+
+std::string camera_text(const CameraModel& camera, double rate_hz) {
+  return fmt::format(
+      "width_px: {}, height_px: {}, fx_px: {}, fy_px: {}, cx_px: {}, cy_px: {}, rate_hz: {}",
+      camera.width_px, camera.height_px, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px,
+      rate_hz);
+}
+
+std::string class_text(const SemanticClass& c) {
+  return fmt::format("  - {{id: {}, name: {}, colour: \"{:02X}{:02X}{:02X}\", detect: {}}}\n", c.id,
+                     yaml_quoted(c.name), c.colour.r, c.colour.g, c.colour.b, c.detect);
+}
+
+std::string instance_text(const Instance& instance) {
+  return fmt::format("  - {{id: {}, name: {}, class: {}}}\n", instance.id,
+                     yaml_quoted(instance.name), instance.class_id);
+}
+
+CameraModel camera_of(const YamlValue& value) {
+  CameraModel camera;
+  camera.width_px = static_cast<int>(value.at("width_px").whole(1, kMaxSize));
+  camera.height_px = static_cast<int>(value.at("height_px").whole(1, kMaxSize));
+  camera.fx_px = value.at("fx_px").positive();
+  camera.fy_px = value.at("fy_px").positive();
+  camera.cx_px = value.at("cx_px").number();
+  camera.cy_px = value.at("cy_px").number();
+  return camera;
+}
+
+Pose pose_at(const YamlValue& root, const std::string& key) {
+  const YamlValue value = root.at(key);
+  const std::vector<YamlValue> items = value.items();
+  PoseNumbers numbers{};
+  if (items.size() != numbers.size()) value.refuse("expected [tx, ty, tz, qx, qy, qz, qw]");
+  std::transform(items.begin(), items.end(), numbers.begin(),
+                 [](const YamlValue& item) { return item.number(); });
+  const auto pose = pose_of(numbers);
+  if (!pose) value.refuse("quaternion qx, qy, qz, qw is not of length 1; normalise it");
+  return *pose;
+}
+
+Colour colour_of(const YamlValue& value) {
+  const std::string text = value.text();
+  std::uint32_t rgb = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, rgb, 16);
+  if (text.size() != 6 || error != std::errc() || stop != end)
+    value.refuse("expected a colour as six hexadecimal digits, \"RRGGBB\"");
+  return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255),
+          static_cast<std::uint8_t>(rgb & 255)};
+}
+
+/// Ids stand in order without gaps, so the n-th entry has id n.
+std::uint16_t id_of(const YamlValue& item, std::size_t expected) {
+  if (expected > std::numeric_limits<std::uint16_t>::max()) item.refuse("more than 65536 entries");
+  return static_cast<std::uint16_t>(item.at("id").whole(expected, expected));
+}
+
+std::vector<SemanticClass> classes_of(const YamlValue& value) {
+  std::vector<SemanticClass> classes;
+  for (const YamlValue& item : value.items()) {
+    item.only({"id", "name", "colour", "detect"});
+    SemanticClass c{id_of(item, classes.size()), item.at("name").text(),
+                    colour_of(item.at("colour")), item.at("detect").boolean()};
+    for (const SemanticClass& other : classes)
+      if (other.name == c.name) item.refuse("two classes have this name; rename one");
+    classes.push_back(std::move(c));
+  }
+  if (classes.empty()) value.refuse("no classes; list at least background with id 0");
+  return classes;
+}
+
+std::vector<Instance> instances_of(const YamlValue& value, std::size_t class_count) {
+  std::vector<Instance> instances;
+  for (const YamlValue& item : value.items()) {
+    item.only({"id", "name", "class"});
+    const InstanceId id = id_of(item, instances.size());
+    const auto class_id = static_cast<ClassId>(item.at("class").whole(0, class_count - 1));
+    if (id == 0 && class_id != kBackground) item.refuse("instance 0 is background, class 0");
+    instances.push_back({id, item.at("name").text(), class_id});
+  }
+  if (instances.empty()) value.refuse("no instances; list at least background with id 0");
+  return instances;
+}
+
+Calibration calibration_of(const YamlValue& root) {
+  const YamlValue color = root.at("color"), depth = root.at("depth");
+  color.only({"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px", "rate_hz"});
+  depth.only({"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px", "rate_hz", "range_min_m",
+              "range_max_m"});
+  Calibration calibration;
+  calibration.color = camera_of(color);
+  calibration.depth = camera_of(depth);
+  calibration.T_color_depth = pose_at(root, "T_color_depth");
+  calibration.T_base_depth = pose_at(root, "T_base_depth");
+  calibration.range_min_m = depth.at("range_min_m").number();
+  calibration.range_max_m = depth.at("range_max_m").number();
+  if (calibration.range_min_m < 0.0 || calibration.range_max_m <= calibration.range_min_m)
+    depth.refuse("expected 0 <= range_min_m < range_max_m");
+  return calibration;
+}
+
+void check_version(const YamlValue& root) {
+  const YamlValue version = root.at("format_version");
+  if (version.text() != std::to_string(kRecordingFormat))
+    version.refuse(fmt::format("recording of format {}, this program reads {}; record it again",
+                               version.text(), kRecordingFormat));
+}
+
+}  // namespace
+
+std::string info_text(const RecordingInfo& info) {
+  const Calibration& calibration = info.calibration;
+  std::string text = fmt::format("format_version: {}\n", kRecordingFormat);
+  text += fmt::format("scene: {}\nscene_hash: {}\nmujoco_version: {}\nseed: {}\n",
+                      yaml_quoted(info.scene), yaml_quoted(info.scene_hash),
+                      yaml_quoted(info.mujoco_version), info.seed);
+  text += fmt::format("frame_count: {}\nhas_truth: {}\n", info.frame_count, info.has_truth);
+  text += fmt::format("color: {{{}}}\n", camera_text(calibration.color, info.color_rate_hz));
+  text += fmt::format("depth: {{{}, range_min_m: {}, range_max_m: {}}}\n",
+                      camera_text(calibration.depth, info.depth_rate_hz), calibration.range_min_m,
+                      calibration.range_max_m);
+  text += fmt::format("T_color_depth: [{}]\nT_base_depth: [{}]\n",
+                      join_numbers(numbers_of(calibration.T_color_depth), ", "),
+                      join_numbers(numbers_of(calibration.T_base_depth), ", "));
+  text += "classes:\n";
+  for (const SemanticClass& c : info.table.classes) text += class_text(c);
+  text += "instances:\n";
+  for (const Instance& instance : info.table.instances) text += instance_text(instance);
+  return text;
+}
+
+RecordingInfo read_info(const std::filesystem::path& file) {
+  const YamlValue root = YamlValue::load(file);
+  check_version(root);
+  root.only({"format_version", "scene", "scene_hash", "mujoco_version", "seed", "frame_count",
+             "has_truth", "color", "depth", "T_color_depth", "T_base_depth", "classes",
+             "instances"});
+  RecordingInfo info;
+  info.scene = root.at("scene").text();
+  info.scene_hash = root.at("scene_hash").text();
+  info.mujoco_version = root.at("mujoco_version").text();
+  info.seed = root.at("seed").whole(0, std::numeric_limits<std::uint64_t>::max());
+  info.frame_count = static_cast<int>(root.at("frame_count").whole(1, kMaxFrames));
+  info.has_truth = root.at("has_truth").boolean();
+  info.calibration = calibration_of(root);
+  info.color_rate_hz = root.at("color").at("rate_hz").positive();
+  info.depth_rate_hz = root.at("depth").at("rate_hz").positive();
+  info.table.classes = classes_of(root.at("classes"));
+  info.table.instances = instances_of(root.at("instances"), info.table.classes.size());
+  return info;
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace mapscore::eval {
+
+// PNG for the two kinds of image in a recording: 8-bit colour and 16-bit grey, not interlaced. On
+// libdeflate with its own chunks and row filters, for speed (docs/formats.md has the figures) and
+// because libpng prints to standard error. Any PNG of these kinds is read, whoever wrote it. All
+// functions are pure: the same image gives the same bytes with the same release of libdeflate.
+
+/// BGR in memory, RGB in the file.
+[[nodiscard]] std::string encode_png(const cv::Mat3b& image);
+[[nodiscard]] std::string encode_png(const cv::Mat1w& image);
+
+/// The image in `bytes`, which must have `size`. Signature, chunk order and lengths, the CRC of
+/// every chunk and the checksum of the pixels are verified. `name` opens the message of the Error.
+[[nodiscard]] cv::Mat3b decode_color_png(std::string_view bytes, cv::Size size,
+                                         const std::string& name);
+[[nodiscard]] cv::Mat1w decode_grey16_png(std::string_view bytes, cv::Size size,
+                                          const std::string& name);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/baseline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+constexpr std::array kKept{"precision", "recall", "f1", "iou", "f1_t1", "f_2cm"};
+constexpr const char* kHeader = "what,class,metric,value";
+
+std::string description_of(const ResultLine& line) {
+  std::string text = fmt::format("{} {}", name_of(line.role), line.method);
+  for (const auto& [path, value] : line.cell.doses) text += fmt::format(" {}={}", path, value);
+  return text;
+}
+
+std::string text_of(const std::optional<double>& value) {
+  return value ? fmt::format("{:.6f}", *value) : "-";
+}
+
+std::optional<double> parse_value(const std::string& text, const std::string& where) {
+  if (text == "-") return std::nullopt;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw Error(where + ": '" + text + "' is no number; write the baseline again with --write");
+  return value;
+}
+
+}  // namespace
+
+std::vector<BaselineRow> baseline_of(const StudySummary& summary) {
+  std::vector<BaselineRow> rows;
+  for (const auto* lines :
+       {&summary.trials, &summary.registration_ceilings, &summary.lattice_ceilings})
+    for (const ResultLine& line : *lines)
+      for (const std::string& group : summary.groups())
+        for (const Metric& metric : metrics_of_group(line.pooled, summary.table, group))
+          if (std::find(kKept.begin(), kKept.end(), metric.name) != kKept.end())
+            rows.push_back({description_of(line), group, metric.name, metric.value});
+  return rows;
+}
+
+void write_baseline(const std::vector<BaselineRow>& rows, const std::filesystem::path& file) {
+  const std::filesystem::path aside = file.string() + ".partial";
+  std::ofstream stream(aside);
+  stream << kHeader << '\n';
+  for (const BaselineRow& row : rows)
+    stream << row.what << ',' << row.group << ',' << row.metric << ',' << text_of(row.value) << '\n';
+  stream.close();
+  std::error_code error;
+  if (stream) std::filesystem::rename(aside, file, error);
+  if (!stream || error) {
+    std::filesystem::remove(aside, error);
+    throw Error(file.string() + ": cannot be written; check the folder, its permissions and free space");
+  }
+}
+
+std::vector<BaselineRow> read_baseline(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream)
+    throw Error(file.string() + ": no baseline there; make one with `mapscore check RESULTS --baseline " +
+                file.string() + " --write`");
+  std::vector<BaselineRow> rows;
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    const std::string where = fmt::format("{}:{}", file.string(), number);
+    if (number == 1) {
+      if (line != kHeader) throw Error(where + ": not a baseline; its first line is " + kHeader);
+      continue;
+    }
+    std::istringstream cells(line);
+    BaselineRow row;
+    std::string value;
+    if (!std::getline(cells, row.what, ',') || !std::getline(cells, row.group, ',') ||
+        !std::getline(cells, row.metric, ',') || !std::getline(cells, value))
+      throw Error(where + ": needs four columns: " + kHeader);
+    row.value = parse_value(value, where);
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) throw Error(file.string() + ": the baseline holds no figure; write it again");
+  return rows;
+}
+
+std::vector<Fall> falls(const std::vector<BaselineRow>& baseline,
+                        const std::vector<BaselineRow>& now, double allowed) {
+  std::map<std::tuple<std::string, std::string, std::string>, std::optional<double>> values;
+  for (const BaselineRow& row : now) values[{row.what, row.group, row.metric}] = row.value;
+  std::vector<Fall> fallen;
+  for (const BaselineRow& row : baseline) {
+    if (!row.value) continue;
+    const auto found = values.find({row.what, row.group, row.metric});
+    const std::optional<double> value = found == values.end() ? std::nullopt : found->second;
+    if (!value || *value < *row.value - allowed) fallen.push_back({row, value});
+  }
+  return fallen;
+}
+
+Table fall_table(const std::vector<Fall>& fallen) {
+  Table table;
+  table.columns = {"what", "class", "metric", "baseline", "now", "change"};
+  for (const Fall& fall : fallen)
+    table.rows.push_back({fall.baseline.what, fall.baseline.group, fall.baseline.metric,
+                          text_of(fall.baseline.value), text_of(fall.now),
+                          fall.now ? fmt::format("{:+.6f}", *fall.now - *fall.baseline.value)
+                                   : "missing"});
+  return table;
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/classes.hpp"
+#include "eval/experiment/grid.hpp"
+#include "eval/experiment/plan.hpp"
+#include "eval/experiment/store.hpp"
+#include "eval/experiment/study.hpp"
+#include "eval/score/intervals.hpp"
+#include "eval/score/metrics.hpp"
+
+namespace mapscore::eval {
+
+/// Rows that pool all detected classes, and that average over them; class names may not be these.
+inline constexpr std::string_view kPooled = "pooled";
+inline constexpr std::string_view kMacro = "macro";
+
+/// What a line of results stands for.
+enum class Role { trial, registration_ceiling, lattice_ceiling };
+[[nodiscard]] const char* name_of(Role role);
+
+/// All seeds of one method at one cell of the grid, or of its ceiling.
+struct ResultLine {
+  Role role = Role::trial;
+  std::string method;
+  Cell cell;
+  std::vector<int> seeds;            ///< indices, in the order of `results`
+  std::vector<TrialResult> results;  ///< one a seed
+  Counts pooled;                     ///< counts summed over the seeds
+};
+
+/// A figure of a line: formed from the pooled counts, and its spread over the seeds.
+struct Estimate {
+  std::optional<double> pooled;
+  SeedSummary over_seeds;
+};
+
+/// The results of one study, complete and in the order of its grid. Immutable.
+struct StudySummary {
+  Study study;
+  ClassTable table;
+  std::vector<ResultLine> trials;
+  /// Ceilings of `trials[i]`; lines that agree for several trials are repeated.
+  std::vector<ResultLine> registration_ceilings, lattice_ceilings;
+
+  /// "pooled", "macro", then the detected classes.
+  [[nodiscard]] std::vector<std::string> groups() const;
+};
+
+/// Opens the store of a study (`results` is the folder or its results.sqlite) and reads all its trials.
+/// Throws Error when there is none, or when trials are missing (says how many, and the command that goes on).
+[[nodiscard]] StudySummary summarise_store(const std::filesystem::path& results);
+
+/// Metrics of a line's counts for one group of groups().
+[[nodiscard]] std::vector<Metric> metrics_of_group(const Counts& counts, const ClassTable& table,
+                                                   std::string_view group);
+
+/// Throws Error when there is no such metric.
+[[nodiscard]] Estimate estimate(const ResultLine& line, const ClassTable& table,
+                                std::string_view group, const std::string& metric);
+
+/// results.sqlite of a results folder, or the file itself.
+[[nodiscard]] std::filesystem::path store_file(const std::filesystem::path& results);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/table.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include <fmt/format.h>
+
+namespace mapscore::eval {
+namespace {
+
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{:.3f}", *value) : "-";
+}
+
+std::string spread(const SeedSummary& seeds) {
+  return seeds.low && seeds.high ? fmt::format("{:.3f}..{:.3f}", *seeds.low, *seeds.high) : "-";
+}
+
+bool has_metric(const ResultLine& line, const StudySummary& summary, const std::string& name) {
+  const auto metrics = metrics_of_group(line.pooled, summary.table, kPooled);
+  return std::any_of(metrics.begin(), metrics.end(),
+                     [&](const Metric& metric) { return metric.name == name; });
+}
+
+std::vector<std::string> caption_of(const StudySummary& summary, const std::string& group) {
+  const Study& study = summary.study;
+  std::string detected;
+  for (const SemanticClass& c : summary.table.classes)
+    if (c.detect) detected += (detected.empty() ? "" : ", ") + c.name;
+  std::vector<std::string> caption{
+      fmt::format("{}: {} classes; detected: {}", study.name, group, detected),
+      fmt::format("voxels of {} m; {} seed{}; each {} scored; figures of counts pooled over seeds",
+                  study.voxel_m, study.seeds, study.seeds == 1 ? "" : "s",
+                  study.score.unit == ScoreUnit::map ? "map" : "frame"),
+      study.seeds < kSeedsForInterval
+          ? fmt::format("F1 spread: least and greatest of the seeds (fewer than {})", kSeedsForInterval)
+          : std::string("F1 spread: 95 % interval of the mean over seeds (Student t)"),
+      "ceilings: lattice = true labels on the depth pixels, true pose; registration = the method at dose "
+      "zero"};
+  return caption;
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(width - std::min(width, text.size()), ' ');
+}
+
+}  // namespace
+
+Table score_table(const StudySummary& summary, const std::string& group) {
+  Table table;
+  table.caption = caption_of(summary, group);
+  std::vector<std::pair<std::string, std::string>> metrics{
+      {"precision", "precision"}, {"recall", "recall"}, {"F1", "f1"}, {"IoU", "iou"}};
+  for (const auto& [title, name] : std::vector<std::pair<std::string, std::string>>{
+           {"F1 tol. 1", "f1_t1"}, {"F at 2 cm", "f_2cm"}})
+    if (!summary.trials.empty() && has_metric(summary.trials.front(), summary, name))
+      metrics.emplace_back(title, name);
+
+  for (const SweepAxis& axis : summary.study.sweep)
+    table.columns.push_back(axis.path.substr(axis.path.rfind('.') + 1));
+  table.columns.push_back("method");
+  for (const auto& [title, name] : metrics) table.columns.push_back(title);
+  for (const char* title : {"F1 spread", "registration F1", "lattice precision", "lattice recall"})
+    table.columns.emplace_back(title);
+
+  for (std::size_t i = 0; i < summary.trials.size(); ++i) {
+    const ResultLine& line = summary.trials[i];
+    const auto pooled = [&](const ResultLine& of, const std::string& metric) {
+      return number(estimate(of, summary.table, group, metric).pooled);
+    };
+    std::vector<std::string> row;
+    for (const auto& [path, value] : line.cell.doses) row.push_back(value);
+    row.push_back(line.method);
+    for (const auto& [title, name] : metrics) row.push_back(pooled(line, name));
+    row.push_back(spread(estimate(line, summary.table, group, "f1").over_seeds));
+    row.push_back(pooled(summary.registration_ceilings[i], "f1"));
+    row.push_back(pooled(summary.lattice_ceilings[i], "precision"));
+    row.push_back(pooled(summary.lattice_ceilings[i], "recall"));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string to_text(const Table& table) {
+  std::vector<std::size_t> widths;
+  for (const std::string& column : table.columns) widths.push_back(column.size());
+  for (const auto& row : table.rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  const auto line = [&](const std::vector<std::string>& cells) {
+    std::string text;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      text += (i ? "  " : "") + padded(cells[i], widths[i]);
+    return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
+  };
+  std::string text;
+  for (const std::string& caption : table.caption) text += "# " + caption + '\n';
+  text += line(table.columns);
+  for (const auto& row : table.rows) text += line(row);
+  return text;
+}
+
+std::string to_csv(const Table& table) {
+  const auto line = [](const std::vector<std::string>& cells) {
+    std::string text;
+    for (const std::string& cell : cells) text += (text.empty() ? "" : ",") + cell;
+    return text + '\n';
+  };
+  std::string text = line(table.columns);
+  for (const auto& row : table.rows) text += line(row);
+  return text;
+}
+
+std::string to_json(const Table& table) {
+  nlohmann::ordered_json object{{"caption", table.caption},
+                                {"rows", nlohmann::ordered_json::array()}};
+  for (const auto& row : table.rows) {
+    nlohmann::ordered_json entry;
+    for (std::size_t i = 0; i < row.size(); ++i) entry[table.columns[i]] = row[i];
+    object["rows"].push_back(std::move(entry));
+  }
+  return object.dump(2) + '\n';
+}
+
+}  // namespace mapscore::eval

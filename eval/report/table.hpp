@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "eval/report/summary.hpp"
+
+namespace mapscore::eval {
+
+/// A table for people: a caption of what it stands on, column names, cells as text (`-` is undefined).
+struct Table {
+  std::vector<std::string> caption;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// Scores of every method at every cell for one group of classes ("pooled", "macro" or a class), at
+/// tolerance 0 and, where scored, 1 and by distance, with both ceilings.
+[[nodiscard]] Table score_table(const StudySummary& summary, const std::string& group);
+
+[[nodiscard]] std::string to_text(const Table& table);
+[[nodiscard]] std::string to_csv(const Table& table);
+[[nodiscard]] std::string to_json(const Table& table);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/classes.hpp"
+#include "eval/score/distance_tally.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// What is counted beside the plain voxel counts.
+struct ScoreOptions {
+  std::vector<int> tolerances{1};                           ///< voxels, each in 1..5, ascending
+  std::vector<double> distances_m{0.01, 0.02, 0.05, 0.10};  ///< tau of the F-score, ascending
+};
+
+/// Throws Error when a list is not ascending or a value is out of range.
+void check(const ScoreOptions& options);
+
+/// Counts at one tolerance t: predicted voxels within t voxels of S_c, visible ones within t of
+/// P_c.
+struct ToleranceCounts {
+  int voxels = 1;
+  std::int64_t true_predicted = 0, found = 0;
+
+  bool operator==(const ToleranceCounts&) const = default;
+};
+
+/// Everything counted for one class: integers that add over frames and trials. Pool them with +=,
+/// then form ratios (metrics.hpp). With P_c predicted, S_c surface truth, V_c visible truth.
+struct ClassCounts {
+  std::int64_t predicted = 0;       ///< |P_c|
+  std::int64_t true_predicted = 0;  ///< |P_c in S_c|
+  std::int64_t visible = 0;         ///< |V_c|
+  std::int64_t found = 0;           ///< |V_c in P_c|
+
+  /// Causes of the false voxels; they add up to predicted - true_predicted.
+  std::int64_t false_near = 0;      ///< one of the 26 neighbours is in S_c
+  std::int64_t false_leak = 0;      ///< else: on the surface of another class, background included
+  std::int64_t false_floating = 0;  ///< else
+
+  /// Causes of the missed voxels; they add up to visible - found.
+  std::int64_t missed_mislabelled = 0;  ///< another class is predicted there
+  std::int64_t missed_unlabelled = 0;   ///< in the map, but nothing is predicted there
+  std::int64_t missed_unmapped = 0;     ///< not in the map
+
+  std::vector<ToleranceCounts> at_tolerance;
+  DistanceTally accuracy;      ///< predicted cubes to the class's exact surface
+  DistanceTally completeness;  ///< noise-free samples of the class to the nearest predicted cube
+
+  /// Pools. Throws Error when tolerances or distances differ.
+  ClassCounts& operator+=(const ClassCounts& other);
+  bool operator==(const ClassCounts&) const = default;
+};
+
+/// Indexed by class id; entry 0 (background) stays zero, since background is never predicted.
+using Counts = std::vector<ClassCounts>;
+
+/// Zero counts for every class, with tolerances as asked for and no distances.
+[[nodiscard]] Counts zero_counts(std::size_t class_count, const ScoreOptions& options);
+
+/// Pools class by class; an empty `total` takes `counts`. Throws Error when sizes or options
+/// differ.
+void pool_into(Counts& total, const Counts& counts);
+
+/// Counts pooled over the detected classes of the table. Throws Error when sizes differ.
+[[nodiscard]] ClassCounts pool_detected(const Counts& counts, const ClassTable& table);
+
+}  // namespace mapscore::eval

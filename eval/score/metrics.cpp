@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/score/metrics.hpp"
+
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+namespace mapscore::eval {
+
+namespace {
+
+constexpr double kCentimetresPerMetre = 100.0;
+constexpr double kPercentile = 0.95;
+
+void append_tolerance(const ClassCounts& counts, const ToleranceCounts& at,
+                      std::vector<Metric>& metrics) {
+  metrics.push_back(
+      {fmt::format("precision_t{}", at.voxels), ratio(at.true_predicted, counts.predicted)});
+  metrics.push_back({fmt::format("recall_t{}", at.voxels), ratio(at.found, counts.visible)});
+  metrics.push_back({fmt::format("f1_t{}", at.voxels),
+                     f1(at.true_predicted, counts.predicted, at.found, counts.visible)});
+}
+
+void append_limit(const DistanceTally& accuracy, const DistanceTally& completeness,
+                  std::size_t limit, std::vector<Metric>& metrics) {
+  const std::string tau =
+      fmt::format("{:.6g}cm", accuracy.limits_m()[limit] * kCentimetresPerMetre);
+  const std::int64_t precise = accuracy.within(limit), complete = completeness.within(limit);
+  metrics.push_back({"precision_" + tau, ratio(precise, accuracy.count())});
+  metrics.push_back({"recall_" + tau, ratio(complete, completeness.count())});
+  metrics.push_back({"f_" + tau, f1(precise, accuracy.count(), complete, completeness.count())});
+}
+
+/// Mean of one figure over the classes where it is defined.
+std::optional<double> mean_defined(std::span<const std::vector<Metric>> classes,
+                                   std::size_t figure) {
+  double sum = 0.0;
+  int defined = 0;
+  for (const std::vector<Metric>& metrics : classes) {
+    if (!metrics[figure].value) continue;
+    sum += *metrics[figure].value;
+    ++defined;
+  }
+  return defined == 0 ? std::nullopt : std::optional(sum / defined);
+}
+
+}  // namespace
+
+std::optional<double> ratio(std::int64_t part, std::int64_t whole) {
+  if (whole == 0) return std::nullopt;
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::optional<double> f1(std::int64_t true_predicted, std::int64_t predicted, std::int64_t found,
+                         std::int64_t visible) {
+  if (predicted == 0 && visible == 0) return std::nullopt;
+  const double p = ratio(true_predicted, predicted).value_or(0.0);
+  const double r = ratio(found, visible).value_or(0.0);
+  return p + r == 0.0 ? 0.0 : 2.0 * p * r / (p + r);
+}
+
+std::optional<double> precision(const ClassCounts& counts) {
+  return ratio(counts.true_predicted, counts.predicted);
+}
+
+std::optional<double> recall(const ClassCounts& counts) {
+  return ratio(counts.found, counts.visible);
+}
+
+std::optional<double> f1(const ClassCounts& counts) {
+  return f1(counts.true_predicted, counts.predicted, counts.found, counts.visible);
+}
+
+std::optional<double> iou(const ClassCounts& counts) {
+  return ratio(counts.found, counts.visible + counts.predicted - counts.true_predicted);
+}
+
+std::vector<Metric> metrics_of(const ClassCounts& counts) {
+  std::vector<Metric> metrics{{"precision", precision(counts)},
+                              {"recall", recall(counts)},
+                              {"f1", f1(counts)},
+                              {"iou", iou(counts)}};
+  for (const ToleranceCounts& at : counts.at_tolerance) append_tolerance(counts, at, metrics);
+  const DistanceTally &accuracy = counts.accuracy, &completeness = counts.completeness;
+  for (std::size_t l = 0; l < accuracy.limits_m().size(); ++l) {
+    append_limit(accuracy, completeness, l, metrics);
+  }
+  if (accuracy.limits_m().empty()) return metrics;
+  metrics.push_back({"accuracy_mean_m", accuracy.mean_m()});
+  metrics.push_back({"accuracy_p95_m", accuracy.percentile_m(kPercentile)});
+  metrics.push_back({"completeness_mean_m", completeness.mean_m()});
+  metrics.push_back({"completeness_p95_m", completeness.percentile_m(kPercentile)});
+  return metrics;
+}
+
+std::vector<Metric> macro_metrics(const Counts& counts, const ClassTable& table) {
+  if (counts.size() != table.classes.size()) {
+    throw Error(
+        "score: counts and class table differ in size; use the table the map was scored with");
+  }
+  std::vector<std::vector<Metric>> classes;
+  for (const SemanticClass& semantic : table.classes) {
+    if (!semantic.detect || counts[semantic.id].visible == 0) continue;
+    classes.push_back(metrics_of(counts[semantic.id]));
+  }
+  if (classes.empty()) return {};
+  std::vector<Metric> macro = classes.front();
+  for (std::size_t figure = 0; figure < macro.size(); ++figure) {
+    macro[figure].value = mean_defined(classes, figure);
+  }
+  return macro;
+}
+
+std::optional<double> value_of(const std::vector<Metric>& metrics, const std::string& name) {
+  const auto metric = std::find_if(metrics.begin(), metrics.end(),
+                                   [&name](const Metric& m) { return m.name == name; });
+  if (metric == metrics.end()) {
+    throw Error("metric '" + name +
+                "': there is none of that name; score with the tolerance or distance it needs");
+  }
+  return metric->value;
+}
+
+}  // namespace mapscore::eval

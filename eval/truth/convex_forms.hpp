@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/shape.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <variant>
+
+namespace mapscore::eval {
+
+/// Closed axis-aligned box of the map frame, metres.
+using Box = Eigen::AlignedBox3d;
+
+// The convex forms that every drawn surface is made of, placed in the map frame. Rotations take the
+// form's own axes to the map's. Metres.
+
+/// |R^T (x - centre)| <= half on each axis. A rectangle when half.z is 0.
+struct OrientedBox {
+  Eigen::Matrix3d R;
+  Eigen::Vector3d centre, half;
+};
+
+struct Ball {
+  Eigen::Vector3d centre;
+  double radius;
+};
+
+/// |diag(radii)^-1 R^T (x - centre)| <= 1.
+struct Ellipsoid {
+  Eigen::Matrix3d R;
+  Eigen::Vector3d centre, radii;
+};
+
+/// All points within `radius` of the segment from `a` to `b`.
+struct Capsule {
+  Eigen::Vector3d a, b;
+  double radius;
+};
+
+/// With y = R^T (x - centre): y.x^2 + y.y^2 <= radius^2 and |y.z| <= half.
+struct Cylinder {
+  Eigen::Matrix3d R;
+  Eigen::Vector3d centre;
+  double radius, half;
+};
+
+using Form = std::variant<OrientedBox, Ball, Ellipsoid, Capsule, Cylinder, Triangle>;
+
+/// True when the closed form and the closed box have a point in common. Exact up to rounding:
+/// separating axes (boxes, triangles), the nearest point of a box (balls), a box-constrained least
+/// squares problem solved by its active sets (ellipsoids), the least distance of a segment
+/// (capsules), the box cut by the slab of the axis and projected along it (cylinders).
+[[nodiscard]] bool meets(const OrientedBox& form, const Box& box);
+[[nodiscard]] bool meets(const Triangle& form, const Box& box);
+[[nodiscard]] bool meets(const Ball& form, const Box& box);
+[[nodiscard]] bool meets(const Ellipsoid& form, const Box& box);
+[[nodiscard]] bool meets(const Capsule& form, const Box& box);
+[[nodiscard]] bool meets(const Cylinder& form, const Box& box);
+
+/// How far a point of the form lies from the form's boundary (metres, <= 0 outside; then only the
+/// sign is meaningful). Concave within the form, so the least depth of a box is that of a corner.
+[[nodiscard]] double depth(const OrientedBox& form, const Eigen::Vector3d& p);
+[[nodiscard]] double depth(const Ball& form, const Eigen::Vector3d& p);
+[[nodiscard]] double depth(const Ellipsoid& form, const Eigen::Vector3d& p);
+[[nodiscard]] double depth(const Capsule& form, const Eigen::Vector3d& p);
+[[nodiscard]] double depth(const Cylinder& form, const Eigen::Vector3d& p);
+
+/// True when the closed box lies in the open interior of the form; forms are convex, so this is a
+/// test of the eight corners.
+[[nodiscard]] bool contains(const OrientedBox& form, const Box& box);
+[[nodiscard]] bool contains(const Ball& form, const Box& box);
+[[nodiscard]] bool contains(const Ellipsoid& form, const Box& box);
+[[nodiscard]] bool contains(const Capsule& form, const Box& box);
+[[nodiscard]] bool contains(const Cylinder& form, const Box& box);
+
+/// Smallest axis-aligned box around the form.
+[[nodiscard]] Box bounds_of(const OrientedBox& form);
+[[nodiscard]] Box bounds_of(const Triangle& form);
+[[nodiscard]] Box bounds_of(const Ball& form);
+[[nodiscard]] Box bounds_of(const Ellipsoid& form);
+[[nodiscard]] Box bounds_of(const Capsule& form);
+[[nodiscard]] Box bounds_of(const Cylinder& form);
+
+/// Corner 0..7 of a box: bit 0 picks the high x, bit 1 the high y, bit 2 the high z.
+[[nodiscard]] inline Eigen::Vector3d corner_of(const Box& box, int corner) {
+  return {(corner & 1 ? box.max() : box.min()).x(), (corner & 2 ? box.max() : box.min()).y(),
+          (corner & 4 ? box.max() : box.min()).z()};
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/truth/visible_truth.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace mapscore::eval {
+namespace {
+
+/// Owner and samples of one voxel from its counts, which are sorted by class and not empty.
+VisibleVoxel owned(std::span<const SampleCount> counts) {
+  VisibleVoxel voxel{counts.front().key, counts.front().class_id, 0};
+  std::uint32_t most = 0;
+  for (const SampleCount& count : counts) {
+    voxel.samples += count.samples;
+    if (count.samples > most) {
+      most = count.samples;
+      voxel.owner = count.class_id;
+    }
+  }
+  return voxel;
+}
+
+}  // namespace
+
+VisibleTruth::VisibleTruth(std::vector<VisibleVoxel> voxels, double edge_m)
+    : voxels_(std::move(voxels)), index_(voxels_.size()), edge_m_(edge_m) {
+  std::sort(voxels_.begin(), voxels_.end(), [](const VisibleVoxel& a, const VisibleVoxel& b) {
+    return a.owner != b.owner ? a.owner < b.owner : a.key < b.key;
+  });
+  for (std::size_t row = 0; row < voxels_.size(); ++row) {
+    index_.insert(pack(voxels_[row].key), static_cast<std::uint32_t>(row));
+  }
+}
+
+std::span<const VisibleVoxel> VisibleTruth::of(ClassId class_id) const {
+  const auto first = std::partition_point(
+      voxels_.begin(), voxels_.end(), [=](const VisibleVoxel& v) { return v.owner < class_id; });
+  const auto last = std::partition_point(
+      first, voxels_.end(), [=](const VisibleVoxel& v) { return v.owner <= class_id; });
+  return {first, last};
+}
+
+std::optional<ClassId> VisibleTruth::owner_of(const VoxelKey& key) const {
+  const std::uint32_t row = index_.find(pack(key));
+  if (row == KeyIndex::kNone) return std::nullopt;
+  return voxels_[row].owner;
+}
+
+std::uint32_t VisibleTruth::samples(const VoxelKey& key, ClassId class_id) const {
+  const std::uint32_t row = index_.find(pack(key));
+  return row == KeyIndex::kNone || voxels_[row].owner != class_id ? 0 : voxels_[row].samples;
+}
+
+VisibleTruth visible_truth(const SampleCounter& samples, const SurfaceTruth& surface,
+                           int min_samples) {
+  if (min_samples < 1) {
+    throw Error("min_samples: is " + std::to_string(min_samples) + "; give at least 1");
+  }
+  if (samples.edge_m() != surface.edge_m()) {
+    throw Error("voxel_m: samples of " + std::to_string(samples.edge_m()) + " m and a surface of " +
+                std::to_string(surface.edge_m()) + " m do not match; compute both at one size");
+  }
+  const std::vector<SampleCount> counts = samples.counts();
+  std::vector<VisibleVoxel> voxels;
+  for (auto first = counts.begin(); first != counts.end();) {
+    const auto last = std::find_if(first, counts.end(),
+                                   [&](const SampleCount& c) { return c.key != first->key; });
+    const VisibleVoxel voxel = owned({first, last});
+    const bool enough = voxel.samples >= static_cast<std::uint32_t>(min_samples);
+    if (enough && voxel.owner != kBackground && surface.contains(voxel.key, voxel.owner)) {
+      voxels.push_back(voxel);
+    }
+    first = last;
+  }
+  return {std::move(voxels), samples.edge_m()};
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/voxel.hpp"
+#include "eval/truth/shape_tests.hpp"
+
+#include <vector>
+
+namespace mapscore::eval {
+
+/// A voxel of one piece's surface; `touch_only` when its open, unwidened cube misses the piece.
+struct PieceVoxel {
+  VoxelKey key;
+  bool touch_only = false;
+};
+
+/// Finds the voxels of one piece after the other. A block of voxels is halved as long as its
+/// widened box meets the surface and does not lie inside one other solid, so time and memory follow
+/// the surface.
+///
+/// Buried rule: the widened cube is cut into 8, 64, 512 boxes. A box that the piece's boundary
+/// meets is buried when it lies in the open interior of ONE other solid, exposed when it meets no
+/// other closed solid, else undecided. The voxel stays when a box is exposed, or undecided among
+/// the 512. Other means any other shape, also of the same body. A mesh is treated triangle by
+/// triangle: a voxel stays when it stays for one of them, which is the same thing.
+///
+/// Holds scratch memory: one per thread. `solids` is kept by reference.
+class Voxeliser {
+ public:
+  /// `solids`: all pieces that have an inside, the one to be voxelised among them or not.
+  Voxeliser(const std::vector<PreparedShape>& solids, double edge_m, double epsilon_m);
+
+  /// Appends the voxels of `piece` that stay, each once, in no promised order. Throws Error when
+  /// the piece reaches beyond 2^20 voxels from the origin.
+  void voxelise(const PreparedShape& piece, std::vector<PieceVoxel>& voxels);
+
+ private:
+  using Solids = std::vector<const PreparedShape*>;
+  struct Block {
+    VoxelKey low, high;  ///< both included
+  };
+
+  void descend(const Block& block, std::size_t first_other);
+  void settle(const VoxelKey& key, const Box& cube, std::size_t first_other);
+  bool push_others(const Box& box, std::size_t first, std::size_t last);
+  Block block_around(const Box& bounds) const;
+  Box box_of(const Block& block, double margin_m) const;
+
+  const std::vector<PreparedShape>& solids_;
+  double edge_m_, epsilon_m_;
+  const PreparedShape* piece_ = nullptr;
+  std::vector<PieceVoxel>* voxels_ = nullptr;
+  Solids others_;  ///< a stack: each block's candidates from its `first_other` on
+};
+
+}  // namespace mapscore::eval

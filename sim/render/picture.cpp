@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "sim/render/picture.hpp"
+
+#include "core/error.hpp"
+#include "sim/render/eye.hpp"
+#include "sim/render/scene_buffer.hpp"
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace mapscore::sim {
+namespace {
+
+constexpr int kSupersampling = 2;
+
+void check(const View& view) {
+  if (view.width_px < 1 || view.height_px < 1 || view.vfov_deg <= 0 || view.vfov_deg >= 180) {
+    throw Error(fmt::format("view: {} x {} px, vfov_deg {}: give a size and an angle below 180",
+                            view.width_px, view.height_px, view.vfov_deg));
+  }
+  if ((view.target_m - view.eye_m).norm() < 1e-9) {
+    throw Error("view: eye_m and target_m are the same point; move one");
+  }
+}
+
+CameraModel camera_of(const View& view) {
+  const int width = kSupersampling * view.width_px, height = kSupersampling * view.height_px;
+  const double focal = 0.5 * height / std::tan(view.vfov_deg * M_PI / 360.0);
+  return {width, height, focal, focal, 0.5 * (width - 1), 0.5 * (height - 1)};
+}
+
+/// Optical frame at the eye, upright in the picture; looking straight down, y of the world is up.
+Pose pose_of(const View& view) {
+  const Eigen::Vector3d forward = (view.target_m - view.eye_m).normalized();
+  const bool vertical = std::abs(forward.z()) > 1.0 - 1e-9;
+  const Eigen::Vector3d up = vertical ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
+  Pose pose = Pose::Identity();
+  pose.linear().col(0) = forward.cross(up).normalized();
+  pose.linear().col(1) = forward.cross(pose.linear().col(0));
+  pose.linear().col(2) = forward;
+  pose.translation() = view.eye_m;
+  return pose;
+}
+
+std::vector<bool> hidden_classes(const ClassTable& table, const std::vector<std::string>& names) {
+  std::vector<bool> hidden(table.classes.size(), false);
+  for (const std::string& name : names) {
+    const auto found = std::find_if(table.classes.begin(), table.classes.end(),
+                                    [&](const SemanticClass& c) { return c.name == name; });
+    if (found == table.classes.end()) {
+      throw Error(fmt::format("view: hidden_classes: no class `{}` in this scene", name));
+    }
+    hidden[found->id] = true;
+  }
+  return hidden;
+}
+
+/// Pale and plain, so that cubes stand out.
+mjvGeom ghost(mjvGeom geom) {
+  for (int channel = 0; channel < 3; ++channel) {
+    geom.rgba[channel] = 0.5f + 0.2f * geom.rgba[channel];
+  }
+  geom.matid = geom.texid = -1;
+  geom.specular = 0.0f;
+  geom.emission = 0.4f;
+  return geom;
+}
+
+mjvGeom box_of(const Cube& cube) {
+  const double half = 0.5 * cube.edge_m;
+  const mjtNum size[3] = {half, half, half};
+  const mjtNum position[3] = {cube.centre_world.x(), cube.centre_world.y(), cube.centre_world.z()};
+  mjtNum rotation[9];
+  for (int i = 0; i < 9; ++i) rotation[i] = cube.R_world_cube(i / 3, i % 3);
+  const float rgba[4] = {static_cast<float>(cube.colour.r) / 255.0f,
+                         static_cast<float>(cube.colour.g) / 255.0f,
+                         static_cast<float>(cube.colour.b) / 255.0f, 1.0f};
+  mjvGeom geom;
+  mjv_initGeom(&geom, mjGEOM_BOX, size, position, rotation, rgba);
+  geom.specular = 0.1f;
+  return geom;
+}
+
+void add_scene(const World& world, const View& view, SceneBuffer& buffer) {
+  const std::vector<bool> hidden = hidden_classes(world.classes(), view.hidden_classes);
+  for (const mjvGeom& geom : world.drawn().geoms) {
+    const InstanceId instance = world.geom_instances()[geom.objid];
+    if (hidden[world.classes().class_of(instance)]) continue;
+    buffer.add(view.ghost_scene ? ghost(geom) : geom);
+  }
+}
+
+}  // namespace
+
+cv::Mat3b draw_picture(const World& world, Offscreen& offscreen, const View& view,
+                       std::span<const Cube> cubes) {
+  check(view);
+  const CameraModel camera = camera_of(view);
+  SceneBuffer buffer(world.model(), world.drawn(), world.drawn().geoms.size() + cubes.size());
+  add_scene(world, view, buffer);
+  for (const Cube& cube : cubes) buffer.add(box_of(cube));
+  buffer.look_through(gl_camera(camera, pose_of(view)));
+  buffer.show_colours(false);
+  buffer.hide_sky();
+  offscreen.draw(camera.width_px, camera.height_px, buffer.scene());
+  cv::Mat3b large, picture;
+  cv::Mat1f depth;
+  offscreen.read(large, &depth);
+  large.setTo(cv::Scalar::all(255), depth == 0);
+  cv::resize(large, picture, {view.width_px, view.height_px}, 0, 0, cv::INTER_AREA);
+  cv::flip(picture, picture, 0);
+  return picture;
+}
+
+}  // namespace mapscore::sim

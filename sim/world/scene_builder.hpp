@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/shape.hpp"
+#include "sim/world/drawn_scene.hpp"
+#include "sim/world/mujoco_session.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace mapscore::sim {
+
+/// The MJCF scene with the robot's body `base_footprint` attached to its world, names prefixed by
+/// `robot/`; kept open so that meshes can be added before it is compiled again.
+class SceneBuilder {
+ public:
+  /// Throws Error when a file is missing or MuJoCo refuses it.
+  SceneBuilder(const std::filesystem::path& scene, const std::filesystem::path& robot);
+
+  /// Throws Error with MuJoCo's reason.
+  [[nodiscard]] ModelPtr compile();
+
+  /// Adds one mesh of the fewest facets that stay within kFacetToleranceM for every round shape;
+  /// shapes of one size share a mesh. Bodies and geoms keep their ids.
+  void add_facets(const std::vector<Shape>& shapes);
+
+ private:
+  std::filesystem::path scene_, robot_;
+  SpecPtr spec_, robot_spec_;
+};
+
+/// Draws the round geoms among `drawn` by the meshes that `add_facets` made of `shapes` (one a
+/// geom, in the same order).
+void draw_by_facets(const mjModel& model, const std::vector<Shape>& shapes, DrawnScene& drawn);
+
+}  // namespace mapscore::sim

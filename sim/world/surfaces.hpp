@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/shape.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <string>
+
+namespace mapscore::sim {
+
+/// Exact surface of one geom at the pose that `data` holds (kinematics done). Height fields become
+/// the triangles that MuJoCo draws: top, sides and base; a signed distance field its mesh. Throws
+/// Error naming `scene_file` and the geom when it is of a kind that Shape cannot hold.
+[[nodiscard]] Shape surface_of(const mjModel& model, const mjData& data, int geom,
+                               const std::string& scene_file);
+
+}  // namespace mapscore::sim

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/recording/file_bytes.hpp"
+#include "eval/recording/recording.hpp"
+#include "tests/eval/recording/expect_error.hpp"
+#include "tests/support/tiny_recording.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mapscore::eval {
+namespace {
+
+using mapscore::testing::expect_error;
+using mapscore::testing::TemporaryFolder;
+using mapscore::testing::write_tiny_recording;
+
+/// A whole recording, to be broken by each test.
+class BrokenRecording : public ::testing::Test {
+ protected:
+  BrokenRecording() { write_tiny_recording(tiny_); }
+
+  /// Replaces the first `from` in a file; the test fails when there is none.
+  void replace(const std::string& file, const std::string& from, const std::string& to) const {
+    std::string text = read_file(tiny_ / file);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    write_file(tiny_ / file, text.replace(at, from.size(), to));
+  }
+  void remove(const std::string& file) const { std::filesystem::remove_all(tiny_ / file); }
+  void expect_refusal(const std::string& what) const {
+    expect_error(what, [&] { (void)Recording::open(tiny_); });
+  }
+
+  TemporaryFolder folder_;
+  const std::filesystem::path tiny_ = folder_.path() / "tiny";
+};
+
+TEST_F(BrokenRecording, MissingFolder) {
+  expect_error("no such folder", [&] { (void)Recording::open(folder_.path() / "nowhere"); });
+  expect_error("no such folder", [&] { (void)Recording::open(tiny_ / "color.txt"); });
+}
+
+TEST_F(BrokenRecording, NoRecordingYaml) {
+  remove("recording.yaml");
+  expect_refusal("not a recording (no recording.yaml in it)");
+}
+
+TEST_F(BrokenRecording, BrokenYaml) {
+  write_file(tiny_ / "recording.yaml", "format_version: 1\nscene: [a, b\n");
+  expect_refusal("broken YAML");
+  write_file(tiny_ / "recording.yaml", "");
+  expect_refusal("recording.yaml:1: not a map");
+}
+
+TEST_F(BrokenRecording, OtherFormatVersion) {
+  replace("recording.yaml", "format_version: 1", "format_version: 2\nnews: 3");
+  expect_refusal("recording.yaml:1: format_version: recording of format 2, this program reads 1");
+}
+
+struct YamlCase {
+  const char* from;
+  const char* to;
+  const char* what;
+};
+class BrokenYaml : public BrokenRecording, public ::testing::WithParamInterface<YamlCase> {};
+
+TEST_P(BrokenYaml, IsRefusedWithKeyAndReason) {
+  replace("recording.yaml", GetParam().from, GetParam().to);
+  expect_refusal(GetParam().what);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Every, BrokenYaml,
+    ::testing::Values(
+        YamlCase{"seed: 7\n", "", "key 'seed' is missing"},
+        YamlCase{"seed: 7", "seed: -7", "recording.yaml:5: seed: expected a whole number"},
+        YamlCase{"seed: 7", "seed: 7\nspeed: 1", "unknown key 'speed'"},
+        YamlCase{"seed: 7", "seed: 7\nseed: 8", "key 'seed' stands twice"},
+        YamlCase{"has_truth: true", "has_truth: maybe", "has_truth: expected true or false"},
+        YamlCase{"rate_hz: 2}", "rate_hz: 0}", "color.rate_hz: 0 is not above 0"},
+        YamlCase{"width_px: 64", "width_px: 1e9", "color.width_px: expected a whole number"},
+        YamlCase{"cx_px: 31.5", "cx_px: .nan", "color.cx_px: expected a finite number"},
+        YamlCase{"cy_px: 23.5", "cy_px: .inf", "color.cy_px: expected a finite number"},
+        YamlCase{"cy_px: 23.5", "cy_px: nan", "color.cy_px: expected a finite number"},
+        YamlCase{"cy_px: 23.5, ", "", "color: key 'cy_px' is missing"},
+        YamlCase{"cy_px: 23.5", "cy_px: 23.5, k1: 0", "color: unknown key 'k1'"},
+        YamlCase{"range_min_m: 0.6", "range_min_m: 9", "depth: expected 0 <= range_min_m"},
+        YamlCase{"T_color_depth: [0.025, 0", "T_color_depth: [0.025",
+                 "T_color_depth: expected [tx"},
+        YamlCase{"T_color_depth: [0.025", "T_color_depth: [x",
+                 "T_color_depth[0]: expected a finite"},
+        YamlCase{"0, 0, 0, 1]", "0, 0, 0, 2]", "T_color_depth: quaternion"},
+        YamlCase{"classes:\n", "classes: 3\nold:\n", "unknown key 'old'"},
+        YamlCase{"{id: 1, name: \"crate\"", "{id: 3, name: \"crate\"", "classes[1].id: expected"},
+        YamlCase{"\"wall\"", "\"crate\"", "two classes have this name"},
+        YamlCase{"\"FF0000\"", "\"red\"", "classes[1].colour: expected a colour"},
+        YamlCase{"class: 2", "class: 3", "instances[2].class: expected a whole number from 0 to 2"},
+        YamlCase{"class: 0", "class: 1", "instance 0 is background"},
+        YamlCase{"frame_count: 4", "frame_count: 5",
+                 "color.txt: 4 lines, recording.yaml says frame_count 5"}));
+
+TEST_F(BrokenRecording, MissingLists) {
+  for (const char* list : {"color.txt", "depth.txt", "groundtruth.txt"}) {
+    const std::string text = read_file(tiny_ / list);
+    remove(list);
+    expect_refusal(std::string(list) + ": cannot open");
+    write_file(tiny_ / list, "# nothing\n");
+    expect_refusal(std::string(list) + ": no lines");
+    write_file(tiny_ / list, text);
+  }
+}
+
+TEST_F(BrokenRecording, ListsOutOfOrderOrDoubled) {
+  replace("color.txt", "\n1 ", "\n0.5 ");
+  expect_refusal("color.txt:4: stamp 0.5 does not come after 0.5");
+  replace("color.txt", "\n0.5 color/000002", "\n0.2 color/000002");
+  expect_refusal("color.txt:4: stamp 0.2 does not come after 0.5");
+}
+
+TEST_F(BrokenRecording, LinesThatAreNotOfTheFormat) {
+  replace("depth.txt", "1.5 depth", "x depth");
+  expect_refusal("depth.txt:5: 'x' is no time stamp");
+  replace("depth.txt", "x depth", "depth");
+  expect_refusal("depth.txt:5: expected 'stamp_s path'");
+}
+
+TEST_F(BrokenRecording, ALineLostFromAList) {
+  replace("color.txt", "1.5 color/000003.png\n", "");
+  expect_refusal("color.txt: 3 lines, recording.yaml says frame_count 4");
+}
+
+TEST_F(BrokenRecording, ALineLostFromTheDepthList) {
+  replace("depth.txt", "1.5 depth/000003.png\n", "");
+  expect_refusal("groundtruth.txt: 4 poses for 3 lines of depth.txt");
+}
+
+TEST_F(BrokenRecording, PosesMissingOrBroken) {
+  replace("groundtruth.txt", "\n0.5 ", "\n0.51 ");
+  expect_refusal("groundtruth.txt: no pose at stamp 0.5 of depth/000001.png");
+  write_file(tiny_ / "groundtruth.txt", "0 0 0 0 0 0 0 1\n0.5 0 0 0 0 0 0 1\n");
+  expect_refusal("groundtruth.txt: no pose at stamp 1 of depth/000002.png");
+  write_file(tiny_ / "groundtruth.txt", "0 0 0 0 0 0 0 1\n0.5 0 0 0 0 0 0 1.002\n");
+  expect_refusal("groundtruth.txt:2: quaternion qx qy qz qw is not of length 1");
+  write_file(tiny_ / "groundtruth.txt", "0 0 0 nan 0 0 0 1\n");
+  expect_refusal("groundtruth.txt:1: 'nan' is not a finite number");
+  write_file(tiny_ / "groundtruth.txt", "0 0 0 0 0 0 0\n");
+  expect_refusal("groundtruth.txt:1: expected 'stamp_s tx ty tz qx qy qz qw'");
+}
+
+TEST_F(BrokenRecording, MissingImages) {
+  for (const char* channel : {"color", "depth", "label", "depth_label"}) {
+    const std::string image = std::string(channel) + "/000002.png";
+    const std::string bytes = read_file(tiny_ / image);
+    remove(image);
+    expect_refusal(image + ": image is missing");
+    write_file(tiny_ / image, bytes);
+  }
+  EXPECT_EQ(Recording::open(tiny_).frame_count(), 4);
+}
+
+TEST_F(BrokenRecording, MissingSurfaces) {
+  remove("truth/shapes.csv");
+  expect_refusal("truth/shapes.csv: file is missing");
+}
+
+TEST_F(BrokenRecording, HashesOfOtherImages) {
+  replace("hashes.txt", "color/000002.png", "color/000009.png");
+  expect_refusal("hashes.txt: does not list the images");
+}
+
+TEST_F(BrokenRecording, DamagedImagesAreRefusedWhenRead) {
+  const std::string png = read_file(tiny_ / "depth/000001.png");
+  const Recording recording = Recording::open(tiny_);
+  write_file(tiny_ / "depth/000001.png", png.substr(0, png.size() - 7));
+  expect_error("depth/000001.png: PNG cut off", [&] { (void)recording.read(1); });
+  write_file(tiny_ / "depth/000001.png", read_file(tiny_ / "color/000001.png"));
+  expect_error("depth/000001.png: image is not 16-bit grey", [&] { (void)recording.read(1); });
+  EXPECT_EQ(recording.read(2).index, 2);
+}
+
+TEST_F(BrokenRecording, ImagesOfAnotherSize) {
+  replace("recording.yaml", "depth: {width_px: 64", "depth: {width_px: 65");
+  const Recording recording = Recording::open(tiny_);
+  expect_error("depth/000000.png: image is 64 x 48, recording.yaml says 65 x 48",
+               [&] { (void)recording.read(0); });
+}
+
+TEST_F(BrokenRecording, FramesBeyondTheLast) {
+  const Recording recording = Recording::open(tiny_);
+  for (const int index : {-1, 4})
+    expect_error("the recording has frames 0 to 3", [&] { (void)recording.read(index); });
+}
+
+}  // namespace
+}  // namespace mapscore::eval

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/score/metrics.hpp"
+
+#include "core/error.hpp"
+#include "eval/score/voxel_score.hpp"
+#include "tests/eval/score/score_cases.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace mapscore::eval {
+namespace {
+
+using testing::random_case;
+using testing::RandomCase;
+
+ClassCounts counted(std::int64_t predicted, std::int64_t true_predicted, std::int64_t visible,
+                    std::int64_t found) {
+  ClassCounts counts;
+  counts.predicted = predicted;
+  counts.true_predicted = true_predicted;
+  counts.visible = visible;
+  counts.found = found;
+  return counts;
+}
+
+ClassTable table_of(std::vector<bool> detect) {
+  ClassTable table;
+  table.classes.clear();
+  for (std::size_t c = 0; c < detect.size(); ++c) {
+    table.classes.push_back({static_cast<ClassId>(c), "class", {}, detect[c]});
+  }
+  return table;
+}
+
+TEST(Metrics, RatiosByHand) {
+  const ClassCounts counts = counted(10, 8, 5, 4);
+  EXPECT_DOUBLE_EQ(*precision(counts), 0.8);
+  EXPECT_DOUBLE_EQ(*recall(counts), 0.8);
+  EXPECT_DOUBLE_EQ(*f1(counts), 0.8);
+  EXPECT_DOUBLE_EQ(*iou(counts), 4.0 / 7.0);
+  EXPECT_DOUBLE_EQ(*f1(counted(4, 1, 2, 1)), 1.0 / 3.0);
+}
+
+TEST(Metrics, NothingPredictedIsF1ZeroAndPrecisionUndefined) {
+  const ClassCounts counts = counted(0, 0, 5, 0);
+  EXPECT_EQ(precision(counts), std::nullopt);
+  EXPECT_EQ(recall(counts), 0.0);
+  EXPECT_EQ(f1(counts), 0.0);
+  EXPECT_EQ(iou(counts), 0.0);
+}
+
+TEST(Metrics, NothingHitIsF1Zero) {
+  EXPECT_EQ(f1(counted(3, 0, 5, 0)), 0.0);
+}
+
+TEST(Metrics, NothingVisibleLeavesRecallUndefinedAndF1Zero) {
+  EXPECT_EQ(recall(counted(3, 1, 0, 0)), std::nullopt);
+  EXPECT_EQ(f1(counted(3, 1, 0, 0)), 0.0);
+  EXPECT_EQ(iou(counted(3, 1, 0, 0)), 0.0);
+  EXPECT_EQ(iou(counted(3, 3, 0, 0)), std::nullopt);
+}
+
+TEST(Metrics, EverythingIsUndefinedOnlyWhenBothAreEmpty) {
+  for (const Metric& metric : metrics_of(ClassCounts{}))
+    EXPECT_EQ(metric.value, std::nullopt) << metric.name;
+}
+
+TEST(Metrics, NamesCarryToleranceAndDistance) {
+  ClassCounts counts = counted(2, 1, 2, 1);
+  counts.at_tolerance = {{1, 2, 1}};
+  counts.accuracy = DistanceTally({0.005, 0.1});
+  counts.completeness = DistanceTally({0.005, 0.1});
+  counts.accuracy.add(0.0);
+  counts.accuracy.add(0.05);
+  counts.completeness.add(0.2, 3);
+  counts.completeness.add(0.001);
+  const std::vector<Metric> expected{{"precision", 0.5},
+                                     {"recall", 0.5},
+                                     {"f1", 0.5},
+                                     {"iou", 1.0 / 3.0},
+                                     {"precision_t1", 1.0},
+                                     {"recall_t1", 0.5},
+                                     {"f1_t1", 2.0 / 3.0},
+                                     {"precision_0.5cm", 0.5},
+                                     {"recall_0.5cm", 0.25},
+                                     {"f_0.5cm", 1.0 / 3.0},
+                                     {"precision_10cm", 1.0},
+                                     {"recall_10cm", 0.25},
+                                     {"f_10cm", 0.4},
+                                     {"accuracy_mean_m", 0.025},
+                                     {"accuracy_p95_m", 0.05},
+                                     {"completeness_mean_m", 0.15025},
+                                     {"completeness_p95_m", 0.2}};
+  const std::vector<Metric> metrics = metrics_of(counts);
+  ASSERT_EQ(metrics.size(), expected.size());
+  for (std::size_t m = 0; m < metrics.size(); ++m) {
+    EXPECT_EQ(metrics[m].name, expected[m].name);
+    ASSERT_TRUE(metrics[m].value) << metrics[m].name;
+    EXPECT_NEAR(*metrics[m].value, *expected[m].value, 1e-12) << metrics[m].name;
+  }
+  EXPECT_EQ(value_of(metrics, "precision_10cm"), 1.0);
+  EXPECT_THROW(static_cast<void>(value_of(metrics, "f_3cm")), Error);
+}
+
+TEST(Metrics, PooledAndMacroTakeDetectedClassesOnly) {
+  const Counts counts{counted(0, 0, 0, 0), counted(10, 5, 4, 2), counted(0, 0, 4, 0),
+                      counted(7, 0, 0, 0), counted(9, 9, 9, 9)};
+  const ClassTable table = table_of({false, true, true, true, false});
+  const ClassCounts pooled = pool_detected(counts, table);
+  EXPECT_EQ(pooled.predicted, 17);
+  EXPECT_EQ(pooled.true_predicted, 5);
+  EXPECT_EQ(pooled.visible, 8);
+  EXPECT_EQ(pooled.found, 2);
+  const std::vector<Metric> macro = macro_metrics(counts, table);
+  EXPECT_DOUBLE_EQ(*value_of(macro, "precision"), 0.5);  // undefined for class 2
+  EXPECT_DOUBLE_EQ(*value_of(macro, "recall"), 0.25);
+  EXPECT_DOUBLE_EQ(*value_of(macro, "f1"), 0.25);
+  EXPECT_TRUE(macro_metrics(counts, table_of({false, false, false, true, false})).empty());
+  EXPECT_THROW(static_cast<void>(macro_metrics(counts, table_of({false}))), Error);
+  EXPECT_THROW(static_cast<void>(pool_detected(counts, table_of({false}))), Error);
+}
+
+TEST(Metrics, PoolingOverFramesIsTheSumOfCounts) {
+  Counts total;
+  std::int64_t predicted = 0, found_within = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const RandomCase made = random_case(seed);
+    const Counts counts =
+        score_voxels(MapSnapshot(made.map), 0.25, testing::surface_of(made.surface),
+                     testing::visible_of(made.owners), RandomCase::kClasses);
+    predicted += counts[1].predicted;
+    found_within += counts[1].at_tolerance[0].found;
+    pool_into(total, counts);
+  }
+  EXPECT_EQ(total[1].predicted, predicted);
+  EXPECT_EQ(total[1].at_tolerance[0].found, found_within);
+}
+
+TEST(Metrics, PoolingAddsEveryCount) {
+  ClassCounts once{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, {{1, 11, 12}}, {}, {}};
+  once.accuracy = DistanceTally({0.01});
+  once.accuracy.add(0.013, 13);
+  once.completeness = DistanceTally({0.01});
+  once.completeness.add(0.001, 14);
+  ClassCounts twice{2, 4, 6, 8, 10, 12, 14, 16, 18, 20, {{1, 22, 24}}, {}, {}};
+  twice.accuracy = DistanceTally({0.01});
+  twice.accuracy.add(0.013, 26);
+  twice.completeness = DistanceTally({0.01});
+  twice.completeness.add(0.001, 28);
+  ClassCounts pooled = once;
+  pooled += once;
+  EXPECT_EQ(pooled, twice);
+}
+
+TEST(Metrics, CountsOfDifferentOptionsAreNotPooled) {
+  Counts total = zero_counts(3, {{1}, {}});
+  EXPECT_THROW(pool_into(total, zero_counts(3, {{1, 2}, {}})), Error);
+  EXPECT_THROW(pool_into(total, zero_counts(3, {{2}, {}})), Error);
+  EXPECT_THROW(pool_into(total, zero_counts(4, {{1}, {}})), Error);
+}
+
+}  // namespace
+}  // namespace mapscore::eval

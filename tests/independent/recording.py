@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: 2026 the mapscore authors
+# SPDX-License-Identifier: MIT
+"""Reads a recording as docs/formats.md describes it."""
+
+import csv
+import os
+import sys
+
+import numpy as np
+import yaml
+from PIL import Image
+
+from surfaces import KINDS, rotation_of_quaternion
+
+
+def transform(numbers):
+    """4 x 4 matrix of tx ty tz qx qy qz qw."""
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation_of_quaternion(numbers[3:7])
+    matrix[:3, 3] = numbers[:3]
+    return matrix
+
+
+def moved(matrix, points):
+    return points @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def map_from_world(origin, yaw):
+    """p_map = Rz(yaw)^T (p_world - origin)."""
+    c, s = np.cos(yaw), np.sin(yaw)
+    matrix = np.eye(4)
+    matrix[:3, :3] = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+    matrix[:3, 3] = -matrix[:3, :3] @ np.asarray(origin, float)
+    return matrix
+
+
+def table_rows(path):
+    with open(path, encoding="utf-8") as lines:
+        return [line.split() for line in lines if line.strip() and not line.startswith("#")]
+
+
+def nearest_index(stamps, stamp):
+    return int(np.argmin(np.abs(np.asarray(stamps) - stamp)))
+
+
+class Recording:
+    def __init__(self, folder):
+        self.folder = folder
+        with open(self.path("recording.yaml"), encoding="utf-8") as text:
+            head = yaml.safe_load(text)
+        if head["format_version"] != 1:
+            raise ValueError(f"{folder}: format version {head['format_version']}, not 1")
+        self.color, self.depth = head["color"], head["depth"]
+        self.T_color_depth, self.T_base_depth = transform(head["T_color_depth"]), transform(head["T_base_depth"])
+        self.names = {entry["id"]: str(entry["name"]) for entry in head["classes"]}
+        self.detected = {entry["id"] for entry in head["classes"] if entry["detect"]}
+        self.class_of = np.full(max(entry["id"] for entry in head["instances"]) + 1, -1)
+        for entry in head["instances"]:
+            self.class_of[entry["id"]] = entry["class"]
+        self.frames = self.pair_streams()
+
+    def path(self, *parts):
+        return os.path.join(self.folder, *parts)
+
+    def pair_streams(self):
+        """One frame a colour image: (label file, depth file, depth label file, T_world_base) at the nearest depth stamp."""
+        color, depth = table_rows(self.path("color.txt")), table_rows(self.path("depth.txt"))
+        poses = [[float(word) for word in row] for row in table_rows(self.path("groundtruth.txt"))]
+        frames = []
+        for stamp, image in color:
+            depth_stamp, depth_image = depth[nearest_index([float(row[0]) for row in depth], float(stamp))]
+            pose = poses[nearest_index([row[0] for row in poses], float(depth_stamp))]
+            frames.append((self.path("label", os.path.basename(image)), self.path(depth_image),
+                           self.path("depth_label", os.path.basename(depth_image)), transform(pose[1:8])))
+        return frames
+
+    def read_image(self, path):
+        return np.asarray(Image.open(path)).astype(np.int64)
+
+    def read_depth(self, path):
+        """Planar z of every pixel, row-major, 0 where it is not to be used."""
+        z = self.read_image(path) / 5000.0
+        usable = (z > 0) & (z >= self.depth["range_min_m"]) & (z <= self.depth["range_max_m"])
+        return np.where(usable, z, 0.0)
+
+    def classes_of(self, instances):
+        classes = self.class_of[instances]
+        if (classes < 0).any():
+            raise ValueError(f"{self.folder}: an image holds an instance that recording.yaml does not list")
+        return classes
+
+    def cloud(self, z):
+        """(H * W, 3) points in depth_optical."""
+        v, u = np.indices(z.shape)
+        x = (u - self.depth["cx_px"]) / self.depth["fx_px"]
+        y = (v - self.depth["cy_px"]) / self.depth["fy_px"]
+        return np.stack([z * x, z * y, z], axis=-1).reshape(-1, 3)
+
+    def geoms(self, T_map_world):
+        """[(class, shape in frame map)] of all drawn primitives."""
+        if os.path.exists(self.path("truth", "triangles.ply")):
+            print("ruler: truth/triangles.ply is not supported and left out", file=sys.stderr)
+        result = []
+        with open(self.path("truth", "shapes.csv"), encoding="utf-8", newline="") as text:
+            for row in csv.DictReader(text):
+                pose = T_map_world @ transform([float(row[name]) for name in ("px", "py", "pz", "qx", "qy", "qz", "qw")])
+                size = [float(row[name] or 0) for name in ("sx", "sy", "sz")]
+                label = int(self.classes_of(int(row["instance"]))) if row["instance"] != "0" else 0
+                result.append((label, KINDS[row["kind"]](pose[:3, :3], pose[:3, 3], size)))
+        return result

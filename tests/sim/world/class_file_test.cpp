@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "sim/world/class_file.hpp"
+
+#include "core/error.hpp"
+#include "tests/sim/world/scene_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace mapscore::sim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<ClassRule> read(const std::string& text) {
+  const testing::SceneFolder folder;
+  return read_class_file(folder.write("room.classes.yaml", text));
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    (void)read(text);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ClassFile, ReadsClassesInOrder) {
+  const auto rules = read(
+      "classes:\n"
+      "  - {name: cup, colour: \"FF8001\", bodies: [\"cup_*\", \"mug*\"]}\n"
+      "  - {name: floor, detect: false, bodies: \"floor?\", opaque: true}\n"
+      "  - {name: chair}\n");
+  ASSERT_EQ(rules.size(), 3u);
+  EXPECT_EQ(rules[0].semantic_class.id, 1);
+  EXPECT_EQ(rules[0].semantic_class.name, "cup");
+  EXPECT_EQ(rules[0].semantic_class.colour, (Colour{0xFF, 0x80, 0x01}));
+  EXPECT_TRUE(rules[0].semantic_class.detect);
+  EXPECT_FALSE(rules[0].opaque);
+  EXPECT_THAT(rules[0].bodies, ElementsAre("cup_*", "mug*"));
+  EXPECT_EQ(rules[1].semantic_class.id, 2);
+  EXPECT_FALSE(rules[1].semantic_class.detect);
+  EXPECT_TRUE(rules[1].opaque);
+  EXPECT_THAT(rules[2].bodies, ElementsAre("chair", "chair_*"));
+}
+
+TEST(ClassFile, MatchesLikeAShell) {
+  ClassRule rule;
+  rule.bodies = {"chair*", "cup_?"};
+  EXPECT_TRUE(rule.matches("chair_12"));
+  EXPECT_TRUE(rule.matches("cup_1"));
+  EXPECT_FALSE(rule.matches("cup_12"));
+  EXPECT_FALSE(rule.matches("armchair_1"));
+}
+
+TEST(ClassFile, WorldIsMatchedByItsOwnNameOnly) {
+  ClassRule rule;
+  rule.bodies = {"*"};
+  EXPECT_FALSE(rule.matches("world"));
+  rule.bodies = {"world"};
+  EXPECT_TRUE(rule.matches("world"));
+}
+
+TEST(ClassFile, RefusesWithFileLineAndKey) {
+  EXPECT_THAT(refusal("classes:\n  - {name: cup}\n  - {name: tv, color: \"FF0000\"}\n"),
+              HasSubstr("room.classes.yaml:3: classes[1].color: is not a key"));
+  EXPECT_THAT(refusal("classes:\n  - {name: cup, colour: red}\n"),
+              HasSubstr("room.classes.yaml:2: classes[0].colour: must be six hexadecimal"));
+  EXPECT_THAT(refusal("classes:\n  - {name: cup, detect: 3}\n"),
+              HasSubstr("[0].detect: must be true"));
+  EXPECT_THAT(refusal("classes:\n  - {name: cup}\n  - {name: cup}\n"), HasSubstr("twice"));
+  EXPECT_THAT(refusal("classes:\n  - {name: cup, bodies: [a]}\n  - {name: tv, bodies: [a]}\n"),
+              HasSubstr("room.classes.yaml:3: classes[1].bodies: pattern `a` stands twice"));
+  EXPECT_THAT(refusal("classes:\n  - {name: background}\n"), HasSubstr("background"));
+  EXPECT_THAT(refusal("classes:\n  - {bodies: [a]}\n"), HasSubstr("classes[0].name: is missing"));
+  EXPECT_THAT(refusal("classes: 3\n"), HasSubstr("classes: must be a list"));
+  EXPECT_THAT(refusal("classes: [\n"), HasSubstr("not valid YAML"));
+  EXPECT_THROW((void)read_class_file("/nowhere/x.yaml"), Error);
+}
+
+TEST(ClassFile, ErrorsAreOneLine) {
+  EXPECT_EQ(refusal("classes: [\n").find('\n'), std::string::npos);
+}
+
+TEST(ClassNames, EndAtTheLastNumber) {
+  EXPECT_EQ(class_name_of_body("chair_1"), "chair");
+  EXPECT_EQ(class_name_of_body("coffee_table_12"), "coffee_table");
+  EXPECT_EQ(class_name_of_body("cup_2_3"), "cup_2");
+  EXPECT_EQ(class_name_of_body("tv"), "tv");
+  EXPECT_EQ(class_name_of_body("table_top"), "table_top");
+  EXPECT_EQ(class_name_of_body("table_"), "table_");
+  EXPECT_EQ(class_name_of_body("_7"), "_7");
+}
+
+TEST(Palette, NeighboursDiffer) {
+  for (ClassId a = 1; a <= 24; ++a) {
+    for (ClassId b = 1; b < a; ++b)
+      EXPECT_NE(palette_colour(a), palette_colour(b)) << a << " " << b;
+  }
+}
+
+}  // namespace
+}  // namespace mapscore::sim
