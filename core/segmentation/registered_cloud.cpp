@@ -13,16 +13,26 @@
 namespace mapscore {
 namespace {
 
+/// floor and ceil of values within the range of int; library calls would dominate the loop.
+int floor_int(double x) {
+  const int truncated = static_cast<int>(x);
+  return truncated - (truncated > x ? 1 : 0);
+}
+int ceil_int(double x) {
+  const int truncated = static_cast<int>(x);
+  return truncated + (truncated < x ? 1 : 0);
+}
+
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Pixels of the colour image, limits included; empty when first > last.
-struct PixelSpan {
+/// Whole numbers, limits included; empty when first > last.
+struct Span {
   std::int32_t first = 0, last = -1;
 };
 
 /// Columns and rows of the colour image that matter.
 struct Window {
-  PixelSpan columns, rows;
+  Span columns, rows;
 };
 
 /// Least window that holds every wanted pixel; all of the image when `wanted` is empty.
@@ -44,104 +54,79 @@ Window window_of(const cv::Mat1b& wanted, const CameraModel& color) {
   return window;
 }
 
-/// One row of depth pixels as the colour camera sees them: z_color, and the colour pixels that each
-/// covers, none where it has no usable depth.
-struct CoverRow {
-  explicit CoverRow(std::size_t width)
-      : z_color(width), u_first(width), u_last(width), v_first(width), v_last(width) {}
-  std::vector<double> z_color;
-  std::vector<std::int32_t> u_first, u_last, v_first, v_last;
+/// One row of depth pixels as the colour camera sees them, whether or not they hold a usable depth:
+/// z_color, projection (u, v), and z_depth / z_color.
+struct ProjectedRow {
+  explicit ProjectedRow(std::size_t width) : z_color(width), u(width), v(width), z_ratio(width) {}
+  std::vector<double> z_color, u, v, z_ratio;
 };
 
-/// Smallest and largest whole numbers of a span within [low, high]; none is within it when the first
-/// exceeds the last. NaN counts as below the span: operands stand so that comparing with it keeps the
-/// limit. Without branches or library calls, so that the loop around it becomes wide vectors.
-struct Clamp {
-  double first, last;
-
-  explicit Clamp(const PixelSpan& span) : first(span.first), last(span.last) {}
-  [[nodiscard]] std::int32_t round_up(double low) const {
-    const double inside = std::min(std::max(first, low), last + 1.0);
-    const auto down = static_cast<std::int32_t>(inside);
-    return down + static_cast<std::int32_t>(inside > down);
+/// Between parallel cameras R * p = p exactly, which saves the product. Without branches, so that the
+/// loop becomes wide vectors.
+template <bool kParallel>
+void project_row(const std::uint16_t* values, const double* ray_x, double ray_y,
+                 const Calibration& believed, ProjectedRow& out) {
+  const Eigen::Matrix3d R = believed.T_color_depth.linear();
+  const Eigen::Vector3d t = believed.T_color_depth.translation();
+  const double fx = believed.color.fx_px, fy = believed.color.fy_px;
+  const double cx = believed.color.cx_px, cy = believed.color.cy_px;
+  double *z_out = out.z_color.data(), *u_out = out.u.data();
+  double *v_out = out.v.data(), *ratio_out = out.z_ratio.data();
+  const std::size_t width = out.u.size();
+  for (std::size_t i = 0; i < width; ++i) {
+    const double z = values[i] / kDepthUnitsPerMetre;
+    const double x = z * ray_x[i], y = z * ray_y;
+    const double x_color = (kParallel ? x : R(0, 0) * x + R(0, 1) * y + R(0, 2) * z) + t.x();
+    const double y_color = (kParallel ? y : R(1, 0) * x + R(1, 1) * y + R(1, 2) * z) + t.y();
+    const double z_color = (kParallel ? z : R(2, 0) * x + R(2, 1) * y + R(2, 2) * z) + t.z();
+    z_out[i] = z_color;
+    u_out[i] = fx * x_color / z_color + cx;
+    v_out[i] = fy * y_color / z_color + cy;
+    ratio_out[i] = z / z_color;
   }
-  [[nodiscard]] std::int32_t round_down(double high) const {
-    return static_cast<std::int32_t>(std::min(std::max(first - 1.0, high), last) + 1.0) - 1;
-  }
-};
+}
 
-class Projector {
- public:
-  Projector(const Calibration& believed, const DepthRays& rays, const Window& window)
-      : believed_(believed),
-        rays_(rays),
-        columns_(window.columns),
-        rows_(window.rows),
-        parallel_(believed.T_color_depth.linear() == Eigen::Matrix3d::Identity()) {}
+/// Least and greatest stored depth within the camera's range, limits included; none if first > last.
+Span values_in_range(const Calibration& believed) {
+  const auto in_metres = [](std::int32_t value) { return value / kDepthUnitsPerMetre; };
+  Span span{1, 65535};
+  while (span.first <= 65535 && !(in_metres(span.first) >= believed.range_min_m)) ++span.first;
+  while (span.last >= span.first && !(in_metres(span.last) <= believed.range_max_m)) --span.last;
+  return span;
+}
 
-  void project(const std::uint16_t* values, int row, CoverRow& out) const {
-    parallel_ ? project_row<true>(values, row, out) : project_row<false>(values, row, out);
-  }
-
- private:
-  /// Between parallel cameras R * p = p exactly, which saves the product.
-  template <bool kParallel>
-  void project_row(const std::uint16_t* values, int row, CoverRow& out) const {
-    const Eigen::Matrix3d R = believed_.T_color_depth.linear();
-    const Eigen::Vector3d t = believed_.T_color_depth.translation();
-    const CameraModel color = believed_.color, depth = believed_.depth;
-    const double ratio_u = color.fx_px / depth.fx_px, ratio_v = color.fy_px / depth.fy_px;
-    const double range_min_m = believed_.range_min_m, range_max_m = believed_.range_max_m;
-    const Clamp columns = columns_, rows = rows_;
-    const double* ray_x = rays_.x().data();
-    const double ray_y = rays_.y()[static_cast<std::size_t>(row)];
-    double* z_out = out.z_color.data();
-    std::int32_t *u_first = out.u_first.data(), *u_last = out.u_last.data();
-    std::int32_t *v_first = out.v_first.data(), *v_last = out.v_last.data();
-    const std::size_t width = out.z_color.size();
-    for (std::size_t i = 0; i < width; ++i) {
-      const double z = values[i] / kDepthUnitsPerMetre;
-      const double x = z * ray_x[i], y = z * ray_y;
-      const double x_color = (kParallel ? x : R(0, 0) * x + R(0, 1) * y + R(0, 2) * z) + t.x();
-      const double y_color = (kParallel ? y : R(1, 0) * x + R(1, 1) * y + R(1, 2) * z) + t.y();
-      const double z_color = (kParallel ? z : R(2, 0) * x + R(2, 1) * y + R(2, 2) * z) + t.z();
-      const double z_ratio = z / z_color;
-      const double u = color.fx_px * x_color / z_color + color.cx_px;
-      const double v = color.fy_px * y_color / z_color + color.cy_px;
-      const double h_u = 0.5 * std::max(1.0, ratio_u * z_ratio);
-      const double h_v = 0.5 * std::max(1.0, ratio_v * z_ratio);
-      u_first[i] = columns.round_up(u - h_u);
-      u_last[i] = columns.round_down(u + h_u);
-      const bool usable = (z > 0) & (z >= range_min_m) & (z <= range_max_m) & (z_color > 0);
-      v_first[i] = rows.round_up(v - h_v);
-      v_last[i] = rows.round_down(usable ? v + h_v : -kFar);
-      z_out[i] = z_color;
-    }
-  }
-
-  const Calibration& believed_;
-  const DepthRays& rays_;
-  Clamp columns_, rows_;
-  bool parallel_;
-};
+/// The pixels of `window` whose centres lie within `reach` of `at` on one axis; none for NaN.
+Span covered(double at, double reach, const Span& window) {
+  const double low = at - reach, high = at + reach;
+  if (!(high >= window.first && low <= window.last)) return {};
+  return {low <= window.first ? window.first : ceil_int(low),
+          high >= window.last ? window.last : floor_int(high)};
+}
 
 /// Keeps the nearest depth pixel per colour pixel. Depth pixels arrive in row-major order, so
 /// "strictly nearer" leaves ties to the lower row, then column. Pixels that do not matter start out
 /// nearer than everything.
 class ZBuffer {
  public:
-  ZBuffer(const CameraModel& color, const cv::Mat1b& wanted)
-      : nearest_(color.height_px, color.width_px, kFar),
-        source_(color.height_px, color.width_px, RegisteredCloud::kNone) {
+  ZBuffer(const Calibration& believed, const cv::Mat1b& wanted)
+      : window_(window_of(wanted, believed.color)),
+        values_(values_in_range(believed)),
+        ratio_u_(believed.color.fx_px / believed.depth.fx_px),
+        ratio_v_(believed.color.fy_px / believed.depth.fy_px),
+        nearest_(believed.color.height_px, believed.color.width_px, kFar),
+        source_(believed.color.height_px, believed.color.width_px, RegisteredCloud::kNone) {
     if (!wanted.empty()) nearest_.setTo(-kFar, wanted == 0);
   }
 
-  void cover(const CoverRow& row, int first_depth_pixel) {
-    for (std::size_t i = 0; i < row.z_color.size(); ++i) {
-      const int depth_pixel = first_depth_pixel + static_cast<int>(i);
-      for (int v = row.v_first[i]; v <= row.v_last[i]; ++v)
-        for (int u = row.u_first[i]; u <= row.u_last[i]; ++u)
-          offer(u, v, row.z_color[i], depth_pixel);
+  void cover(const std::uint16_t* values, const ProjectedRow& row, int first_depth_pixel) {
+    for (std::size_t i = 0; i < row.u.size(); ++i) {
+      if (values[i] < values_.first || values[i] > values_.last || !(row.z_color[i] > 0)) continue;
+      const double s = row.z_ratio[i];
+      const Span columns = covered(row.u[i], 0.5 * std::max(1.0, ratio_u_ * s), window_.columns);
+      const Span rows = covered(row.v[i], 0.5 * std::max(1.0, ratio_v_ * s), window_.rows);
+      for (int v = rows.first; v <= rows.last; ++v)
+        for (int u = columns.first; u <= columns.last; ++u)
+          offer(u, v, row.z_color[i], first_depth_pixel + static_cast<int>(i));
     }
   }
 
@@ -155,6 +140,9 @@ class ZBuffer {
     source_(v, u) = depth_pixel;
   }
 
+  Window window_;
+  Span values_;
+  double ratio_u_, ratio_v_;
   cv::Mat1d nearest_;
   cv::Mat1i source_;
 };
@@ -177,12 +165,13 @@ RegisteredCloud register_depth(const cv::Mat1w& depth, const Calibration& believ
     throw Error(
         "label image: not of the colour camera's size; give the intrinsics it was taken with");
   const DepthRays rays(believed.depth);
-  const Projector projector(believed, rays, window_of(wanted, believed.color));
-  CoverRow row(rays.x().size());
-  ZBuffer buffer(believed.color, wanted);
+  const bool parallel = believed.T_color_depth.linear() == Eigen::Matrix3d::Identity();
+  const auto project = parallel ? project_row<true> : project_row<false>;
+  ProjectedRow row(rays.x().size());
+  ZBuffer buffer(believed, wanted);
   for (int v = 0; v < depth.rows; ++v) {
-    projector.project(depth[v], v, row);
-    buffer.cover(row, v * depth.cols);
+    project(depth[v], rays.x().data(), rays.y()[static_cast<std::size_t>(v)], believed, row);
+    buffer.cover(depth[v], row, v * depth.cols);
   }
   return {depth, believed.depth, buffer.take()};
 }
