@@ -10,8 +10,8 @@
 
 namespace mapscore {
 
-/// Slopes of a camera's rays, divided once: x(u) = (u - cx) / fx of each column, y(v) = (v - cy) / fy
-/// of each row. Points come out bit for bit as from CameraModel::back_project. Immutable.
+/// Slopes of a camera's rays, divided once: x(u) = (u - cx) / fx of each column, y(v) = (v - cy) /
+/// fy of each row. Points come out bit for bit as from CameraModel::back_project. Immutable.
 class DepthRays {
  public:
   explicit DepthRays(const CameraModel& camera)

@@ -20,8 +20,8 @@ class LatticeBits {
   using Address = std::uint32_t;
 
   LatticeBits() = default;
-  /// Positions low .. low + extent - 1 on each axis; all bits clear. (extent + 2) multiplied over the
-  /// axes must fit an Address.
+  /// Positions low .. low + extent - 1 on each axis; all bits clear. (extent + 2) multiplied over
+  /// the axes must fit an Address.
   LatticeBits(const std::array<std::int32_t, 3>& low, const std::array<std::int32_t, 3>& extent)
       : low_(low),
         row_(static_cast<Address>(extent[2]) + 2),

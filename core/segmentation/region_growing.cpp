@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/segmentation/lattice_bits.hpp"
+#include "core/segmentation/point_extent.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,30 +21,9 @@ namespace {
 /// Above this many lattice positions (32 MB of bits) the points lie too far apart for a dense grid.
 constexpr double kMostPositions = 1 << 28;
 
-/// Bounding box of the points; `finite` is false when some coordinate is not.
-struct Extent {
-  Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Array3d high = -low;
-  bool finite = true;
-};
-
-Extent extent_of(std::span<const Eigen::Vector3d> points) {
-  Extent extent;
-  Eigen::Array3d zero = Eigen::Array3d::Zero();  // turns NaN with the first infinity or NaN
-  for (const Eigen::Vector3d& p : points) {
-    for (int axis = 0; axis < 3; ++axis) {
-      extent.low[axis] = p[axis] < extent.low[axis] ? p[axis] : extent.low[axis];
-      extent.high[axis] = p[axis] > extent.high[axis] ? p[axis] : extent.high[axis];
-      zero[axis] += 0.0 * p[axis];
-    }
-  }
-  extent.finite = (zero == 0.0).all();
-  return extent;
-}
-
-/// Grows over finite points. Indices here are relative to the grid's low corner. The products with the
-/// inverse pitch only choose which positions are tested, with slack for all rounding; the test itself
-/// is the plain form's.
+/// Grows over finite points. Indices here are relative to the grid's low corner. The products with
+/// the inverse pitch only choose which positions are tested, with slack for all rounding; the test
+/// itself is the plain form's.
 template <class Scalar>
 class FastGrowing {
  public:
@@ -56,9 +36,9 @@ class FastGrowing {
         radius_squared_(static_cast<Scalar>(radius_factor * pitch_m * (radius_factor * pitch_m))) {}
 
   /// False when the points do not fit a dense grid; nothing can be grown then.
-  [[nodiscard]] bool lay_grid(const Extent& extent) {
-    const double widest_m = std::max({extent.low.abs().maxCoeff(), extent.high.abs().maxCoeff(),
-                                      seed_.cwiseAbs().maxCoeff()});
+  [[nodiscard]] bool lay_grid(const PointExtent& extent) {
+    const double widest_m = std::max(
+        {extent.low.abs().maxCoeff(), extent.high.abs().maxCoeff(), seed_.cwiseAbs().maxCoeff()});
     const double slack =
         1e-9 + 8.0 * std::numeric_limits<Scalar>::epsilon() * (widest_m / pitch_m_ + factor_);
     reach_ = factor_ + slack;
@@ -82,7 +62,9 @@ class FastGrowing {
     full_ = LatticeBits(low_, size_);
     mark_occupied();
     Region region;
-    if (flood() == 0) return region;
+    const std::size_t accepted = flood();
+    if (accepted == 0) return region;
+    region.positions.reserve(accepted);
     accepted_.for_each([&](Address a) { region.positions.push_back(accepted_.key(a)); });
     keep_points(region);
     return region;
@@ -93,10 +75,11 @@ class FastGrowing {
   using Index3 = std::array<std::int32_t, 3>;
 
   // What a point's pass over its positions leaves for the next one, in place of an address.
-  static constexpr Address kNowhere = ~Address{0};    ///< no position reaches it
+  static constexpr Address kNowhere = ~Address{0};     ///< no position reaches it
   static constexpr Address kUndecided = kNowhere - 1;  ///< positions of two pieces may
 
-  /// The point in units of the pitch from the grid's low corner, at least `reach_` + 1 on every axis.
+  /// The point in units of the pitch from the grid's low corner, at least `reach_` + 1 on every
+  /// axis.
   struct LatticePoint {
     std::array<double, 3> q;
     std::array<Scalar, 3> p;
@@ -126,8 +109,7 @@ class FastGrowing {
 
   /// (x - p)^2 along one axis.
   [[nodiscard]] Scalar squared(const LatticePoint& point, std::size_t axis, std::int32_t n) const {
-    const Scalar difference =
-        coordinates_[axis][static_cast<std::size_t>(n)] - point.p[axis];
+    const Scalar difference = coordinates_[axis][static_cast<std::size_t>(n)] - point.p[axis];
     return difference * difference;
   }
 
@@ -140,15 +122,17 @@ class FastGrowing {
     return occupied_.address(at[0], at[1], at[2]);
   }
 
-  static Index3 nearest(const LatticePoint& point) {
-    return {static_cast<std::int32_t>(point.q[0] + 0.5), static_cast<std::int32_t>(point.q[1] + 0.5),
-            static_cast<std::int32_t>(point.q[2] + 0.5)};
+  [[nodiscard]] static Index3 nearest(const LatticePoint& point) {
+    Index3 at;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      at[axis] = static_cast<std::int32_t>(point.q[axis] + 0.5);
+    return at;
   }
 
   /// Whether a position other than the nearest, `at`, may be within reach.
   [[nodiscard]] bool others_near(const LatticePoint& point, const Index3& at) const {
-    const double off = std::max({std::abs(point.q[0] - at[0]), std::abs(point.q[1] - at[1]),
-                                 std::abs(point.q[2] - at[2])});
+    const double off = std::max(
+        {std::abs(point.q[0] - at[0]), std::abs(point.q[1] - at[1]), std::abs(point.q[2] - at[2])});
     return off >= 1.0 - reach_;
   }
 
@@ -177,13 +161,14 @@ class FastGrowing {
     }
   }
 
-  /// Marks the block of a point whose nearest position is done; what to note for the point. Positions
-  /// within a block of 2 x 2 x 2 are neighbours and end in the same piece, so one stands for all.
+  /// Marks the block of a point whose nearest position is done; what to note for the point.
+  /// Positions within a block of 2 x 2 x 2 are neighbours and end in the same piece, so one stands
+  /// for all.
   [[nodiscard]] Address mark_block(const LatticePoint& point, Address reached) {
     const auto [first, last] = block(point);
-    const bool cube = last[0] - first[0] == 1 && last[1] - first[1] == 1 && last[2] - first[2] == 1;
-    const bool compact = cube || (last[0] - first[0] < 2 && last[1] - first[1] < 2 &&
-                                  last[2] - first[2] < 2);
+    const Index3 steps{last[0] - first[0], last[1] - first[1], last[2] - first[2]};
+    const auto [least, most] = std::minmax({steps[0], steps[1], steps[2]});
+    const bool compact = most <= 1, cube = compact && least == 1;
     const bool known = reached != kNowhere;
     if (cube && known && full_.test(address(first))) return reached;
     bool full = true;
@@ -213,10 +198,11 @@ class FastGrowing {
       accepted_.set(a);
       queue.push_back(a);
     };
-    const bool seed_inside = -low_[0] >= 0 && -low_[0] < size_[0] && -low_[1] >= 0 &&
-                             -low_[1] < size_[1] && -low_[2] >= 0 && -low_[2] < size_[2];
     const Index3 seed{-low_[0], -low_[1], -low_[2]};
-    if (seed_inside && occupied_.test(address(seed))) accept(address(seed));
+    bool inside = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      inside = inside && seed[axis] >= 0 && seed[axis] < size_[axis];
+    if (inside && occupied_.test(address(seed))) accept(address(seed));
     for (std::size_t next = 0; next < queue.size(); ++next)
       occupied_.for_each_near(queue[next], accept);
     return queue.size();
@@ -226,8 +212,8 @@ class FastGrowing {
     region.points.reserve(points_.size());
     for (std::size_t n = 0; n < points_.size(); ++n) {
       const Address a = reached_[n];
-      const bool kept = a == kUndecided ? reached_by_accepted(points_[n])
-                                        : a != kNowhere && accepted_.test(a);
+      const bool kept =
+          a == kUndecided ? reached_by_accepted(points_[n]) : a != kNowhere && accepted_.test(a);
       if (kept) region.points.push_back(static_cast<int>(n));
     }
   }
@@ -259,7 +245,7 @@ class FastGrowing {
 };
 
 template <class Scalar>
-Region grow_finite(std::span<const Eigen::Vector3d> points, const Extent& extent,
+Region grow_finite(std::span<const Eigen::Vector3d> points, const PointExtent& extent,
                    const Eigen::Vector3d& seed, double pitch_m, double radius_factor) {
   FastGrowing<Scalar> growing(points, seed, pitch_m, radius_factor);
   constexpr bool kReleased = std::is_same_v<Scalar, float>;
@@ -292,7 +278,7 @@ Region grow_region(std::span<const Eigen::Vector3d> points, const Eigen::Vector3
   if (!(radius_factor > 0.0) || !std::isfinite(radius_factor))
     throw Error("radius_factor: must be positive; 1 is the paper's, 0.5 the released code's");
   if (points.empty() || !seed.allFinite()) return {};
-  const Extent extent = extent_of(points);
+  const PointExtent extent = extent_of(points);
   if (!extent.finite) return grow_without_gaps(points, seed, pitch_m, radius_factor, released);
   return released ? grow_finite<float>(points, extent, seed, pitch_m, radius_factor)
                   : grow_finite<double>(points, extent, seed, pitch_m, radius_factor);

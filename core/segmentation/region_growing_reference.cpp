@@ -53,8 +53,9 @@ Region grow(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& seed
   tree.buildIndex();
   const double radius_m = radius_factor * pitch_m;
   const auto radius_squared = static_cast<Scalar>(radius_m * radius_m);
-  // The tree adds up its bounds in another order than the distance itself, so that it may leave out a
-  // point within the last bits of the radius: search a little wider, then test as defined.
+  // The tree adds up its bounds in another order than the distance, so that its pruning may cost a
+  // point within the last bits of the radius (seen with leaves of one point): search a little
+  // wider, then test as defined.
   const Scalar search_squared =
       radius_squared * (1 + 1024 * std::numeric_limits<Scalar>::epsilon());
 

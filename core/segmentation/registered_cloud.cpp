@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -28,6 +29,8 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 /// Whole numbers, limits included; empty when first > last.
 struct Span {
   std::int32_t first = 0, last = -1;
+
+  [[nodiscard]] std::int32_t size() const { return std::max(0, last - first + 1); }
 };
 
 /// Columns and rows of the colour image that matter.
@@ -61,8 +64,8 @@ struct ProjectedRow {
   std::vector<double> z_color, u, v, z_ratio;
 };
 
-/// Between parallel cameras R * p = p exactly, which saves the product. Without branches, so that the
-/// loop becomes wide vectors.
+/// Between parallel cameras R * p = p exactly, which saves the product. Without branches, so that
+/// the loop becomes wide vectors.
 template <bool kParallel>
 void project_row(const std::uint16_t* values, const double* ray_x, double ray_y,
                  const Calibration& believed, ProjectedRow& out) {
@@ -86,7 +89,8 @@ void project_row(const std::uint16_t* values, const double* ray_x, double ray_y,
   }
 }
 
-/// Least and greatest stored depth within the camera's range, limits included; none if first > last.
+/// Least and greatest stored depth within the camera's range, limits included; none if first >
+/// last.
 Span values_in_range(const Calibration& believed) {
   const auto in_metres = [](std::int32_t value) { return value / kDepthUnitsPerMetre; };
   Span span{1, 65535};
@@ -95,12 +99,24 @@ Span values_in_range(const Calibration& believed) {
   return span;
 }
 
-/// The pixels of `window` whose centres lie within `reach` of `at` on one axis; none for NaN.
+/// The pixels of `window` whose centres lie within `reach` of `at` on one axis, |pixel - at| <=
+/// reach as METHODS says it: at - reach and at + reach are rounded, so the pixels at either end are
+/// asked again.
 Span covered(double at, double reach, const Span& window) {
-  const double low = at - reach, high = at + reach;
-  if (!(high >= window.first && low <= window.last)) return {};
-  return {low <= window.first ? window.first : ceil_int(low),
-          high >= window.last ? window.last : floor_int(high)};
+  if (!(at + reach >= window.first - 1 && at - reach <= window.last + 1)) return {};
+  const auto within = [&](int pixel) { return std::abs(pixel - at) <= reach; };
+  Span span{at - reach <= window.first ? window.first : ceil_int(at - reach),
+            at + reach >= window.last ? window.last : floor_int(at + reach)};
+  if (span.first > window.first && within(span.first - 1)) --span.first;
+  if (span.last < window.last && within(span.last + 1)) ++span.last;
+  if (!within(span.first)) ++span.first;
+  if (!within(span.last)) --span.last;
+  return span;
+}
+
+/// Whether a pixel of the window may lie within half a pixel of `at`; false for NaN.
+bool touches(double at, const Span& window) {
+  return at >= window.first - 0.5 && at <= window.last + 0.5;
 }
 
 /// Keeps the nearest depth pixel per colour pixel. Depth pixels arrive in row-major order, so
@@ -113,37 +129,55 @@ class ZBuffer {
         values_(values_in_range(believed)),
         ratio_u_(believed.color.fx_px / believed.depth.fx_px),
         ratio_v_(believed.color.fy_px / believed.depth.fy_px),
-        nearest_(believed.color.height_px, believed.color.width_px, kFar),
+        ratio_max_(std::max(ratio_u_, ratio_v_)),
+        nearest_(window_.rows.size(), window_.columns.size(), kFar),
         source_(believed.color.height_px, believed.color.width_px, RegisteredCloud::kNone) {
-    if (!wanted.empty()) nearest_.setTo(-kFar, wanted == 0);
+    if (!wanted.empty() && !nearest_.empty()) nearest_.setTo(-kFar, within_window(wanted) == 0);
   }
 
   void cover(const std::uint16_t* values, const ProjectedRow& row, int first_depth_pixel) {
     for (std::size_t i = 0; i < row.u.size(); ++i) {
       if (values[i] < values_.first || values[i] > values_.last || !(row.z_color[i] > 0)) continue;
-      const double s = row.z_ratio[i];
-      const Span columns = covered(row.u[i], 0.5 * std::max(1.0, ratio_u_ * s), window_.columns);
-      const Span rows = covered(row.v[i], 0.5 * std::max(1.0, ratio_v_ * s), window_.rows);
-      for (int v = rows.first; v <= rows.last; ++v)
-        for (int u = columns.first; u <= columns.last; ++u)
-          offer(u, v, row.z_color[i], first_depth_pixel + static_cast<int>(i));
+      const int depth_pixel = first_depth_pixel + static_cast<int>(i);
+      if (ratio_max_ * row.z_ratio[i] <= 1.0) {  // covers one pixel, save when it lies half-way
+        if (!touches(row.u[i], window_.columns) || !touches(row.v[i], window_.rows)) continue;
+        const int u = static_cast<int>(row.u[i] + 0.5), v = static_cast<int>(row.v[i] + 0.5);
+        if (std::abs(row.u[i] - u) < 0.5 && std::abs(row.v[i] - v) < 0.5) {
+          offer(u, v, row.z_color[i], depth_pixel);
+          continue;
+        }
+      }
+      cover_block(row, i, depth_pixel);
     }
   }
 
   [[nodiscard]] cv::Mat1i take() { return std::move(source_); }
 
  private:
+  void cover_block(const ProjectedRow& row, std::size_t i, int depth_pixel) {
+    const double s = row.z_ratio[i];
+    const Span columns = covered(row.u[i], 0.5 * std::max(1.0, ratio_u_ * s), window_.columns);
+    const Span rows = covered(row.v[i], 0.5 * std::max(1.0, ratio_v_ * s), window_.rows);
+    for (int v = rows.first; v <= rows.last; ++v)
+      for (int u = columns.first; u <= columns.last; ++u) offer(u, v, row.z_color[i], depth_pixel);
+  }
+
   void offer(int u, int v, double z_color, int depth_pixel) {
-    double& nearest = nearest_(v, u);
+    double& nearest = nearest_(v - window_.rows.first, u - window_.columns.first);
     if (z_color >= nearest) return;
     nearest = z_color;
     source_(v, u) = depth_pixel;
   }
 
+  [[nodiscard]] cv::Mat1b within_window(const cv::Mat1b& wanted) const {
+    return wanted(cv::Rect(window_.columns.first, window_.rows.first, window_.columns.size(),
+                           window_.rows.size()));
+  }
+
   Window window_;
   Span values_;
-  double ratio_u_, ratio_v_;
-  cv::Mat1d nearest_;
+  double ratio_u_, ratio_v_, ratio_max_;
+  cv::Mat1d nearest_;  ///< z_color of the winners, in the window
   cv::Mat1i source_;
 };
 

@@ -44,11 +44,11 @@ class RegisteredCloud {
 
 /// Registers depth to colour with the believed calibration (METHODS section 1). A depth pixel with
 /// a value within the camera's range (limits included) is projected to (u, v) at depth z_color > 0
-/// in the colour camera; it covers the columns from ceil(u - h) to floor(u + h) with h = max(1,
-/// (fx_color / fx_depth) * (z_depth / z_color)) / 2, and the rows likewise with fy. Of the depth
-/// pixels that cover a colour pixel the nearest in z_color wins, ties to the lower row, then
-/// column. `wanted` (255 or 0 per colour pixel) limits the work to pixels that matter; the others
-/// get kNone. Throws Error when an image has another size than its camera.
+/// in the colour camera; it covers the columns with |column - u| <= h, h = max(1, (fx_color /
+/// fx_depth) (z_depth / z_color)) / 2, and the rows likewise with v and fy. Of the depth pixels
+/// that cover a colour pixel the nearest in z_color wins, ties to the lower row, then column.
+/// `wanted` (not 0 on the colour pixels that matter) limits the work: the others get kNone. Throws
+/// Error when an image has another size than its camera.
 [[nodiscard]] RegisteredCloud register_depth(const cv::Mat1w& depth, const Calibration& believed,
                                              const cv::Mat1b& wanted = {});
 

@@ -18,6 +18,17 @@ int complain(const std::string& message) {
   return kWrongInput;
 }
 
+/// CLI11 would only say that a verb is missing.
+void refuse_unknown_verb(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string verbs;
+  for (const CLI::App* verb : program.get_subcommands({})) {
+    if (verb->get_name() == argv[1]) return;
+    verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+  }
+  throw mapscore::Error(std::string("no verb '") + argv[1] + "'; there are: " + verbs);
+}
+
 int run(CLI::App& program, int argc, char** argv) {
   int exit_code = 0;
   namespace verbs = mapscore::eval;
@@ -30,6 +41,7 @@ int run(CLI::App& program, int argc, char** argv) {
   verbs::add_figures(program);
   verbs::add_check(program, exit_code);
   verbs::add_info(program);
+  refuse_unknown_verb(program, argc, argv);
   program.parse(argc, argv);
   std::cout.flush();
   return std::cout ? exit_code : complain("standard output cannot be written; is the disk full?");

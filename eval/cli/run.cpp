@@ -15,6 +15,7 @@
 #include "eval/experiment/study_store.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
+#include "eval/report/pictures.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/report/table.hpp"
 
@@ -57,6 +58,11 @@ std::string score_text(const TrialResult& result, const ClassTable& table) {
   return to_text(scores);
 }
 
+void print_pictures(const Pictures& pictures) {
+  for (const std::filesystem::path& file : pictures.files) std::cout << file.string() << '\n';
+  if (!pictures.skipped.empty()) std::cerr << "mapscore: no pictures: " << pictures.skipped << '\n';
+}
+
 void run(const RunFlags& flags) {
   const Study study = flags.study.load();
   const std::filesystem::path results = flags.study.results_folder(study);
@@ -86,6 +92,9 @@ void run(const RunFlags& flags) {
   std::cout << fmt::format("# {} seed {} {}\n", spec.method, spec.seed_index, text_of(spec.cell))
             << score_text(result, table) << (folder / "map.ot").string() << '\n'
             << (folder / "map_colour.ot").string() << '\n';
+  print_pictures(draw_pictures(
+      study, table, recording,
+      {spec.cell.doses, spec.method, spec.seed_index, flags.work.memory_bytes}, folder));
 }
 
 }  // namespace

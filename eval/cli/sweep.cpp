@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include <cstdio>
 #include <iostream>
 #include <memory>
 
@@ -15,6 +16,7 @@
 #include "eval/experiment/store.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
+#include "eval/report/summary.hpp"
 
 namespace mapscore::eval {
 namespace {
@@ -23,6 +25,7 @@ struct SweepFlags {
   StudyFlags study;
   WorkFlags work;
   std::string shard = "1/1";
+  std::vector<std::string> merged;
 };
 
 /// "i/n" with 1 <= i <= n.
@@ -32,6 +35,11 @@ std::pair<int, int> parse_shard(const std::string& text) {
       read != static_cast<int>(text.size()) || shard < 1 || shard > shards)
     throw Error("--shard " + text + ": must be i/n with 1 <= i <= n, e.g. 2/4");
   return {shard, shards};
+}
+
+void merge_into(ResultStore& store, const std::string& other, bool quiet) {
+  const int taken = store.merge(ResultStore::open_existing(store_file(other)));
+  if (!quiet) std::cerr << fmt::format("sweep: {} trials taken over from {}\n", taken, other);
 }
 
 void sweep(const SweepFlags& flags) {
@@ -51,6 +59,7 @@ void sweep(const SweepFlags& flags) {
               {study, table, recording.content_hash(),
                std::filesystem::relative(recording.folder(), results).string()},
               results);
+  for (const std::string& other : flags.merged) merge_into(store, other, flags.work.quiet);
   Progress progress("sweep", "frame evaluations", flags.work.quiet);
   const RunnerOutcome outcome =
       run_plan(plan, recording, table, store,
@@ -69,14 +78,18 @@ void add_sweep(CLI::App& program) {
   const auto flags = std::make_shared<SweepFlags>();
   flags->study.add_to(*verb);
   flags->work.add_to(*verb);
-  verb->add_option("--shard", flags->shard, "Only every n-th trial: i/n; merge stores by sweeping again");
+  verb->add_option("--shard", flags->shard, "Only every n-th trial: i/n, for several processes or machines");
+  verb->add_option("--merge", flags->merged, "Take over the trials of another results folder first")
+      ->allow_extra_args(false);
   verb->footer(
       "Records the scene first if its recording is not there. A trial that the store holds is never\n"
       "computed again, so a killed sweep goes on where it stopped.\n"
       "Examples:\n"
       "  mapscore sweep configs/demo.yaml\n"
       "  mapscore sweep configs/demo.yaml -o /data/demo --jobs 8 --memory 4GiB\n"
-      "  mapscore sweep configs/demo.yaml --set seeds=20 --set voxel_m=0.02");
+      "  mapscore sweep configs/demo.yaml --set seeds=20 --set voxel_m=0.02\n"
+      "  mapscore sweep configs/demo.yaml -o part2 --shard 2/2\n"
+      "  mapscore sweep configs/demo.yaml -o part1 --merge part2");
   verb->callback([flags] { sweep(*flags); });
 }
 

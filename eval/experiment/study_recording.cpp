@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include "sim/recorder.hpp"
-#include "sim/world/world.hpp"
 #endif
 
 namespace mapscore::eval {
@@ -24,16 +23,6 @@ namespace mapscore::eval {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-
-sim::World world_of(const Study& study) {
-  sim::WorldFiles files;
-  files.scene = resolve_path(study, study.scene.value());
-  if (study.classes) files.classes = resolve_path(study, *study.classes);
-  files.robot = robot_path(study);
-  const CameraSettings& cameras = study.cameras;
-  return sim::World::load(files, {cameras.width_px, cameras.height_px, cameras.range_min_m,
-                                  cameras.range_max_m});
-}
 
 sim::Drive drive_of(const TrajectorySettings& settings) {
   sim::Drive drive;
@@ -99,6 +88,16 @@ std::string recording_name(const Study& study, const sim::World& world) {
 
 }  // namespace
 
+sim::World world_of(const Study& study) {
+  sim::WorldFiles files;
+  files.scene = resolve_path(study, study.scene.value());
+  if (study.classes) files.classes = resolve_path(study, *study.classes);
+  files.robot = robot_path(study);
+  const CameraSettings& cameras = study.cameras;
+  return sim::World::load(files, {cameras.width_px, cameras.height_px, cameras.range_min_m,
+                                  cameras.range_max_m});
+}
+
 void record_study(const Study& study, const std::filesystem::path& folder, int jobs,
                   const FrameProgress& progress, const std::filesystem::path& trajectory) {
   if (!study.scene) throw Error("scene: nothing to record; name an MJCF file");
@@ -135,6 +134,8 @@ namespace {
 }
 
 }  // namespace
+
+sim::World world_of(const Study&) { refuse(); }
 
 void record_study(const Study&, const std::filesystem::path&, int, const FrameProgress&,
                   const std::filesystem::path&) {

@@ -10,10 +10,15 @@
 
 #include "eval/experiment/study.hpp"
 #include "eval/recording/recording.hpp"
+#include "sim/world/world.hpp"
 
 namespace mapscore::eval {
 
 using FrameProgress = std::function<void(int done, int total)>;
+
+/// The scene and robot of a study. Throws Error when the program was built without the simulator or the scene
+/// is refused.
+[[nodiscard]] sim::World world_of(const Study& study);
 
 /// Renders the drive of a study and writes it as a recording. A `trajectory` file (TUM lines: poses of the
 /// colour camera's optical frame in the world) takes the place of the drive. Throws Error when the program

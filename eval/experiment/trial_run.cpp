@@ -23,13 +23,6 @@ std::uint64_t trial_seed(const Task& task) {
       .bits();
 }
 
-Calibration believed_calibration(const Calibration& truth, const Task& task) {
-  const std::uint64_t seed = trial_seed(task);
-  const Calibration misregistered =
-      sim::misregister(truth, dose_of(task.config.faults.misregistration), seed);
-  return sim::misplace_mount(misregistered, dose_of(task.config.faults.mount), seed);
-}
-
 /// Believed T_map_base of every frame.
 std::vector<Pose> believed_poses(const Recording& recording, const Task& task) {
   std::vector<Pose> poses;
@@ -57,6 +50,13 @@ std::vector<int> positive(const std::vector<int>& tolerances) {
 
 }  // namespace
 
+Calibration believed_calibration(const Calibration& truth, const Task& task) {
+  const std::uint64_t seed = trial_seed(task);
+  const Calibration misregistered =
+      sim::misregister(truth, dose_of(task.config.faults.misregistration), seed);
+  return sim::misplace_mount(misregistered, dose_of(task.config.faults.mount), seed);
+}
+
 TruthOptions truth_options(const Study& config) {
   return {.epsilon_m = config.score.epsilon_m,
           .min_samples = config.score.min_samples,
@@ -83,14 +83,14 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
 }
 
 void TrialRun::advance(const Frame& frame) {
+  const bool by_itself = task_.config.score.unit == ScoreUnit::frame;
+  if (by_itself) map_ = SemanticMap(map_.edge_m());
   const Observation observation =
       task_.labels == Labels::truth ? observe_truth(frame) : observe(frame);
   const auto hits = place(observation, sensor_poses(frame.index), map_.edge_m());
   map_.blend(hits, blend_.N, blend_.K);
   ++result_.accounting.frames;
-  if (task_.config.score.unit == ScoreUnit::map) return;
-  score(truth_->view(frame.index));
-  map_ = SemanticMap(map_.edge_m());
+  if (by_itself) score(truth_->view(frame.index));
 }
 
 TrialResult TrialRun::finish() {

@@ -8,6 +8,7 @@
 
 #include "core/classes.hpp"
 #include "core/frame.hpp"
+#include "core/geometry/camera.hpp"
 #include "core/mapping/observation.hpp"
 #include "core/mapping/semantic_map.hpp"
 #include "core/segmentation/segmentation.hpp"
@@ -59,6 +60,9 @@ class TrialRun {
   SemanticMap map_;
   TrialResult result_;
 };
+
+/// What a task's method is told of the cameras, with its faults.
+[[nodiscard]] Calibration believed_calibration(const Calibration& truth, const Task& task);
 
 /// How a task's truth is made.
 [[nodiscard]] TruthOptions truth_options(const Study& config);

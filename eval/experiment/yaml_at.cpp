@@ -6,9 +6,12 @@
 #include "core/error.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/anchor.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 namespace mapscore::eval {
 namespace {
@@ -58,9 +61,45 @@ void refuse_hidden_characters(const std::string& text, const std::string& source
   }
 }
 
-std::vector<YAML::Node> load_all(const std::string& text, const std::string& source, bool lines) {
+/// Hears where documents start and nothing else.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& mark) override { last_ = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+  [[nodiscard]] const YAML::Mark& last() const { return last_; }
+
+ private:
+  YAML::Mark last_;
+};
+
+/// Stops at the second document: YAML::Load passes over it, and YAML::LoadAll of yaml-cpp 0.7 never
+/// ends on a stray comma where a document begins.
+void refuse_second_document(const std::string& text, const std::string& source, bool lines) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStarts starts;
+  if (!parser.HandleNextDocument(starts) || !parser.HandleNextDocument(starts)) return;
+  throw Error(located(source, lines ? line_of(starts.last()) : 0) +
+              "a second document begins, or a stray character ends the first; keep one document");
+}
+
+/// Null when there is nothing in the text.
+YAML::Node load_one(const std::string& text, const std::string& source, bool lines) {
+  refuse_hidden_characters(text, source);
   try {
-    return YAML::LoadAll(text);
+    refuse_second_document(text, source, lines);
+    return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     const int line = lines ? line_of(error.mark) : 0;
     throw Error(
@@ -134,25 +173,14 @@ std::string YamlAt::plain_scalar(std::string_view wanted) const {
 }
 
 YamlAt parse_yaml(const std::string& text, const std::string& source) {
-  refuse_hidden_characters(text, source);
-  const std::vector<YAML::Node> documents = load_all(text, source, true);
-  if (documents.empty() || documents[0].IsNull()) {
-    throw Error(located(source, 1) + "the file is empty; write key: value");
-  }
-  if (documents.size() > 1) {
-    throw Error(located(source, line_of(documents[1].Mark())) +
-                "a second document begins; keep one a file");
-  }
-  return {documents[0], source, std::max(1, line_of(documents[0].Mark())), ""};
+  const YAML::Node node = load_one(text, source, true);
+  if (node.IsNull()) throw Error(located(source, 1) + "the file is empty; write key: value");
+  return {node, source, std::max(1, line_of(node.Mark())), ""};
 }
 
 YamlAt parse_yaml_value(const std::string& text, const std::string& source,
                         const std::string& path) {
-  refuse_hidden_characters(text, source);
-  const std::vector<YAML::Node> documents = load_all(text, source, false);
-  YamlAt at{documents.empty() ? YAML::Node() : documents[0], source, 0, path};
-  if (documents.size() > 1) at.fail("holds more than one YAML document; write one value");
-  return at;
+  return {load_one(text, source, false), source, 0, path};
 }
 
 YamlAt find(const YamlAt& root, std::string_view path) {

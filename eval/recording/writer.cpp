@@ -42,7 +42,7 @@ void create(const fs::path& folder) {
 
 void check_absent(const fs::path& folder) {
   if (fs::exists(fs::symlink_status(folder)))
-    refuse(folder, "exists already; use --force to replace it or give another folder");
+    refuse(folder, "exists already; remove it or give another folder");
 }
 
 void check_size(int index, const char* image, const cv::Mat& pixels, const CameraModel& camera) {

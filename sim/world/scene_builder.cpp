@@ -15,13 +15,18 @@
 namespace mapscore::sim {
 namespace {
 
+[[noreturn]] void refuse(const std::filesystem::path& file, const char* reason) {
+  throw Error(fmt::format("{}: MuJoCo refuses it: {}; mend the MJCF there", file.string(),
+                          one_line(reason)));
+}
+
 SpecPtr parse(const std::filesystem::path& file, const char* what) {
   if (!std::filesystem::is_regular_file(file)) {
     throw Error(fmt::format("{}: no such {} file; check the path", file.string(), what));
   }
   std::array<char, 1024> reason{};
   SpecPtr spec(mj_parseXML(file.c_str(), nullptr, reason.data(), static_cast<int>(reason.size())));
-  if (!spec) throw Error(fmt::format("{}: {}", file.string(), one_line(reason.data())));
+  if (!spec) refuse(file, reason.data());
   spec->compiler.fusestatic = 0;  // bodies are objects here, and the robot hangs on one
   return spec;
 }
@@ -93,9 +98,7 @@ SceneBuilder::SceneBuilder(const std::filesystem::path& scene, const std::filesy
 
 ModelPtr SceneBuilder::compile() {
   ModelPtr model(mj_compile(spec_.get(), nullptr));
-  if (!model) {
-    throw Error(fmt::format("{}: {}", scene_.string(), one_line(mjs_getError(spec_.get()))));
-  }
+  if (!model) refuse(scene_, mjs_getError(spec_.get()));
   return model;
 }
 

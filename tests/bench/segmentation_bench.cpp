@@ -5,7 +5,6 @@
 #include "core/segmentation/region_growing.hpp"
 #include "core/segmentation/registered_cloud.hpp"
 #include "core/segmentation/segmentation.hpp"
-
 #include "synthetic_person.hpp"
 
 #include <benchmark/benchmark.h>
@@ -42,7 +41,9 @@ const DetectedPerson& detected() {
   return kDetected;
 }
 
-double edge_m(const benchmark::State& state) { return 0.01 * static_cast<double>(state.range(0)); }
+double edge_m(const benchmark::State& state) {
+  return 0.01 * static_cast<double>(state.range(0));
+}
 
 void detect(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(detections_of(person().label, person().table));
@@ -78,13 +79,19 @@ void run_segment(benchmark::State& state, const SegmentationParams& params, bool
   state.counters["points"] = static_cast<double>(scene.points.size());
 }
 
-void segment_direct(benchmark::State& state) { run_segment(state, DirectParams{}, false); }
+void segment_direct(benchmark::State& state) {
+  run_segment(state, DirectParams{}, false);
+}
 BENCHMARK(segment_direct)->Arg(5)->Unit(benchmark::kMillisecond);
 
-void segment_direct_voxels(benchmark::State& state) { run_segment(state, DirectParams{}, true); }
+void segment_direct_voxels(benchmark::State& state) {
+  run_segment(state, DirectParams{}, true);
+}
 BENCHMARK(segment_direct_voxels)->Arg(5)->Arg(1)->Unit(benchmark::kMillisecond);
 
-void segment_erosion(benchmark::State& state) { run_segment(state, ErosionParams{}, false); }
+void segment_erosion(benchmark::State& state) {
+  run_segment(state, ErosionParams{}, false);
+}
 BENCHMARK(segment_erosion)->Arg(5)->Unit(benchmark::kMillisecond);
 
 void segment_growing(benchmark::State& state) {
@@ -104,7 +111,8 @@ void grow(benchmark::State& state) {
   const double reference_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   Region fast;
   const std::clock_t fast_start = std::clock();
-  for (auto _ : state) fast = grow_region(scene.points, scene.seed, edge_m(state), factor, released);
+  for (auto _ : state)
+    fast = grow_region(scene.points, scene.seed, edge_m(state), factor, released);
   const double fast_s = static_cast<double>(std::clock() - fast_start) / CLOCKS_PER_SEC /
                         static_cast<double>(state.iterations());
   if (fast.positions != plain.positions || fast.points != plain.points)

@@ -41,7 +41,9 @@ double nearest_hit(const Eigen::Vector3d& eye, const Eigen::Vector3d& direction)
   return nearest;
 }
 
-constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+constexpr double radians(double degrees) {
+  return degrees * std::numbers::pi / 180.0;
+}
 
 }  // namespace
 

@@ -10,8 +10,8 @@
 
 namespace mapscore::testing {
 
-/// A person of ellipsoids 2 m before the camera pair and a wall 1.5 m behind, exact ray-cast images:
-/// about 54 thousand mask pixels at 640 x 480. Instance 1 of the detected class 1.
+/// A person of ellipsoids 2 m before the camera pair and a wall 1.5 m behind, exact ray-cast
+/// images: about 54 thousand mask pixels at 640 x 480. Instance 1 of the detected class 1.
 struct SyntheticPerson {
   Calibration calibration;
   cv::Mat1w depth;  ///< depth camera, 1/5000 m

@@ -42,7 +42,9 @@ cv::Mat1b eroded_plain(const cv::Mat1b& mask, int radius) {
   return result;
 }
 
-bool equal(const cv::Mat1b& a, const cv::Mat1b& b) { return cv::countNonZero(a != b) == 0; }
+bool equal(const cv::Mat1b& a, const cv::Mat1b& b) {
+  return cv::countNonZero(a != b) == 0;
+}
 
 TEST(Erosion, RadiusZeroChangesNothing) {
   const cv::Mat1b mask = (cv::Mat1b(2, 3) << 255, 0, 255, 0, 255, 255);
@@ -62,9 +64,9 @@ TEST(Erosion, DiscIsClosed) {
   cv::Mat1b mask(21, 21, std::uint8_t{255});
   mask(10, 10) = 0;
   const cv::Mat1b result = eroded(mask, 5);
-  EXPECT_EQ(result(10, 15), 0);    // 5, 0
-  EXPECT_EQ(result(14, 13), 0);    // 3, 4: on the circle
-  EXPECT_EQ(result(14, 14), 255);  // 4, 4: beyond it
+  EXPECT_EQ(result(10, 15), 0);                       // 5, 0
+  EXPECT_EQ(result(14, 13), 0);                       // 3, 4: on the circle
+  EXPECT_EQ(result(14, 14), 255);                     // 4, 4: beyond it
   EXPECT_EQ(21 * 21 - cv::countNonZero(result), 81);  // lattice points of a disc of radius 5
 }
 

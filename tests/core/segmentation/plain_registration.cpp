@@ -27,8 +27,7 @@ cv::Mat1i register_plain(const cv::Mat1w& depth, const Calibration& believed) {
     for (int u = 0; u < depth.cols; ++u) {
       const double z = depth(v, u) / kDepthUnitsPerMetre;
       if (depth(v, u) == 0 || z < believed.range_min_m || z > believed.range_max_m) continue;
-      const Eigen::Vector3d p_color =
-          believed.T_color_depth * believed.depth.back_project(u, v, z);
+      const Eigen::Vector3d p_color = believed.T_color_depth * believed.depth.back_project(u, v, z);
       if (!(p_color.z() > 0)) continue;
       const Eigen::Vector2d at = color.project(p_color);
       const double z_ratio = z / p_color.z();

@@ -98,7 +98,9 @@ Points random_cloud(RandomStream& stream, int count) {
   return points;
 }
 
-TEST_P(RegionGrowing, NoPointsGiveNothing) { expect_region({}, {1, 2, 3}, 0.1, {}); }
+TEST_P(RegionGrowing, NoPointsGiveNothing) {
+  expect_region({}, {1, 2, 3}, 0.1, {});
+}
 
 TEST_P(RegionGrowing, OnePointAtTheSeed) {
   const auto [factor, released] = GetParam();
@@ -133,6 +135,22 @@ TEST_P(RegionGrowing, PointsExactlyOnTheRadiusAreOutOfReach) {
   }
   expect_exhaustive(points, {0, 0, 0}, pitch);
   expect_exhaustive(points, {pitch, pitch, 0}, pitch);
+}
+
+/// A KD-tree adds up its bounds in another order than a distance and alone would miss some of
+/// these.
+TEST_P(RegionGrowing, PointsWithinTheLastBitsOfTheRadius) {
+  for (std::uint64_t round = 0; round < 40; ++round) {
+    RandomStream stream(7, "last bits", {round});
+    const double pitch = 0.05 + 0.1 * stream.uniform(), radius = GetParam().factor * pitch;
+    const Eigen::Vector3d seed(stream.normal(), stream.normal(), 2 + stream.uniform());
+    Points points;
+    for (int n = 0; n < 200; ++n) {
+      const Eigen::Vector3d direction(stream.normal(), stream.normal(), stream.normal());
+      points.push_back(seed + radius * direction.normalized());
+    }
+    expect_exhaustive(points, seed, pitch);
+  }
 }
 
 TEST_P(RegionGrowing, PointsOnPositionsAndHalfwayBetweenThem) {

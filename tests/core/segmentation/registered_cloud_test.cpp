@@ -5,7 +5,6 @@
 
 #include "core/error.hpp"
 #include "core/random_stream.hpp"
-
 #include "plain_registration.hpp"
 
 #include <gtest/gtest.h>
@@ -81,8 +80,8 @@ TEST(RegisteredCloud, CoverIsClosedAndTiesGoToTheLowerRowThenColumn) {
   pair.color.cx_px += 0.5;  // every projection falls half-way between two columns
   pair.color.cy_px += 0.5;
   const RegisteredCloud cloud = register_depth(flat(pair.depth, 2.0), pair);
-  EXPECT_EQ(cloud.source(0, 0), 0);  // covered by depth pixel (0, 0) alone
-  EXPECT_EQ(cloud.source(1, 0), 0);  // by (0, 0) and (1, 0): lower column
+  EXPECT_EQ(cloud.source(0, 0), 0);          // covered by depth pixel (0, 0) alone
+  EXPECT_EQ(cloud.source(1, 0), 0);          // by (0, 0) and (1, 0): lower column
   EXPECT_EQ(cloud.source(4, 3), 8 * 2 + 3);  // by four: lower row, then lower column
 }
 
@@ -130,8 +129,12 @@ TEST(RegisteredCloud, RefusesImagesOfAnotherSize) {
 class RandomRegistration : public ::testing::TestWithParam<int> {
  protected:
   RandomRegistration() : stream_(7, "registration test", {static_cast<std::uint64_t>(GetParam())}) {
-    pair_.color = CameraModel{50, 40, 45 + 30 * stream_.uniform(), 45 + 30 * stream_.uniform(),
-                              24.5 + stream_.normal(), 19.5 + stream_.normal()};
+    pair_.color = CameraModel{50,
+                              40,
+                              45 + 30 * stream_.uniform(),
+                              45 + 30 * stream_.uniform(),
+                              24.5 + stream_.normal(),
+                              19.5 + stream_.normal()};
     pair_.depth = CameraModel{48, 36, 50, 52, 23.5, 17.5};
     const bool turned = GetParam() % 2 == 1;
     Vector6 xi;
@@ -142,7 +145,8 @@ class RandomRegistration : public ::testing::TestWithParam<int> {
     for (int v = 0; v < 36; ++v)
       for (int u = 0; u < 48; ++u)
         depth_(v, u) = static_cast<std::uint16_t>(
-            stream_.uniform() < 0.1 ? 0 : (u / 9 + v / 7) % 3 * 4000 + 800 + 40 * stream_.uniform());
+            stream_.uniform() < 0.1 ? 0
+                                    : (u / 9 + v / 7) % 3 * 4000 + 800 + 40 * stream_.uniform());
   }
 
   RandomStream stream_;
@@ -151,8 +155,8 @@ class RandomRegistration : public ::testing::TestWithParam<int> {
 };
 
 TEST_P(RandomRegistration, EqualsThePlainForm) {
-  EXPECT_TRUE(equal(register_depth(depth_, pair_).sources(),
-                    testing::register_plain(depth_, pair_)));
+  EXPECT_TRUE(
+      equal(register_depth(depth_, pair_).sources(), testing::register_plain(depth_, pair_)));
 }
 
 TEST_P(RandomRegistration, MaskChangesNothingWherePixelsMatter) {

@@ -11,8 +11,8 @@
 namespace mapscore {
 namespace {
 
-/// Equal cameras of 9 x 7 pixels, f = 100, before a plane at 2 m: neighbouring points lie 2 cm apart.
-/// `label` is what the colour camera sees.
+/// Equal cameras of 9 x 7 pixels, f = 100, before a plane at 2 m: neighbouring points lie 2 cm
+/// apart. `label` is what the colour camera sees.
 struct Plane {
   Calibration pair;
   cv::Mat1w depth = cv::Mat1w(7, 9, std::uint16_t{10000});
@@ -77,8 +77,9 @@ TEST(Segmentation, VoxelsOfDirectLieOnTheSensorsLatticeOnceEachAndAscending) {
   plane.label(cv::Rect(2, 2, 5, 3)) = 1;
   const Segment segment = plane.segment_by(DirectParams{}, 0.1);
   // x in -0.04 .. 0.04, y in -0.02 .. 0.02, z = 2: two columns of voxels by two rows.
-  const std::vector<Eigen::Vector3d> expected{centre_of({-1, -1, 20}, 0.1), centre_of({-1, 0, 20}, 0.1),
-                                              centre_of({0, -1, 20}, 0.1), centre_of({0, 0, 20}, 0.1)};
+  const std::vector<Eigen::Vector3d> expected{
+      centre_of({-1, -1, 20}, 0.1), centre_of({-1, 0, 20}, 0.1), centre_of({0, -1, 20}, 0.1),
+      centre_of({0, 0, 20}, 0.1)};
   EXPECT_EQ(segment.voxel_centres, expected);
 }
 
@@ -95,8 +96,8 @@ TEST(Segmentation, ErosionKeepsTheInsideOfTheMask) {
   Plane plane;
   plane.label(cv::Rect(2, 2, 5, 3)) = 1;
   const Segment segment = plane.segment_by(ErosionParams{1});
-  EXPECT_EQ(segment.points,
-            (std::vector<Eigen::Vector3d>{plane.point(3, 3), plane.point(4, 3), plane.point(5, 3)}));
+  EXPECT_EQ(segment.points, (std::vector<Eigen::Vector3d>{plane.point(3, 3), plane.point(4, 3),
+                                                          plane.point(5, 3)}));
   EXPECT_EQ(plane.segment_by(ErosionParams{0}).points, plane.segment_by(DirectParams{}).points);
 }
 
@@ -149,7 +150,7 @@ TEST(Segmentation, WantedPixelsAreEnoughForEveryMethod) {
 TEST(Segmentation, MaskCentroidTakesTheNearestMaskPixelWithAPoint) {
   Plane plane;
   plane.label(cv::Rect(2, 2, 5, 3)) = 1;  // centroid (4, 3)
-  plane.label(3, 4) = 0;                  // by symmetry still there; (3, 3), (5, 3) ... at distance 1
+  plane.label(3, 4) = 0;  // by symmetry still there; (3, 3), (5, 3) ... at distance 1
   plane.depth.setTo(15000);
   plane.depth(2, 4) = 10000;  // first of the four in row-major order
   plane.depth(3, 3) = 12000;

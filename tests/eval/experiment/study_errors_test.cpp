@@ -112,8 +112,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "7: a tab indents this line; indent with spaces"},
         BadLine{"control_character", "voxel_m: 1\n\x04garbage",
                 "7: control character 0x04; remove it"},
-        BadLine{"second_document", "---\nvoxel_m: 1\n",
-                "7: a second document begins; keep one a file"},
+        BadLine{
+            "second_document", "---\nvoxel_m: 1\n",
+            "6: a second document begins, or a stray character ends the first; keep one document"},
         BadLine{"asymmetric",
                 kPose + "covariance_m_rad: [[1, 0.5, 0, 0, 0, 0], [0.4, 1, 0, 0, 0, 0], " + kZeros +
                     ", " + kZeros + ", " + kZeros + ", " + kZeros + "]\n",
@@ -192,6 +193,13 @@ TEST(BadStudyFile, WithAMethodNameThatIsNoPartOfAPath) {
 TEST(BadStudyFile, ThatIsNotYaml) {
   EXPECT_THAT(refusal("scene: a.xml\ncameras: {width_px: 5\nvoxel_m: ]\n"),
               ::testing::MatchesRegex("demo.yaml:3: not YAML: .*; mend the syntax near here"));
+}
+
+/// yaml-cpp's own reader of several documents never returns from this.
+TEST(BadStudyFile, ThatBeginsWithAStrayComma) {
+  EXPECT_EQ(refusal(std::string(",") + kSound),
+            "demo.yaml:1: a second document begins, or a stray character ends the first; keep one "
+            "document");
 }
 
 TEST(BadStudyFile, ThatIsEmpty) {

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/figures.hpp"
+
+#include "core/error.hpp"
+#include "eval/cli/verbs.hpp"
+#include "eval/experiment/study_store.hpp"
+#include "eval/report/contact_sheet.hpp"
+#include "eval/report/pictures.hpp"
+#include "eval/report/pictures_caption.hpp"
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FigureFlags {
+  std::string results, folder, method;
+  std::vector<std::string> trial;
+  int seed = 0;
+  std::size_t memory_bytes = std::size_t{1} << 30;
+  bool no_pictures = false;
+};
+
+PictureChoice choice_of(const FigureFlags& flags) {
+  PictureChoice choice;
+  for (const std::string& dose : flags.trial) {
+    const std::size_t equals = dose.find('=');
+    if (equals == std::string::npos)
+      throw Error("--trial " + dose +
+                  ": must be path=value, e.g. faults.misregistration.magnitude_m=0.02");
+    choice.doses.emplace_back(dose.substr(0, equals), dose.substr(equals + 1));
+  }
+  if (!flags.method.empty()) choice.method = flags.method;
+  choice.seed_index = flags.seed;
+  choice.memory_bytes = flags.memory_bytes;
+  return choice;
+}
+
+void print(const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) std::cout << file.string() << std::endl;
+}
+
+/// The recording, from the store's folder; none and a note when it is not there.
+std::optional<Recording> find_recording(const StudyRecord& record, const fs::path& folder) {
+  const fs::path recording = (folder / record.recording).lexically_normal();
+  if (fs::exists(recording)) return Recording::open(recording);
+  std::cerr << "mapscore: no pictures: the recording " << recording.string()
+            << " is not there; `mapscore sweep` renders it\n";
+  return std::nullopt;
+}
+
+void draw_from_recording(const FigureFlags& flags, const fs::path& folder) {
+  const fs::path file = store_file(flags.results);
+  const StudyRecord record = read_study(ResultStore::open_existing(file), file.parent_path());
+  const PictureChoice choice = choice_of(flags);
+  const std::optional<Recording> recording = find_recording(record, file.parent_path());
+  if (!recording) return;
+  print({write_picture(folder / "contact_sheet.png",
+                       contact_sheet(record.study, record.table, *recording))});
+  const Pictures pictures = draw_pictures(record.study, record.table, *recording, choice, folder);
+  print(pictures.files);
+  if (!pictures.skipped.empty())
+    std::cerr << "mapscore: no pictures of the map: " << pictures.skipped << '\n';
+}
+
+void figures(const FigureFlags& flags) {
+  const StudySummary summary = summarise_store(flags.results);
+  const fs::path folder = flags.folder.empty() ? store_file(flags.results).parent_path() / "figures"
+                                               : fs::path(flags.folder);
+  print(write_tables(summary, folder));
+  print(draw_figures(summary, folder));
+  if (!flags.no_pictures) draw_from_recording(flags, folder);
+}
+
+}  // namespace
+
+void add_figures(CLI::App& program) {
+  auto* verb = program.add_subcommand("figures", "Draw figures and pictures of a swept study");
+  const auto flags = std::make_shared<FigureFlags>();
+  verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
+  verb->add_option("-o,--output", flags->folder, "Folder of the pictures [RESULTS/figures]");
+  verb->add_option("--trial", flags->trial,
+                   "Dose whose maps are drawn, path=value of a swept path; may be repeated [the "
+                   "middle of each]")
+      ->allow_extra_args(false);
+  verb->add_option("--method", flags->method, "Draw the map of this method alone [all]");
+  verb->add_option("--seed", flags->seed, "Index of the seed whose maps are drawn [0]")
+      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--memory", flags->memory_bytes,
+                   "Decoded frames held at once, e.g. 512MB [1GiB]")
+      ->transform(CLI::AsSizeValue(false));
+  verb->add_flag("--no-pictures", flags->no_pictures, "Figures and tables alone");
+  verb->footer(
+      "Writes trials.csv, table.txt, figures (PNG, PDF, and the gnuplot script and numbers they "
+      "are made of),\n"
+      "a contact sheet of the recording, and pictures of maps and of their errors. Prints where "
+      "each is.\n"
+      "Examples:\n"
+      "  mapscore figures results/demo\n"
+      "  mapscore figures results/demo -o paper --trial faults.misregistration.magnitude_m=0.04\n"
+      "  mapscore figures results/person --no-pictures");
+  verb->callback([flags] { figures(*flags); });
+}
+
+}  // namespace mapscore::eval

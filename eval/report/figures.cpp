@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/figures.hpp"
+
+#include "core/error.hpp"
+#include "eval/report/figures_accuracy.hpp"
+#include "eval/report/figures_causes.hpp"
+#include "eval/report/figures_layout.hpp"
+#include "eval/report/figures_script.hpp"
+#include "eval/report/table.hpp"
+#include "eval/report/tidy_csv.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <system_error>
+
+namespace mapscore::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (problem)
+    throw Error(folder.string() + ": cannot be made (" + problem.message() +
+                "); choose another folder");
+}
+
+fs::path write_aside(const fs::path& file, const std::string& text) {
+  fs::path aside = file;
+  aside += ".partial";
+  std::ofstream stream(aside, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream)
+    throw Error(file.string() + ": cannot be written; check the folder and the free space");
+  fs::rename(aside, file);
+  return file;
+}
+
+}  // namespace
+
+std::vector<fs::path> draw_figures(const StudySummary& summary, const fs::path& folder) {
+  make_folder(folder);
+  const StudyLayout layout(summary);
+  std::vector<FigureSheet> sheets{accuracy_figure(summary, layout), causes_figure(summary, layout)};
+  if (auto by_class = class_figure(summary, layout)) sheets.push_back(std::move(*by_class));
+  std::vector<fs::path> pictures;
+  for (const FigureSheet& sheet : sheets)
+    for (fs::path& file : draw(sheet, folder)) pictures.push_back(std::move(file));
+  return pictures;
+}
+
+std::vector<fs::path> write_tables(const StudySummary& summary, const fs::path& folder) {
+  make_folder(folder);
+  std::ostringstream tidy;
+  write_tidy_csv(summary, tidy);
+  const std::string table = to_text(score_table(summary, std::string(kPooled))) + '\n' +
+                            to_text(score_table(summary, std::string(kMacro)));
+  return {write_aside(folder / "trials.csv", tidy.str()), write_aside(folder / "table.txt", table)};
+}
+
+}  // namespace mapscore::eval

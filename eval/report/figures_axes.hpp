@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/experiment/study.hpp"
+
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// A swept leaf as a figure shows it, in the unit that people read.
+struct FigureAxis {
+  std::string name;                 ///< "misregistration", "N", or the last part of the path
+  std::string unit;                 ///< "mm", "deg", or nothing
+  bool numeric = true;              ///< all values are numbers
+  std::vector<double> at;           ///< place of each value: itself in `unit`, or 0, 1, 2, ...
+  std::vector<std::string> values;  ///< text of each value, in `unit`
+
+  /// "misregistration (mm)".
+  [[nodiscard]] std::string title() const;
+  /// "misregistration = 20 mm".
+  [[nodiscard]] std::string text(std::size_t value) const;
+};
+
+[[nodiscard]] FigureAxis figure_axis(const SweepAxis& axis);
+
+}  // namespace mapscore::eval

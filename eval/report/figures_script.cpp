@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/figures_script.hpp"
+
+#include "core/error.hpp"
+#include "eval/report/figures_gnuplot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+namespace mapscore::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDotsPerInch = 150.0, kPointsPerInch = 72.0;
+/// The resolution that the cairo terminals take font sizes for.
+constexpr double kFontUnitsPerInch = 96.0;
+constexpr double kFont_pt = 8.0, kCaption_pt = 6.5;
+/// Mean width of a letter of DejaVu Sans over its size.
+constexpr double kLetterWidth = 0.53;
+constexpr double kLeft_in = 0.62, kRight_in = 0.12, kTop_in = 0.3, kXLabel_in = 0.45;
+constexpr double kGap_in = 0.14, kGapWithLabels_in = 0.42, kTitleGap_in = 0.24;
+constexpr double kLegendRow_in = 0.17, kCaptionRow_in = 0.125, kLegendEntry_in = 0.55;
+
+std::vector<std::string> wrapped(const std::string& text, double width_in, double font_pt) {
+  const auto letters =
+      static_cast<std::size_t>(width_in * kPointsPerInch / (kLetterWidth * font_pt));
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (lines.empty() || lines.back().size() + word.size() + 1 > letters)
+      lines.push_back(word);
+    else
+      lines.back() += " " + word;
+  }
+  return lines;
+}
+
+/// Letters between the quotes that follow `title`, in an element of the legend.
+std::size_t title_length(const std::string& element) {
+  const std::size_t at = element.find("title \"");
+  return at == std::string::npos ? 0 : element.rfind('"') - at - 7;
+}
+
+/// Where everything lies, in inches from the low left corner of the sheet.
+class Geometry {
+ public:
+  explicit Geometry(const FigureSheet& sheet)
+      : sheet_(sheet),
+        rows_((static_cast<int>(sheet.panels.size()) + sheet.columns - 1) / sheet.columns),
+        title_gap_in_(has_titles_inside() ? kTitleGap_in : 0.0),
+        x_gap_in_(has_tics_inside() ? kGapWithLabels_in : kGap_in),
+        width_in_(kLeft_in + sheet.columns * (sheet.panel_width_in + x_gap_in_) - x_gap_in_ +
+                  kRight_in),
+        caption_(wrapped(sheet.caption, width_in_ - 0.2, kCaption_pt)) {
+    std::size_t longest = 0;
+    for (const std::string& entry : sheet.legend) longest = std::max(longest, title_length(entry));
+    const double entry_in =
+        kLegendEntry_in + static_cast<double>(longest) * kLetterWidth * kFont_pt / kPointsPerInch;
+    legend_columns_ = std::clamp(static_cast<int>(width_in_ / entry_in), 1,
+                                 std::max(1, static_cast<int>(sheet.legend.size())));
+    const int entries = static_cast<int>(sheet.legend.size());
+    legend_rows_ = (entries + legend_columns_ - 1) / legend_columns_;
+    legend_columns_ = legend_rows_ > 0 ? (entries + legend_rows_ - 1) / legend_rows_ : 1;
+  }
+
+  [[nodiscard]] double width_in() const { return width_in_; }
+  [[nodiscard]] double height_in() const {
+    return kTop_in + rows_ * (sheet_.panel_height_in + row_gap_in()) - row_gap_in() + kXLabel_in +
+           below_in();
+  }
+  [[nodiscard]] const std::vector<std::string>& caption() const { return caption_; }
+  [[nodiscard]] int legend_rows() const { return legend_rows_; }
+
+  [[nodiscard]] std::string margins(int panel) const {
+    const int row = panel / sheet_.columns, column = panel % sheet_.columns;
+    const double left = kLeft_in + column * (sheet_.panel_width_in + x_gap_in_);
+    const double top = height_in() - kTop_in - row * (sheet_.panel_height_in + row_gap_in());
+    return margins(left, left + sheet_.panel_width_in, top - sheet_.panel_height_in, top);
+  }
+  [[nodiscard]] std::string legend_margins() const {
+    return margins(0.05, width_in_ - 0.05, caption_in(), below_in());
+  }
+  /// Height of a line of the caption as a share of the sheet.
+  [[nodiscard]] double caption_line(std::size_t line) const {
+    return (caption_in() - 0.06 - static_cast<double>(line) * kCaptionRow_in) / height_in();
+  }
+
+ private:
+  [[nodiscard]] double caption_in() const {
+    return 0.08 + static_cast<double>(caption_.size()) * kCaptionRow_in;
+  }
+  [[nodiscard]] double below_in() const { return caption_in() + legend_rows_ * kLegendRow_in; }
+  [[nodiscard]] double row_gap_in() const { return kGap_in + title_gap_in_ + x_tics_in(); }
+  /// Rows below the first that have their own x tics.
+  [[nodiscard]] double x_tics_in() const { return 0.16; }
+  [[nodiscard]] bool has_titles_inside() const {
+    return std::any_of(sheet_.panels.begin() +
+                           std::min<std::ptrdiff_t>(
+                               sheet_.columns, static_cast<std::ptrdiff_t>(sheet_.panels.size())),
+                       sheet_.panels.end(),
+                       [](const Panel& panel) { return !panel.title.empty(); });
+  }
+  [[nodiscard]] bool has_tics_inside() const {
+    for (std::size_t i = 0; i < sheet_.panels.size(); ++i)
+      if (i % static_cast<std::size_t>(sheet_.columns) != 0 && sheet_.panels[i].y_tic_labels)
+        return true;
+    return false;
+  }
+  [[nodiscard]] std::string margins(double left, double right, double bottom, double top) const {
+    return fmt::format(
+        "set lmargin at screen {:.5f}; set rmargin at screen {:.5f}; set bmargin at screen {:.5f}; "
+        "set tmargin at screen {:.5f}",
+        left / width_in_, right / width_in_, bottom / height_in(), top / height_in());
+  }
+
+  const FigureSheet& sheet_;
+  int rows_, legend_columns_ = 1, legend_rows_ = 0;
+  double title_gap_in_, x_gap_in_, width_in_;
+  std::vector<std::string> caption_;
+};
+
+std::string plot_command(const std::vector<std::string>& elements) {
+  std::string command = "  plot ";
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    command += (i > 0 ? ", \\\n       " : "") + elements[i];
+  return command + '\n';
+}
+
+std::string header_of(const FigureSheet& sheet, const Geometry& geometry) {
+  return fmt::format(
+      "# `gnuplot {0}.gp` in this folder draws {0}.png and {0}.pdf from {0}.dat.\n"
+      "data = '{0}.dat'\n"
+      "set encoding utf8\n"
+      "set datafile missing '-'\n"
+      "do for [format in 'png pdf'] {{\n"
+      "  if (format eq 'png') {{\n"
+      "    set terminal pngcairo noenhanced size {1:.0f},{2:.0f} font 'DejaVu Sans,{5}' fontscale "
+      "{6:.4f} "
+      "linewidth {7:.4f} pointscale 1 background '#FFFFFF'\n"
+      "  }} else {{\n"
+      "    set terminal pdfcairo noenhanced size {3:.3f}in,{4:.3f}in font 'DejaVu Sans,{5}' "
+      "fontscale {8:.4f} "
+      "linewidth 2 pointscale 0.6\n"
+      "  }}\n"
+      "  set output '{0}.'.format\n"
+      "  set multiplot\n"
+      "  set border 3 lc rgb '#444444' lw 0.7\n"
+      "  set tics nomirror scale 0.5 textcolor rgb '#222222'\n"
+      "  set grid lc rgb '#D0D0D0' lw 0.4 dt 1\n"
+      "  unset key\n",
+      sheet.name, std::round(geometry.width_in() * kDotsPerInch),
+      std::round(geometry.height_in() * kDotsPerInch), geometry.width_in(), geometry.height_in(),
+      kFont_pt, kDotsPerInch / kFontUnitsPerInch, kDotsPerInch / kPointsPerInch,
+      kPointsPerInch / kFontUnitsPerInch);
+}
+
+std::string text_of(const Panel& panel, const std::string& margins) {
+  std::string text = "\n  " + margins + '\n';
+  text += fmt::format("  set title {} offset 0,-0.6\n", quoted(panel.title));
+  text += fmt::format("  set xlabel {} offset 0,0.4\n", quoted(panel.x_label));
+  text += fmt::format("  set ylabel {} offset 1.2,0\n", quoted(panel.y_label));
+  text += panel.y_tic_labels ? "  set format y '%g'\n" : "  set format y ''\n";
+  for (const std::string& setting : panel.settings) text += "  " + setting + '\n';
+  return text + plot_command(panel.elements);
+}
+
+std::string legend_and_caption(const FigureSheet& sheet, const Geometry& geometry) {
+  std::string text = "\n  " + geometry.legend_margins() + '\n';
+  text +=
+      "  unset label; unset title; unset xlabel; unset ylabel; unset border; unset tics; unset "
+      "grid\n"
+      "  set xrange [0:1]; set yrange [0:1]\n";
+  text += fmt::format(
+      "  set key center center horizontal maxrows {} Left reverse samplen 2.5 width 1 noenhanced\n",
+      std::max(1, geometry.legend_rows()));
+  const std::vector<std::string>& caption = geometry.caption();
+  for (std::size_t line = 0; line < caption.size(); ++line)
+    text += fmt::format(
+        "  set label {} at screen 0.5,{:.5f} center font ',{}' textcolor rgb '#333333'\n",
+        quoted(caption[line]), geometry.caption_line(line), kCaption_pt);
+  return text +
+         plot_command(sheet.legend.empty() ? std::vector<std::string>{"NaN notitle"}
+                                           : sheet.legend) +
+         "  unset label\n";
+}
+
+std::string script_of(const FigureSheet& sheet) {
+  const Geometry geometry(sheet);
+  std::string script = header_of(sheet, geometry);
+  for (std::size_t i = 0; i < sheet.panels.size(); ++i)
+    script += text_of(sheet.panels[i], geometry.margins(static_cast<int>(i)));
+  return script + legend_and_caption(sheet, geometry) +
+         "  unset multiplot\n  set output\n  reset\n  set encoding utf8\n  set datafile missing "
+         "'-'\n}\n";
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  if (!stream.flush())
+    throw Error(file.string() + ": cannot be written; check the folder and the free space");
+}
+
+}  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    if (letter == '"' || letter == '\\') quoted += '\\';
+    if (letter == '\n')
+      quoted += "\\n";
+    else
+      quoted += letter;
+  }
+  return quoted + '"';
+}
+
+std::vector<fs::path> draw(const FigureSheet& sheet, const fs::path& folder) {
+  const fs::path aside = folder / (sheet.name + ".partial");
+  std::error_code ignored;
+  fs::remove_all(aside, ignored);
+  fs::create_directories(aside, ignored);
+  write_text(aside / (sheet.name + ".dat"), sheet.data);
+  write_text(aside / (sheet.name + ".gp"), script_of(sheet));
+  run_gnuplot(aside, sheet.name + ".gp");
+  for (const char* suffix : {".dat", ".gp", ".png", ".pdf"})
+    fs::rename(aside / (sheet.name + suffix), folder / (sheet.name + suffix));
+  fs::remove_all(aside, ignored);
+  return {folder / (sheet.name + ".png"), folder / (sheet.name + ".pdf")};
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// One panel of a figure, in gnuplot's words.
+struct Panel {
+  std::string title, x_label, y_label;  ///< outside of the panel; empty where a neighbour says it
+  bool y_tic_labels = true;
+  std::vector<std::string> settings;  ///< "set ..." lines, valid for this panel only
+  std::vector<std::string> elements;  ///< of `plot`; the data file is `data`
+};
+
+/// A figure: panels in rows and columns, the legend and a caption below them.
+struct FigureSheet {
+  std::string name;  ///< of its files, without a suffix
+  int columns = 1;
+  double panel_width_in = 2.2, panel_height_in = 1.7;  ///< of the plotted area
+  std::vector<Panel> panels;                           ///< row by row; the last row may be short
+  std::vector<std::string> legend;  ///< elements of `plot` that only show in the legend
+  std::string caption;              ///< wrapped to the width
+  std::string data;                 ///< text of the data file
+};
+
+/// A text as gnuplot reads it; newlines stay.
+[[nodiscard]] std::string quoted(const std::string& text);
+
+/// Writes NAME.gp and NAME.dat, runs gnuplot for NAME.png and NAME.pdf, aside, and moves all four
+/// into `folder`, which must be there. Returns the PNG and the PDF. Throws Error when gnuplot is
+/// missing or fails (with its own words).
+[[nodiscard]] std::vector<std::filesystem::path> draw(const FigureSheet& sheet,
+                                                      const std::filesystem::path& folder);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/classes.hpp"
+#include "eval/experiment/study.hpp"
+#include "eval/recording/recording.hpp"
+#include "eval/report/pictures_trial.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// What was drawn, or the one-line reason why nothing was.
+struct Pictures {
+  std::vector<std::filesystem::path> files;
+  std::string skipped;
+};
+
+/// Runs the chosen trials anew and draws, for each method, in the pale scene:
+///
+/// - map_METHOD.png: its predicted voxels in the colours of their classes;
+/// - errors_METHOD.png, errors_METHOD_close.png: true, near, leak, floating and missed voxels, over
+/// all that
+///   was seen and where most errors are;
+///
+/// and errors.png, the methods side by side. `table` has the study's detected set. Skips when there
+/// is no simulator or no scene. Throws Error when there is no such trial or the folder cannot be
+/// written.
+[[nodiscard]] Pictures draw_pictures(const Study& study, const ClassTable& table,
+                                     const Recording& recording, const PictureChoice& choice,
+                                     const std::filesystem::path& folder);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/pictures_trial.hpp"
+
+#include "core/error.hpp"
+#include "eval/experiment/lattice_truth.hpp"
+#include "eval/experiment/map_frame.hpp"
+#include "eval/experiment/plan.hpp"
+#include "eval/experiment/trial_run.hpp"
+#include "eval/recording/frame_cache.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace mapscore::eval {
+namespace {
+
+std::string wanted_value(const SweepAxis& axis, const PictureChoice& choice) {
+  for (const auto& [path, value] : choice.doses)
+    if (path == axis.path) return value;
+  return axis.values[axis.values.size() / 2];
+}
+
+void check_paths(const Study& study, const PictureChoice& choice) {
+  for (const auto& [path, value] : choice.doses) {
+    const auto axis = std::find_if(study.sweep.begin(), study.sweep.end(),
+                                   [&path = path](const SweepAxis& a) { return a.path == path; });
+    std::string swept;
+    for (const SweepAxis& a : study.sweep) swept += " " + a.path;
+    if (axis == study.sweep.end())
+      throw Error(fmt::format("{}: the study does not sweep it; swept:{}", path, swept));
+    std::string values;
+    for (const std::string& v : axis->values) values += " " + v;
+    if (std::find(axis->values.begin(), axis->values.end(), value) == axis->values.end())
+      throw Error(fmt::format("{}: the study has no value {}; values:{}", path, value, values));
+  }
+}
+
+TrialMap judged_map(const TrialRun& run, const Task& task, const ClassTable& table,
+                    const TrialSpec& spec, std::optional<int> frame) {
+  const LatticeTruth& truth = run.truth();
+  const VisibleTruth& visible = truth.view(frame.value_or(0)).visible;
+  TrialMap map{spec.method, spec.cell, spec.seed_index, frame, task.config.voxel_m, {}, {}, {}};
+  map.T_world_map = map_frame(task.config, task.seed_index).T_map_world().inverse();
+  map.voxels =
+      judge(MapSnapshot(run.map().voxels()), run.threshold(), truth.surface, visible, table);
+  for (const VisibleVoxel& voxel : visible.voxels())
+    map.seen_map.extend(centre_of(voxel.key, map.edge_m));
+  return map;
+}
+
+}  // namespace
+
+Cell chosen_cell(const Study& study, const PictureChoice& choice) {
+  check_paths(study, choice);
+  for (Cell& cell : cells(study)) {
+    std::size_t fitting = 0;
+    for (std::size_t axis = 0; axis < cell.doses.size(); ++axis)
+      fitting += cell.doses[axis].second == wanted_value(study.sweep[axis], choice) ? 1 : 0;
+    if (fitting == cell.doses.size()) return std::move(cell);
+  }
+  throw Error("sweep: the study has no such cell; see `mapscore table RESULTS`");
+}
+
+int fullest_frame(const Recording& recording, const ClassTable& table, int first, int end) {
+  int fullest = first;
+  std::int64_t most = -1;
+  for (int index = first; index < end; ++index) {
+    const Frame frame = recording.read(index, {.color = false, .label = true, .depth = false});
+    const std::int64_t pixels =
+        std::count_if(frame.label.begin(), frame.label.end(),
+                      [&](InstanceId id) { return table.detected(table.class_of(id)); });
+    if (pixels > most) fullest = index;
+    most = std::max(most, pixels);
+  }
+  return fullest;
+}
+
+std::vector<TrialMap> map_trials(const Study& study, const ClassTable& table,
+                                 const Recording& recording, const PictureChoice& choice) {
+  const Cell cell = chosen_cell(study, choice);
+  Study undistanced = study;  // pictures need no distances, and those cost most of a truth
+  undistanced.score.distances_m.clear();
+  FrameCache frames(recording, {.color = false, .label = true, .depth = true, .depth_label = true},
+                    choice.memory_bytes);
+  TruthCache truths(recording, table, frames, 1);
+  std::optional<int> alone;
+  if (study.score.unit == ScoreUnit::frame)
+    alone = fullest_frame(recording, table, 0, recording.frame_count());
+
+  std::vector<TrialMap> maps;
+  for (const TrialSpec& spec : trials(study)) {
+    if (spec.cell != cell || spec.seed_index != choice.seed_index) continue;
+    if (choice.method && *choice.method != spec.method) continue;
+    const Task task = task_of(undistanced, spec, Labels::detected, recording.content_hash());
+    TrialRun run(task, recording, table, truths);
+    for (int frame = alone.value_or(0); frame < (alone ? *alone + 1 : recording.frame_count());
+         ++frame)
+      run.advance(*frames.get(frame));
+    maps.push_back(judged_map(run, task, table, spec, alone));
+  }
+  if (maps.empty())
+    throw Error(fmt::format("no trial of method '{}' with seed {}; see `mapscore table RESULTS`",
+                            choice.method.value_or("any"), choice.seed_index));
+  return maps;
+}
+
+}  // namespace mapscore::eval
