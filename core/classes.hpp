@@ -25,7 +25,7 @@ struct SemanticClass {
   ClassId id = kBackground;
   std::string name = "background";
   Colour colour{128, 128, 128};
-  bool detect = false;  ///< becomes a detection; see DESIGN "the detected set"
+  bool detect = false;  ///< becomes a detection; decides the scores more than most faults do
 };
 
 struct Instance {

@@ -23,7 +23,7 @@ struct VoxelHit {
 
 /// Places an observation on the map's lattice once per sensor pose `T_map_sensor` and counts, per
 /// voxel, the draws that each class won. Within a draw the class with most positions in a voxel
-/// wins, ties to the lower id (DESIGN section 3). Ascending by voxel, then class. Edge in metres.
+/// wins, ties to the lower id (docs/methods.md). Ascending by voxel, then class. Edge in metres.
 [[nodiscard]] std::vector<VoxelHit> place(const Observation& observation,
                                           std::span<const Pose> T_map_sensor, double edge_m);
 

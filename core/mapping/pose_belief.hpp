@@ -26,8 +26,8 @@ enum class NoiseAt { base, odom };
 /// `diagonal` draws each axis by itself [M]; `full` uses the whole covariance.
 enum class CovarianceUse { diagonal, full };
 
-/// Lower-triangular L with L L^T = covariance; works for semi-definite matrices, zero gives zero.
-/// Throws Error when the matrix is not symmetric positive semi-definite.
+/// A root L with L L^T = covariance, not triangular in general; works for semi-definite matrices,
+/// zero gives zero. Throws Error when the matrix is not symmetric positive semi-definite.
 [[nodiscard]] Covariance6 covariance_root(const Covariance6& covariance);
 
 /// N poses T_map_base drawn from the belief. A zero covariance gives N copies of the mean, bit for

@@ -124,7 +124,7 @@ void SemanticMap::export_color(const std::filesystem::path& file, const ClassTab
     const Colour colour = table.classes.at(voxel.best_class).colour;
     coloured.updateNode(octree_key(voxel.key), true, true)->setColor(colour.r, colour.g, colour.b);
   }
-  coloured.updateInnerOccupancy();
+  if (coloured.size() > 0) coloured.updateInnerOccupancy();
   write_whole(file, [&](std::ostream& stream) { return coloured.write(stream); });
 }
 

@@ -100,8 +100,8 @@ Span values_in_range(const Calibration& believed) {
 }
 
 /// The pixels of `window` whose centres lie within `reach` of `at` on one axis, |pixel - at| <=
-/// reach as METHODS says it: at - reach and at + reach are rounded, so the pixels at either end are
-/// asked again.
+/// reach as docs/methods.md says it: at - reach and at + reach are rounded, so the pixels at either
+/// end are asked again.
 Span covered(double at, double reach, const Span& window) {
   if (!(at + reach >= window.first - 1 && at - reach <= window.last + 1)) return {};
   const auto within = [&](int pixel) { return std::abs(pixel - at) <= reach; };

@@ -42,7 +42,7 @@ class RegisteredCloud {
   cv::Mat1i source_;
 };
 
-/// Registers depth to colour with the believed calibration (METHODS section 1). A depth pixel with
+/// Registers depth to colour with the believed calibration (docs/methods.md). A depth pixel with
 /// a value within the camera's range (limits included) is projected to (u, v) at depth z_color > 0
 /// in the colour camera; it covers the columns with |column - u| <= h, h = max(1, (fx_color /
 /// fx_depth) (z_depth / z_color)) / 2, and the rows likewise with v and fy. Of the depth pixels

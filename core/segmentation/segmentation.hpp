@@ -57,9 +57,9 @@ struct Segment {
   SkipReason skipped = SkipReason::none;
 };
 
-/// From a detection and a registered cloud to the points, box and voxels of the object (METHODS
-/// section 3). `voxel_m`: voxel edge. `with_voxels`: fill `voxel_centres`. Throws Error on a radius
-/// or edge that is not positive (an erosion radius of 0 is direct).
+/// From a detection and a registered cloud to the points, box and voxels of the object
+/// (docs/methods.md). `voxel_m`: voxel edge. `with_voxels`: fill `voxel_centres`. Throws Error on a
+/// radius or edge that is not positive (an erosion radius of 0 is direct).
 [[nodiscard]] Segment segment(const Detection& detection, const RegisteredCloud& cloud,
                               double voxel_m, const SegmentationParams& params, bool with_voxels);
 

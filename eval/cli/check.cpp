@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include <iostream>
-#include <memory>
+#include "eval/cli/verbs.hpp"
+#include "eval/report/baseline.hpp"
 
 #include <fmt/format.h>
 
-#include "eval/cli/verbs.hpp"
-#include "eval/report/baseline.hpp"
+#include <iostream>
+#include <memory>
 
 namespace mapscore::eval {
 namespace {

@@ -1,12 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include <iostream>
-#include <map>
-#include <memory>
-
-#include <fmt/format.h>
-
 #include "core/error.hpp"
 #include "core/mapping/semantic_map.hpp"
 #include "eval/cli/verbs.hpp"
@@ -15,6 +9,12 @@
 #include "eval/experiment/study_store.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/report/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <map>
+#include <memory>
 
 namespace mapscore::eval {
 namespace {
@@ -64,9 +64,9 @@ void print_store(const fs::path& results) {
   const Plan plan = plan_of(record.study, record.recording_hash);
   std::size_t done = 0;
   for (const Task& task : plan.tasks) done += store.contains(task.key) ? 1 : 0;
-  std::cout << fmt::format("{}: results of study {}, {} of {} trials and ceilings, by mapscore {}\n",
-                           file.string(), record.study.name, done, plan.tasks.size(),
-                           store.text("mapscore_version"));
+  std::cout << fmt::format(
+      "{}: results of study {}, {} of {} trials and ceilings, by mapscore {}\n", file.string(),
+      record.study.name, done, plan.tasks.size(), store.text("mapscore_version"));
   std::cout << store.text("study");
 }
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include "core/error.hpp"
+#include "eval/cli/verbs.hpp"
+
 #include <exception>
 #include <iostream>
 #include <new>
 #include <string>
-
-#include "core/error.hpp"
-#include "eval/cli/verbs.hpp"
 
 namespace {
 
@@ -51,7 +51,8 @@ int run(CLI::App& program, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   CLI::App program(
-      "How good is a semantic 3D map, and how much calibration and localisation error can it take?");
+      "How good is a semantic 3D map, and how much calibration and localisation error can it "
+      "take?");
   program.require_subcommand(1);
   program.set_version_flag("--version", std::string("mapscore ") + MAPSCORE_VERSION);
   program.footer(

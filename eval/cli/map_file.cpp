@@ -3,15 +3,15 @@
 
 #include "eval/cli/map_file.hpp"
 
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
 #include <sstream>
-
-#include <fmt/format.h>
-
-#include "core/error.hpp"
 
 namespace mapscore::eval {
 namespace {
@@ -43,7 +43,8 @@ MapVoxel parse_row(const std::string& line, const std::string& where, const Clas
   if (!x || !y || !z) throw Error(where + ": needs whole numbers i,j,k and a class");
   const auto class_id = parse_class(name, table);
   if (!class_id)
-    throw Error(where + ": class '" + name + "' is not in the truth; `mapscore info` lists its classes");
+    throw Error(where + ": class '" + name +
+                "' is not in the truth; `mapscore info` lists its classes");
   return {{*x, *y, *z}, *class_id, 1.0, true};
 }
 

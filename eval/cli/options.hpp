@@ -3,14 +3,15 @@
 
 #pragma once
 
+#include "eval/experiment/study.hpp"
+
 #include <CLI/CLI.hpp>
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
 #include <thread>
 #include <vector>
-
-#include "eval/experiment/study.hpp"
 
 namespace mapscore::eval {
 

@@ -3,12 +3,11 @@
 
 #include "eval/cli/progress.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <iostream>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace mapscore::eval {
 

@@ -10,8 +10,8 @@
 
 namespace mapscore::eval {
 
-/// Progress with time left, on standard error: a line that renews itself on a terminal, otherwise a line
-/// every ten seconds. Members may be called from several threads.
+/// Progress with time left, on standard error: a line that renews itself on a terminal, otherwise a
+/// line every ten seconds. Members may be called from several threads.
 class Progress {
  public:
   /// `what` and `unit` as in "sweep 120/5400 frames". Silent when `quiet`.

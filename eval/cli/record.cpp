@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include <iostream>
-#include <memory>
-
-#include <fmt/format.h>
-
 #include "core/error.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/recording/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
 
 namespace mapscore::eval {
 namespace {
@@ -22,17 +22,21 @@ struct RecordFlags {
   WorkFlags work;
 };
 
-bool is_scene(const std::string& path) { return std::filesystem::path(path).extension() == ".xml"; }
+bool is_scene(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".xml";
+}
 
 void record(const RecordFlags& flags) {
   if (is_scene(flags.source) && flags.trajectory.empty())
-    throw Error(flags.source + ": a scene by itself says no way to drive; add --trajectory FILE, or record a "
-                               "study");
+    throw Error(flags.source +
+                ": a scene by itself says no way to drive; add --trajectory FILE, or record a "
+                "study");
   const Study study = is_scene(flags.source) ? study_of_scene(flags.source, flags.overrides)
                                              : load_study(flags.source, flags.overrides);
   Progress progress("record", "frames", flags.work.quiet);
-  record_study(study, flags.folder, flags.work.jobs,
-               [&](int done, int total) { progress.show(done, total); }, flags.trajectory);
+  record_study(
+      study, flags.folder, flags.work.jobs,
+      [&](int done, int total) { progress.show(done, total); }, flags.trajectory);
 }
 
 }  // namespace
@@ -44,9 +48,10 @@ void add_record(CLI::App& program) {
       ->required();
   verb->add_option("-o,--output", flags->folder, "Folder of the recording; must not exist")
       ->required();
-  verb->add_option("--trajectory", flags->trajectory,
-                   "TUM lines (stamp tx ty tz qx qy qz qw) of the colour camera's optical frame in the "
-                   "world; replaces the study's drive");
+  verb->add_option(
+      "--trajectory", flags->trajectory,
+      "TUM lines (stamp tx ty tz qx qy qz qw) of the colour camera's optical frame in the "
+      "world; replaces the study's drive");
   verb->add_option("--set", flags->overrides, "Override a key of the study; may be repeated")
       ->allow_extra_args(false);
   flags->work.add_to(*verb);

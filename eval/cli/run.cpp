@@ -1,11 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include <iostream>
-#include <memory>
-
-#include <fmt/format.h>
-
 #include "core/error.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
@@ -18,6 +13,11 @@
 #include "eval/report/pictures.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/report/table.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
 
 namespace mapscore::eval {
 namespace {
@@ -41,8 +41,8 @@ TrialSpec spec_of(const Study& study, const RunFlags& flags) {
 
 std::string score_text(const TrialResult& result, const ClassTable& table) {
   Table scores;
-  scores.columns = {"class", "precision", "recall", "F1", "IoU", "predicted", "near", "leak",
-                    "floating", "visible", "missed"};
+  scores.columns = {"class", "precision", "recall",   "F1",      "IoU",   "predicted",
+                    "near",  "leak",      "floating", "visible", "missed"};
   const auto add = [&](const std::string& name, const ClassCounts& c) {
     std::vector<std::string> row{name};
     for (const auto& value : {precision(c), recall(c), f1(c), iou(c)})

@@ -1,11 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include <iostream>
-#include <memory>
-
-#include <fmt/format.h>
-
 #include "core/error.hpp"
 #include "eval/cli/map_file.hpp"
 #include "eval/cli/options.hpp"
@@ -15,6 +10,11 @@
 #include "eval/report/table.hpp"
 #include "eval/score/distance_score.hpp"
 #include "eval/score/voxel_score.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
 
 namespace mapscore::eval {
 namespace {
@@ -73,9 +73,9 @@ void score(const ScoreFlags& flags) {
 
   Table table;
   table.caption = {fmt::format("{} against {}", flags.map, flags.truth)};
-  table.columns = {"class", "precision", "recall", "F1", "IoU", "F1 tol. 1", "F at 2 cm",
-                   "predicted", "true", "near", "leak", "floating", "visible", "found",
-                   "mislabelled", "unlabelled", "unmapped"};
+  table.columns = {"class",     "precision", "recall",      "F1",         "IoU",     "F1 tol. 1",
+                   "F at 2 cm", "predicted", "true",        "near",       "leak",    "floating",
+                   "visible",   "found",     "mislabelled", "unlabelled", "unmapped"};
   for (const SemanticClass& c : source.table.classes) {
     const ClassCounts& of_class = counts[c.id];
     if (!c.detect && of_class.predicted == 0) continue;

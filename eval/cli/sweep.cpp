@@ -1,12 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include <cstdio>
-#include <iostream>
-#include <memory>
-
-#include <fmt/format.h>
-
 #include "core/error.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
@@ -17,6 +11,12 @@
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
 #include "eval/report/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
 
 namespace mapscore::eval {
 namespace {
@@ -66,9 +66,9 @@ void sweep(const SweepFlags& flags) {
                {flags.work.jobs, flags.work.memory_bytes, shard, shards,
                 [&](std::int64_t done, std::int64_t total) { progress.show(done, total); }});
   if (!flags.work.quiet)
-    std::cerr << fmt::format("sweep {}: {} trials computed, {} already there or of other shards; {}\n",
-                             study.name, outcome.computed, outcome.reused,
-                             (results / "results.sqlite").string());
+    std::cerr << fmt::format(
+        "sweep {}: {} trials computed, {} already there or of other shards; {}\n", study.name,
+        outcome.computed, outcome.reused, (results / "results.sqlite").string());
 }
 
 }  // namespace
@@ -78,11 +78,13 @@ void add_sweep(CLI::App& program) {
   const auto flags = std::make_shared<SweepFlags>();
   flags->study.add_to(*verb);
   flags->work.add_to(*verb);
-  verb->add_option("--shard", flags->shard, "Only every n-th trial: i/n, for several processes or machines");
+  verb->add_option("--shard", flags->shard,
+                   "Only every n-th trial: i/n, for several processes or machines");
   verb->add_option("--merge", flags->merged, "Take over the trials of another results folder first")
       ->allow_extra_args(false);
   verb->footer(
-      "Records the scene first if its recording is not there. A trial that the store holds is never\n"
+      "Records the scene first if its recording is not there. A trial that the store holds is "
+      "never\n"
       "computed again, so a killed sweep goes on where it stopped.\n"
       "Examples:\n"
       "  mapscore sweep configs/demo.yaml\n"

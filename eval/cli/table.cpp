@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include <iostream>
-#include <memory>
-#include <sstream>
+#include "eval/report/table.hpp"
 
 #include "eval/cli/verbs.hpp"
 #include "eval/report/summary.hpp"
-#include "eval/report/table.hpp"
 #include "eval/report/tidy_csv.hpp"
+
+#include <iostream>
+#include <memory>
+#include <sstream>
 
 namespace mapscore::eval {
 namespace {
@@ -33,7 +34,8 @@ void add_table(CLI::App& program) {
   auto* verb = program.add_subcommand("table", "Print the scores of a swept study");
   const auto flags = std::make_shared<TableFlags>();
   verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
-  verb->add_option("--class", flags->group, "pooled, macro, or the name of a detected class [pooled]");
+  verb->add_option("--class", flags->group,
+                   "pooled, macro, or the name of a detected class [pooled]");
   verb->add_option("--format", flags->format, "text, csv or json [text]")
       ->check(CLI::IsMember({"text", "csv", "json"}));
   verb->add_flag("--tidy", flags->tidy, "Everything as tidy CSV: a row a trial, class and metric");

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include <iostream>
-#include <memory>
-
-#include <fmt/format.h>
-
 #include "eval/cli/options.hpp"
 #include "eval/cli/truth_source.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/truth/truth_file.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
 
 namespace mapscore::eval {
 namespace {
@@ -36,7 +36,8 @@ void write_truth_of(const TruthFlags& flags) {
 void add_truth(CLI::App& program) {
   auto* verb = program.add_subcommand("truth", "Write the voxels that the surfaces really touch");
   const auto flags = std::make_shared<TruthFlags>();
-  verb->add_option("SOURCE", flags->source, "Scene (MJCF: surfaces alone) or recording (and what it saw)")
+  verb->add_option("SOURCE", flags->source,
+                   "Scene (MJCF: surfaces alone) or recording (and what it saw)")
       ->required();
   verb->add_option("-o,--output", flags->file, ".csv (i,j,k,class,touch_only,samples) or .ply")
       ->required();

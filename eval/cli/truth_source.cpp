@@ -3,10 +3,10 @@
 
 #include "eval/cli/truth_source.hpp"
 
-#include <numbers>
-
 #include "core/error.hpp"
 #include "eval/experiment/study_recording.hpp"
+
+#include <numbers>
 
 namespace mapscore::eval {
 
@@ -24,7 +24,8 @@ void LatticeFlags::add_to(CLI::App& verb, bool with_voxel) {
 }
 
 MapFrame LatticeFlags::map_frame() const {
-  return {voxel_m, {origin_m.at(0), origin_m.at(1), origin_m.at(2)},
+  return {voxel_m,
+          {origin_m.at(0), origin_m.at(1), origin_m.at(2)},
           yaw_deg * std::numbers::pi / 180.0};
 }
 
@@ -39,7 +40,8 @@ SourceTruth truth_of(const std::string& source, const LatticeFlags& flags, bool 
   }
   const Recording recording = Recording::open(source);
   if (!recording.info().has_truth)
-    throw Error(source + ": the recording has no truth/; only maps of rendered recordings can be scored");
+    throw Error(source +
+                ": the recording has no truth/; only maps of rendered recordings can be scored");
   FrameCache frames(recording, {.color = false, .label = false, .depth = true, .depth_label = true},
                     memory_bytes);
   LatticeTruth truth = make_lattice_truth(recording, recording.info().table, frames,

@@ -3,14 +3,15 @@
 
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "core/classes.hpp"
 #include "eval/experiment/lattice_truth.hpp"
 #include "eval/experiment/map_frame.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace mapscore::eval {
 

@@ -7,8 +7,8 @@
 
 namespace mapscore::eval {
 
-/// Each function adds one verb to the program. A verb's callback does the work and throws Error when the
-/// input is wrong; `check` sets `exit_code` to 1 when the answer is no.
+/// Each function adds one verb to the program. A verb's callback does the work and throws Error
+/// when the input is wrong; `check` sets `exit_code` to 1 when the answer is no.
 void add_record(CLI::App& program);
 void add_run(CLI::App& program);
 void add_sweep(CLI::App& program);

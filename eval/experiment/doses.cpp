@@ -47,7 +47,9 @@ sim::MisregistrationDose dose_of(const MisregistrationSettings& settings) {
           .principal_point_px = {settings.principal_point_px[0], settings.principal_point_px[1]}};
 }
 
-sim::RigidDose dose_of(const MountSettings& settings) { return rigid_dose(settings); }
+sim::RigidDose dose_of(const MountSettings& settings) {
+  return rigid_dose(settings);
+}
 
 sim::PoseDose dose_of(const PoseNoiseSettings& settings) {
   return {.covariance = settings.sigma_scale * settings.sigma_scale * unit_covariance(settings),

@@ -3,13 +3,6 @@
 
 #pragma once
 
-#include <future>
-#include <list>
-#include <memory>
-#include <mutex>
-#include <string>
-#include <vector>
-
 #include "core/classes.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/recording/frame_cache.hpp"
@@ -18,6 +11,13 @@
 #include "eval/truth/distance.hpp"
 #include "eval/truth/surface_truth.hpp"
 #include "eval/truth/visible_truth.hpp"
+
+#include <future>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
 
 namespace mapscore::eval {
 
@@ -31,8 +31,8 @@ struct ViewTruth {
 struct TruthOptions {
   double epsilon_m = 0.0005;
   int min_samples = 1;
-  bool by_frame = false;   ///< a ViewTruth for each frame instead of one for all
-  bool distances = true;   ///< keep samples for the F-score at a distance
+  bool by_frame = false;  ///< a ViewTruth for each frame instead of one for all
+  bool distances = true;  ///< keep samples for the F-score at a distance
   bool operator==(const TruthOptions&) const = default;
 };
 
@@ -40,7 +40,7 @@ struct TruthOptions {
 struct LatticeTruth {
   SurfaceTruth surface;
   std::vector<SurfaceDistance> distance_to_class;  ///< by class id
-  std::vector<ViewTruth> views;  ///< one for all frames, or one for each
+  std::vector<ViewTruth> views;                    ///< one for all frames, or one for each
 
   [[nodiscard]] const ViewTruth& view(int frame) const {
     return views.size() == 1 ? views.front() : views.at(static_cast<std::size_t>(frame));
@@ -52,13 +52,15 @@ struct LatticeTruth {
                                               const ClassTable& table, const MapFrame& map_frame,
                                               const TruthOptions& options, int jobs);
 
-/// Makes the truth of a recording; `frames` must decode depth and depth_label. Result independent of `jobs`.
+/// Makes the truth of a recording; `frames` must decode depth and depth_label. Result independent
+/// of `jobs`.
 [[nodiscard]] LatticeTruth make_lattice_truth(const Recording& recording, const ClassTable& table,
                                               FrameCache& frames, const MapFrame& map_frame,
                                               const TruthOptions& options, int jobs);
 
-/// Truths of the lattices in use, each made once; the oldest goes when more than `capacity` are held. Safe to
-/// use from several threads: whoever asks for a truth that is being made waits for it.
+/// Truths of the lattices in use, each made once; the oldest goes when more than `capacity` are
+/// held. Safe to use from several threads: whoever asks for a truth that is being made waits for
+/// it.
 class TruthCache {
  public:
   TruthCache(const Recording& recording, const ClassTable& table, FrameCache& frames,

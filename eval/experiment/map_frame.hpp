@@ -3,10 +3,10 @@
 
 #pragma once
 
-#include <Eigen/Core>
-
 #include "core/geometry/pose.hpp"
 #include "eval/experiment/study.hpp"
+
+#include <Eigen/Core>
 
 namespace mapscore::eval {
 
@@ -24,7 +24,8 @@ struct MapFrame {
 /// a = (1/g, 1/g^2, 1/g^3) and g the real root of g^4 = g + 1.
 [[nodiscard]] Eigen::Vector3d low_discrepancy_point(int n);
 
-/// Map frame of seed n: the study's `map_origin_m` if given, otherwise low_discrepancy_point(n) voxels.
+/// Map frame of seed n: the study's `map_origin_m` if given, otherwise low_discrepancy_point(n)
+/// voxels.
 [[nodiscard]] MapFrame map_frame(const Study& study, int seed_index);
 
 }  // namespace mapscore::eval

@@ -3,14 +3,13 @@
 
 #include "eval/experiment/plan.hpp"
 
+#include "core/error.hpp"
+
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <unordered_map>
-
-#include <fmt/format.h>
-
-#include "core/error.hpp"
 
 namespace mapscore::eval {
 namespace {
@@ -20,8 +19,8 @@ std::string content_hash(const std::string& text) {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-/// Leaves only what determines the result, so that renaming a study or adding a method to it does not
-/// make its trials new. The recording stands for what it was made from.
+/// Leaves only what determines the result, so that renaming a study or adding a method to it does
+/// not make its trials new. The recording stands for what it was made from.
 Study determining(Study config) {
   const Study none;
   config.name.clear();
@@ -88,9 +87,9 @@ class TaskList {
 Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
              const std::string& recording_hash) {
   const Study config = resolve(study, spec.cell);
-  return make_task(labels == Labels::truth ? for_lattice_ceiling(config)
-                                           : with_method(config, spec.method),
-                   spec.seed_index, labels, recording_hash);
+  return make_task(
+      labels == Labels::truth ? for_lattice_ceiling(config) : with_method(config, spec.method),
+      spec.seed_index, labels, recording_hash);
 }
 
 Plan plan_of(const Study& study, const std::string& recording_hash) {

@@ -3,16 +3,16 @@
 
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "eval/experiment/grid.hpp"
 #include "eval/experiment/study.hpp"
 
+#include <string>
+#include <vector>
+
 namespace mapscore::eval {
 
-/// Version of everything between a frame and its counts; part of every key, so that results of different
-/// definitions never stand side by side. Raise it when a definition changes.
+/// Version of everything between a frame and its counts; part of every key, so that results of
+/// different definitions never stand side by side. Raise it when a definition changes.
 inline constexpr int kScoringVersion = 1;
 
 /// Which labels a task maps.
@@ -35,11 +35,11 @@ struct PlannedTrial {
   TrialSpec spec;
   std::size_t task = 0;
   std::size_t registration_ceiling = 0;  ///< the same method with every fault at zero
-  std::size_t lattice_ceiling = 0;       ///< true labels on the depth pixels, true pose, same fusion
+  std::size_t lattice_ceiling = 0;  ///< true labels on the depth pixels, true pose, same fusion
 };
 
-/// Everything that a study computes; tasks that several trials share stand once. Trials are in the order of
-/// the grid, tasks in the order of first use.
+/// Everything that a study computes; tasks that several trials share stand once. Trials are in the
+/// order of the grid, tasks in the order of first use.
 struct Plan {
   std::vector<Task> tasks;
   std::vector<PlannedTrial> trials;

@@ -3,46 +3,20 @@
 
 #include "eval/experiment/result_json.hpp"
 
-#include <array>
-#include <nlohmann/json.hpp>
-#include <utility>
-
 #include "core/error.hpp"
+#include "eval/experiment/result_fields.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
 
 namespace mapscore::eval {
 namespace {
 
 using nlohmann::json;
 
-template <class Owner>
-using Field = std::pair<const char*, std::int64_t Owner::*>;
-
-constexpr std::array<Field<ClassCounts>, 10> kCountFields{{
-    {"predicted", &ClassCounts::predicted},
-    {"true_predicted", &ClassCounts::true_predicted},
-    {"visible", &ClassCounts::visible},
-    {"found", &ClassCounts::found},
-    {"false_near", &ClassCounts::false_near},
-    {"false_leak", &ClassCounts::false_leak},
-    {"false_floating", &ClassCounts::false_floating},
-    {"missed_mislabelled", &ClassCounts::missed_mislabelled},
-    {"missed_unlabelled", &ClassCounts::missed_unlabelled},
-    {"missed_unmapped", &ClassCounts::missed_unmapped},
-}};
-
-constexpr std::array<Field<Accounting>, 8> kAccountingFields{{
-    {"frames", &Accounting::frames},
-    {"detections", &Accounting::detections},
-    {"skipped_no_points", &Accounting::skipped_no_points},
-    {"skipped_no_seed_point", &Accounting::skipped_no_seed_point},
-    {"skipped_seed_off_object", &Accounting::skipped_seed_off_object},
-    {"skipped_eroded_away", &Accounting::skipped_eroded_away},
-    {"points", &Accounting::points},
-    {"map_voxels", &Accounting::map_voxels},
-}};
-
 template <class Owner, std::size_t N>
-json fields_to_json(const Owner& owner, const std::array<Field<Owner>, N>& fields) {
+json fields_to_json(const Owner& owner, const std::array<CountField<Owner>, N>& fields) {
   json object;
   for (const auto& [name, member] : fields) object[name] = owner.*member;
   return object;
@@ -50,13 +24,13 @@ json fields_to_json(const Owner& owner, const std::array<Field<Owner>, N>& field
 
 template <class Owner, std::size_t N>
 void fields_from_json(const json& object, Owner& owner,
-                      const std::array<Field<Owner>, N>& fields) {
+                      const std::array<CountField<Owner>, N>& fields) {
   for (const auto& [name, member] : fields) owner.*member = object.at(name);
 }
 
 json tally_to_json(const DistanceTally& tally) {
   const DistanceTally::Parts parts = tally.parts();
-  return {{"limits_m", parts.limits_m}, {"within", parts.within},       {"count", parts.count},
+  return {{"limits_m", parts.limits_m},   {"within", parts.within}, {"count", parts.count},
           {"unreached", parts.unreached}, {"sum_nm", parts.sum_nm}, {"bins", parts.bins}};
 }
 
@@ -67,7 +41,7 @@ DistanceTally tally_from_json(const json& object) {
 }
 
 json counts_to_json(const ClassCounts& counts) {
-  json object = fields_to_json(counts, kCountFields);
+  json object = fields_to_json(counts, kClassCountFields);
   object["at_tolerance"] = json::array();
   for (const ToleranceCounts& at : counts.at_tolerance)
     object["at_tolerance"].push_back({at.voxels, at.true_predicted, at.found});
@@ -78,7 +52,7 @@ json counts_to_json(const ClassCounts& counts) {
 
 ClassCounts counts_from_json(const json& object) {
   ClassCounts counts;
-  fields_from_json(object, counts, kCountFields);
+  fields_from_json(object, counts, kClassCountFields);
   for (const json& at : object.at("at_tolerance"))
     counts.at_tolerance.push_back({at.at(0), at.at(1), at.at(2)});
   counts.accuracy = tally_from_json(object.at("accuracy"));
@@ -101,8 +75,7 @@ TrialResult result_from_json(const std::string& text) try {
   const json object = json::parse(text);
   TrialResult result;
   fields_from_json(object.at("accounting"), result.accounting, kAccountingFields);
-  for (const json& counts : object.at("classes"))
-    result.counts.push_back(counts_from_json(counts));
+  for (const json& counts : object.at("classes")) result.counts.push_back(counts_from_json(counts));
   return result;
 } catch (const json::exception& error) {
   throw Error(std::string("stored result: not readable (") + error.what() +

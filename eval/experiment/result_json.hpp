@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <string>
-
 #include "eval/experiment/store.hpp"
+
+#include <string>
 
 namespace mapscore::eval {
 

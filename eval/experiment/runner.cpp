@@ -3,6 +3,10 @@
 
 #include "eval/experiment/runner.hpp"
 
+#include "eval/experiment/lattice_truth.hpp"
+#include "eval/experiment/trial_run.hpp"
+#include "eval/recording/frame_cache.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -10,10 +14,6 @@
 #include <mutex>
 #include <thread>
 #include <vector>
-
-#include "eval/experiment/lattice_truth.hpp"
-#include "eval/experiment/trial_run.hpp"
-#include "eval/recording/frame_cache.hpp"
 
 namespace mapscore::eval {
 namespace {
@@ -67,7 +67,8 @@ std::vector<const Task*> missing_tasks(const Plan& plan, const ResultStore& stor
     if (mine && !done.contains(task.key)) missing.push_back(&task);
   }
   std::stable_sort(missing.begin(), missing.end(), [](const Task* a, const Task* b) {
-    return std::pair(a->seed_index, a->config.voxel_m) < std::pair(b->seed_index, b->config.voxel_m);
+    return std::pair(a->seed_index, a->config.voxel_m) <
+           std::pair(b->seed_index, b->config.voxel_m);
   });
   return missing;
 }
@@ -81,9 +82,11 @@ class Sweep {
         table_(table),
         store_(store),
         options_(options),
-        frames_(recording, Channels{.color = false, .label = true, .depth = true, .depth_label = true},
+        frames_(recording,
+                Channels{.color = false, .label = true, .depth = true, .depth_label = true},
                 options.memory_bytes),
-        truths_(recording, table, frames_, static_cast<std::size_t>(std::max(1, options.jobs)) + 1) {}
+        truths_(recording, table, frames_,
+                static_cast<std::size_t>(std::max(1, options.jobs)) + 1) {}
 
   void run(const std::vector<const Task*>& tasks) {
     const int block = block_of_frames();
@@ -105,15 +108,14 @@ class Sweep {
         std::clamp<std::size_t>(fitting, 1, static_cast<std::size_t>(recording_.frame_count())));
   }
 
-  /// All trials of the batch take one block of frames after the other; a trial is finished, stored and let
-  /// go with the last block.
+  /// All trials of the batch take one block of frames after the other; a trial is finished, stored
+  /// and let go with the last block.
   void run_batch(const std::vector<const Task*>& batch, int block) {
     std::vector<std::unique_ptr<TrialRun>> runs(batch.size());
     for (int first = 0; first < recording_.frame_count(); first += block) {
       const int end = std::min(first + block, recording_.frame_count());
       for_each_in_parallel(batch.size(), options_.jobs, [&](std::size_t i) {
-        if (!runs[i])
-          runs[i] = std::make_unique<TrialRun>(*batch[i], recording_, table_, truths_);
+        if (!runs[i]) runs[i] = std::make_unique<TrialRun>(*batch[i], recording_, table_, truths_);
         advance(*runs[i], first, end);
         if (end < recording_.frame_count()) return;
         finish(*batch[i], *runs[i]);

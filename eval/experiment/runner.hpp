@@ -3,21 +3,21 @@
 
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-
 #include "core/classes.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/store.hpp"
 #include "eval/recording/recording.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
 namespace mapscore::eval {
 
 struct RunnerOptions {
-  int jobs = 1;                                      ///< worker threads
+  int jobs = 1;                                     ///< worker threads
   std::size_t memory_bytes = std::size_t{1} << 30;  ///< decoded frames held at once
-  int shard = 1, shards = 1;                         ///< this process does every shards-th missing task
+  int shard = 1, shards = 1;  ///< this process does every shards-th missing task
   std::function<void(std::int64_t done, std::int64_t total)> progress;  ///< in frame evaluations
 };
 
@@ -26,10 +26,10 @@ struct RunnerOutcome {
   std::size_t reused = 0;    ///< tasks that the store had
 };
 
-/// Computes the tasks of a plan that the store does not hold and adds each to it as soon as it is done.
-/// Trials walk the frames together in blocks that fit the memory, so that a frame is decoded once for many
-/// trials. The results depend on neither jobs, memory nor shards. The first exception of a worker ends
-/// the others and is rethrown; what was done stays in the store.
+/// Computes the tasks of a plan that the store does not hold and adds each to it as soon as it is
+/// done. Trials walk the frames together in blocks that fit the memory, so that a frame is decoded
+/// once for many trials. The results depend on neither jobs, memory nor shards. The first exception
+/// of a worker ends the others and is rethrown; what was done stays in the store.
 RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
                        ResultStore& store, const RunnerOptions& options);
 

@@ -3,13 +3,13 @@
 
 #include "eval/experiment/store.hpp"
 
+#include "core/error.hpp"
+#include "eval/experiment/result_json.hpp"
+
 #include <sqlite3.h>
 
 #include <system_error>
 #include <utility>
-
-#include "core/error.hpp"
-#include "eval/experiment/result_json.hpp"
 
 namespace mapscore::eval {
 namespace {
@@ -48,8 +48,8 @@ class Statement {
   }
   [[nodiscard]] std::string text(int column) const {
     const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
-    return bytes ? std::string(bytes, static_cast<std::size_t>(
-                                          sqlite3_column_bytes(statement_, column)))
+    return bytes ? std::string(bytes,
+                               static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)))
                  : std::string();
   }
 
@@ -57,7 +57,8 @@ class Statement {
   [[noreturn]] void refuse() {
     const std::string reason = sqlite3_errmsg(database_);
     sqlite3_finalize(std::exchange(statement_, nullptr));
-    fail(file_, "result store: " + reason + "; check free space, permissions and that it is a store");
+    fail(file_,
+         "result store: " + reason + "; check free space, permissions and that it is a store");
   }
 
   sqlite3* database_;
@@ -67,7 +68,9 @@ class Statement {
 
 }  // namespace
 
-void ResultStore::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
+void ResultStore::Close::operator()(sqlite3* database) const {
+  sqlite3_close(database);
+}
 
 ResultStore::ResultStore(std::unique_ptr<sqlite3, Close> database, std::filesystem::path file)
     : database_(std::move(database)), file_(std::move(file)) {

@@ -3,14 +3,14 @@
 
 #pragma once
 
+#include "eval/score/counts.hpp"
+
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <unordered_set>
 #include <vector>
-
-#include "eval/score/counts.hpp"
 
 struct sqlite3;
 
@@ -20,12 +20,14 @@ namespace mapscore::eval {
 struct Accounting {
   std::int64_t frames = 0;
   std::int64_t detections = 0;
-  std::int64_t skipped_no_points = 0;      ///< no registered depth on the mask
-  std::int64_t skipped_no_seed_point = 0;  ///< no registered depth at the seed pixel
+  std::int64_t skipped_no_points = 0;        ///< no registered depth on the mask
+  std::int64_t skipped_no_seed_point = 0;    ///< no registered depth at the seed pixel
   std::int64_t skipped_seed_off_object = 0;  ///< no point of the mask near the seed point
   std::int64_t skipped_eroded_away = 0;
-  std::int64_t points = 0;      ///< kept by the segmentation
-  std::int64_t map_voxels = 0;  ///< in the map at the end, summed over frames where each is scored alone
+  std::int64_t points = 0;  ///< kept by the segmentation
+  std::int64_t map_voxels =
+      0;  ///< in the map at the end, summed over frames where each is scored alone
+  std::int64_t hits_beyond_span = 0;  ///< hits on voxels that the octree cannot hold; left out
 
   bool operator==(const Accounting&) const = default;
 };
@@ -36,13 +38,13 @@ struct TrialResult {
   Accounting accounting;
 };
 
-/// Results of a study: one row a trial, keyed by the content hash of everything that determines it. One
-/// transaction a trial, so that a killed sweep loses nothing that was done. Members may be called from
-/// several threads, one at a time.
+/// Results of a study: one row a trial, keyed by the content hash of everything that determines it.
+/// One transaction a trial, so that a killed sweep loses nothing that was done. Members may be
+/// called from several threads, one at a time.
 class ResultStore {
  public:
-  /// Opens or creates. Throws Error when the file is not a store, is of another format version or cannot be
-  /// written.
+  /// Opens or creates. Throws Error when the file is not a store, is of another format version or
+  /// cannot be written.
   [[nodiscard]] static ResultStore open(const std::filesystem::path& file);
   /// Opens for reading only. Throws Error when it is not there.
   [[nodiscard]] static ResultStore open_existing(const std::filesystem::path& file);
@@ -53,7 +55,8 @@ class ResultStore {
 
   [[nodiscard]] bool contains(const std::string& key) const;
   [[nodiscard]] std::unordered_set<std::string> keys() const;
-  /// A trial that is already there stays as it is. `description` is the YAML of what the key was made from.
+  /// A trial that is already there stays as it is. `description` is the YAML of what the key was
+  /// made from.
   void add(const std::string& key, const std::string& description, const TrialResult& result);
   [[nodiscard]] std::optional<TrialResult> find(const std::string& key) const;
   /// Takes over the trials of another store that are not here yet. Returns how many.

@@ -100,6 +100,15 @@ void check_distinct(const std::vector<T>& list, std::string_view path, const Bla
   }
 }
 
+/// The scorer counts along such a list, so its order is part of it.
+template <class T>
+void check_ascending(const std::vector<T>& list, std::string_view path, const Blame& blame) {
+  for (std::size_t i = 1; i < list.size(); ++i)
+    if (list[i] <= list[i - 1])
+      blame(path, fmt::format("{} stands after {}; write them ascending, each once", list[i],
+                              list[i - 1]));
+}
+
 void check_methods(const std::vector<MethodSettings>& methods, const Blame& blame) {
   if (methods.empty()) {
     blame("methods", "there is no method; write methods: {direct: {segmentation: {direct: {}}}}");
@@ -115,8 +124,8 @@ void check_leaves(const Study& study, const Blame& blame) {
   check_rigid(study.faults.misregistration, "faults.misregistration", blame);
   check_rigid(study.faults.mount, "faults.mount", blame);
   check_covariance(study.faults.pose, blame);
-  check_distinct(study.score.tolerances, "score.tolerances", blame);
-  check_distinct(study.score.distances_m, "score.distances_m", blame);
+  check_ascending(study.score.tolerances, "score.tolerances", blame);
+  check_ascending(study.score.distances_m, "score.distances_m", blame);
 }
 
 void check_size(const Study& study, const Blame& blame) {
@@ -144,6 +153,7 @@ void check_cell(const Study& study, const Cell& cell, const Blame& blame) {
 void check(const Study& study, const Blame& blame) {
   check_size(study, blame);
   if (study.sweep.empty()) return check_leaves(study, blame);
+  check_input(study, blame);
   check_methods(study.methods, blame);
   for (const Cell& cell : cells(study)) check_cell(study, cell, blame);
 }

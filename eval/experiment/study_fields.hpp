@@ -164,7 +164,8 @@ void fields(auto&& visit, Of<ScoreSettings> auto& s) {
   visit(Field{"min_samples", "depth samples that make a voxel visible", {1, 1000000}},
         s.min_samples);
   visit(Field{"epsilon_m", "widening of voxels in the surface test", {0, 0.1}}, s.epsilon_m);
-  visit(Field{"tolerances", "tolerances of the match, in voxels", {0, 100}}, s.tolerances);
+  visit(Field{"tolerances", "tolerances of the match, in voxels; 0 is always counted", {0, 5}},
+        s.tolerances);
   visit(Field{"distances_m", "distances of the F-score", above(0, 10)}, s.distances_m);
 }
 

@@ -7,13 +7,12 @@
 #include "eval/recording/stamp_list.hpp"
 
 #ifdef MAPSCORE_SIMULATOR
+#include "sim/recorder.hpp"
+
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include <numbers>
-
-#include <fmt/format.h>
-
-#include "sim/recorder.hpp"
 #endif
 
 namespace mapscore::eval {
@@ -70,8 +69,8 @@ void record_world(const Study& study, const sim::World& world,
   RecordingWriter writer(folder, info_of(study, world, poses));
   writer.write_shapes(world.shapes());
   sim::record(
-      world, poses, {jobs, study.cameras.shadows},
-      [&](const Frame& frame) { writer.write(frame); }, progress);
+      world, poses, {jobs, study.cameras.shadows}, [&](const Frame& frame) { writer.write(frame); },
+      progress);
   writer.finish();
 }
 
@@ -94,17 +93,17 @@ sim::World world_of(const Study& study) {
   if (study.classes) files.classes = resolve_path(study, *study.classes);
   files.robot = robot_path(study);
   const CameraSettings& cameras = study.cameras;
-  return sim::World::load(files, {cameras.width_px, cameras.height_px, cameras.range_min_m,
-                                  cameras.range_max_m});
+  return sim::World::load(
+      files, {cameras.width_px, cameras.height_px, cameras.range_min_m, cameras.range_max_m});
 }
 
 void record_study(const Study& study, const std::filesystem::path& folder, int jobs,
                   const FrameProgress& progress, const std::filesystem::path& trajectory) {
   if (!study.scene) throw Error("scene: nothing to record; name an MJCF file");
   const sim::World world = world_of(study);
-  const std::vector<sim::StampedPose> poses =
-      trajectory.empty() ? sim::poses_along(drive_of(study.trajectory))
-                         : poses_from(trajectory, world.calibration());
+  const std::vector<sim::StampedPose> poses = trajectory.empty()
+                                                  ? sim::poses_along(drive_of(study.trajectory))
+                                                  : poses_from(trajectory, world.calibration());
   record_world(study, world, poses, folder, jobs, progress);
 }
 
@@ -114,7 +113,8 @@ Recording recording_of(const Study& study, const std::filesystem::path& results,
   const sim::World world = world_of(study);
   const std::filesystem::path folder = results / "recordings" / recording_name(study, world);
   if (!std::filesystem::exists(folder))
-    record_world(study, world, sim::poses_along(drive_of(study.trajectory)), folder, jobs, progress);
+    record_world(study, world, sim::poses_along(drive_of(study.trajectory)), folder, jobs,
+                 progress);
   return Recording::open(folder);
 }
 
@@ -135,7 +135,9 @@ namespace {
 
 }  // namespace
 
-sim::World world_of(const Study&) { refuse(); }
+sim::World world_of(const Study&) {
+  refuse();
+}
 
 void record_study(const Study&, const std::filesystem::path&, int, const FrameProgress&,
                   const std::filesystem::path&) {
@@ -148,7 +150,9 @@ Recording recording_of(const Study& study, const std::filesystem::path&, int,
   return Recording::open(resolve_path(study, *study.recording));
 }
 
-SceneSurfaces surfaces_of_scene(const std::filesystem::path&) { refuse(); }
+SceneSurfaces surfaces_of_scene(const std::filesystem::path&) {
+  refuse();
+}
 
 #endif
 

@@ -3,26 +3,27 @@
 
 #pragma once
 
+#include "eval/experiment/study.hpp"
+#include "eval/recording/recording.hpp"
+#include "sim/world/world.hpp"
+
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "eval/experiment/study.hpp"
-#include "eval/recording/recording.hpp"
-#include "sim/world/world.hpp"
-
 namespace mapscore::eval {
 
 using FrameProgress = std::function<void(int done, int total)>;
 
-/// The scene and robot of a study. Throws Error when the program was built without the simulator or the scene
-/// is refused.
+/// The scene and robot of a study. Throws Error when the program was built without the simulator or
+/// the scene is refused.
 [[nodiscard]] sim::World world_of(const Study& study);
 
-/// Renders the drive of a study and writes it as a recording. A `trajectory` file (TUM lines: poses of the
-/// colour camera's optical frame in the world) takes the place of the drive. Throws Error when the program
-/// was built without the simulator, the scene is refused, or the folder exists or cannot be written.
+/// Renders the drive of a study and writes it as a recording. A `trajectory` file (TUM lines: poses
+/// of the colour camera's optical frame in the world) takes the place of the drive. Throws Error
+/// when the program was built without the simulator, the scene is refused, or the folder exists or
+/// cannot be written.
 void record_study(const Study& study, const std::filesystem::path& folder, int jobs,
                   const FrameProgress& progress, const std::filesystem::path& trajectory = {});
 
@@ -30,8 +31,9 @@ void record_study(const Study& study, const std::filesystem::path& folder, int j
 [[nodiscard]] Study study_of_scene(const std::filesystem::path& scene,
                                    const std::vector<std::string>& overrides);
 
-/// The recording that a study replays: its own `recording`, or the one below `results`/recordings that was
-/// rendered from the same scene, robot, trajectory and cameras; rendered now if there is none.
+/// The recording that a study replays: its own `recording`, or the one below `results`/recordings
+/// that was rendered from the same scene, robot, trajectory and cameras; rendered now if there is
+/// none.
 [[nodiscard]] Recording recording_of(const Study& study, const std::filesystem::path& results,
                                      int jobs, const FrameProgress& progress);
 

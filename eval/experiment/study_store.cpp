@@ -3,10 +3,11 @@
 
 #include "eval/experiment/study_store.hpp"
 
-#include <algorithm>
+#include "core/error.hpp"
+
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
+#include <algorithm>
 
 namespace mapscore::eval {
 namespace {
@@ -45,9 +46,9 @@ ClassTable table_from_json(const std::string& text) {
 void write_study(ResultStore& store, const StudyRecord& record,
                  const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  store.set_text("study_folder",
-                 fs::absolute(record.study.base_folder).lexically_normal().lexically_relative(
-                     fs::absolute(folder).lexically_normal()));
+  store.set_text("study_folder", fs::absolute(record.study.base_folder)
+                                     .lexically_normal()
+                                     .lexically_relative(fs::absolute(folder).lexically_normal()));
   store.set_text("study", to_yaml(record.study));
   store.set_text("classes", table_to_json(record.table));
   store.set_text("recording_hash", record.recording_hash);
@@ -72,13 +73,14 @@ ClassTable detected_table(const Study& study, ClassTable table) {
   for (const std::string& name : study.detect->classes) {
     const auto named = [&](const SemanticClass& c) { return c.name == name; };
     if (std::none_of(table.classes.begin() + 1, table.classes.end(), named))
-      throw Error("detect: the scene has no class '" + name + "'; `mapscore info SCENE` lists them");
+      throw Error("detect: the scene has no class '" + name +
+                  "'; `mapscore info SCENE` lists them");
   }
   for (SemanticClass& c : table.classes)
-    c.detect = c.id != kBackground &&
-               (study.detect->all || std::find(study.detect->classes.begin(),
-                                               study.detect->classes.end(),
-                                               c.name) != study.detect->classes.end());
+    c.detect =
+        c.id != kBackground &&
+        (study.detect->all || std::find(study.detect->classes.begin(), study.detect->classes.end(),
+                                        c.name) != study.detect->classes.end());
   return table;
 }
 

@@ -3,12 +3,12 @@
 
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "core/classes.hpp"
 #include "eval/experiment/store.hpp"
 #include "eval/experiment/study.hpp"
+
+#include <filesystem>
+#include <string>
 
 namespace mapscore::eval {
 
@@ -20,14 +20,15 @@ struct StudyRecord {
   std::string recording;  ///< folder, relative to the store's
 };
 
-/// Writes the record, with the version of the program. `folder` is the store's; the study's own is kept
-/// relative to it, so that both can be moved together.
+/// Writes the record, with the version of the program. `folder` is the store's; the study's own is
+/// kept relative to it, so that both can be moved together.
 void write_study(ResultStore& store, const StudyRecord& record,
                  const std::filesystem::path& folder);
 /// Throws Error when the store holds none.
 [[nodiscard]] StudyRecord read_study(const ResultStore& store, const std::filesystem::path& folder);
 
-/// The class table of a recording with the study's `detect`. Throws Error naming a class that is not there.
+/// The class table of a recording with the study's `detect`. Throws Error naming a class that is
+/// not there.
 [[nodiscard]] ClassTable detected_table(const Study& study, ClassTable table);
 
 }  // namespace mapscore::eval

@@ -3,9 +3,6 @@
 
 #include "eval/experiment/trial_run.hpp"
 
-#include <limits>
-#include <utility>
-
 #include "core/mapping/placement.hpp"
 #include "core/mapping/pose_belief.hpp"
 #include "eval/experiment/doses.hpp"
@@ -13,6 +10,9 @@
 #include "eval/score/distance_score.hpp"
 #include "eval/score/voxel_score.hpp"
 #include "eval/truth/distance.hpp"
+
+#include <limits>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -34,7 +34,6 @@ std::vector<Pose> believed_poses(const Recording& recording, const Task& task) {
   return poses;
 }
 
-/// The detected set of the lattice ceiling's labels: every depth pixel of a detected instance.
 ObservedObject& object_of(ClassId class_id, Observation& observation) {
   for (ObservedObject& object : observation)
     if (object.class_id == class_id) return object;
@@ -100,9 +99,8 @@ TrialResult TrialRun::finish() {
 
 Observation TrialRun::observe(const Frame& frame) {
   const std::vector<Detection> detections = detections_of(frame.label, table_);
-  const RegisteredCloud cloud =
-      register_depth(frame.depth, believed_,
-                     pixels_wanted(detections, frame.label.cols, frame.label.rows));
+  const RegisteredCloud cloud = register_depth(
+      frame.depth, believed_, pixels_wanted(detections, frame.label.cols, frame.label.rows));
   Observation observation;
   for (const Detection& detection : detections) {
     Segment found = segment(detection, cloud, map_.edge_m(), segmentation_, place_voxels_);
@@ -132,11 +130,20 @@ void TrialRun::account(const Segment& segment) {
   ++accounting.detections;
   accounting.points += static_cast<std::int64_t>(segment.points.size());
   switch (segment.skipped) {
-    case SkipReason::none: break;
-    case SkipReason::no_points: ++accounting.skipped_no_points; break;
-    case SkipReason::eroded_away: ++accounting.skipped_eroded_away; break;
-    case SkipReason::no_seed_point: ++accounting.skipped_no_seed_point; break;
-    case SkipReason::seed_off_object: ++accounting.skipped_seed_off_object; break;
+    case SkipReason::none:
+      break;
+    case SkipReason::no_points:
+      ++accounting.skipped_no_points;
+      break;
+    case SkipReason::eroded_away:
+      ++accounting.skipped_eroded_away;
+      break;
+    case SkipReason::no_seed_point:
+      ++accounting.skipped_no_seed_point;
+      break;
+    case SkipReason::seed_off_object:
+      ++accounting.skipped_seed_off_object;
+      break;
   }
 }
 
@@ -153,6 +160,7 @@ std::vector<Pose> TrialRun::sensor_poses(int frame) const {
 
 void TrialRun::score(const ViewTruth& view) {
   const MapSnapshot snapshot(map_.voxels());
+  result_.accounting.hits_beyond_span += static_cast<std::int64_t>(map_.hits_beyond_span());
   result_.accounting.map_voxels += static_cast<std::int64_t>(snapshot.voxels().size());
   Counts counts = score_voxels(snapshot, threshold_, truth_->surface, view.visible,
                                table_.classes.size(), score_options_);

@@ -3,9 +3,6 @@
 
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "core/classes.hpp"
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
@@ -17,17 +14,20 @@
 #include "eval/experiment/store.hpp"
 #include "eval/recording/recording.hpp"
 
+#include <memory>
+#include <vector>
+
 namespace mapscore::eval {
 
-/// One trial under way: takes the frames of a recording in order and ends in counts. Used by one thread at
-/// a time; `task`, `recording`, `table` and `truths` must outlive it.
+/// One trial under way: takes the frames of a recording in order and ends in counts. Used by one
+/// thread at a time; `task`, `recording`, `table` and `truths` must outlive it.
 class TrialRun {
  public:
   TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
            TruthCache& truths);
 
-  /// Register, segment, place and fuse one frame under the trial's faults; and score it, where each frame
-  /// is scored by itself.
+  /// Register, segment, place and fuse one frame under the trial's faults; and score it, where each
+  /// frame is scored by itself.
   void advance(const Frame& frame);
 
   /// Scores the map and gives the counts of the whole trial.
@@ -40,6 +40,7 @@ class TrialRun {
 
  private:
   [[nodiscard]] Observation observe(const Frame& frame);
+  /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
   void account(const Segment& segment);
   [[nodiscard]] std::vector<Pose> sensor_poses(int frame) const;
@@ -47,8 +48,8 @@ class TrialRun {
 
   const Task& task_;
   const ClassTable& table_;
-  Calibration true_;             ///< what rendered the images
-  Calibration believed_;         ///< what the method is told
+  Calibration true_;              ///< what rendered the images
+  Calibration believed_;          ///< what the method is told
   std::vector<Pose> T_map_base_;  ///< believed, by frame
   Covariance6 reported_covariance_;
   SegmentationParams segmentation_;

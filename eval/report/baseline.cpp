@@ -3,17 +3,17 @@
 
 #include "eval/report/baseline.hpp"
 
+#include "core/error.hpp"
+#include "eval/report/csv.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <tuple>
-
-#include <fmt/format.h>
-
-#include "core/error.hpp"
 
 namespace mapscore::eval {
 namespace {
@@ -59,20 +59,22 @@ void write_baseline(const std::vector<BaselineRow>& rows, const std::filesystem:
   std::ofstream stream(aside);
   stream << kHeader << '\n';
   for (const BaselineRow& row : rows)
-    stream << row.what << ',' << row.group << ',' << row.metric << ',' << text_of(row.value) << '\n';
+    stream << csv_line({row.what, row.group, row.metric, text_of(row.value)});
   stream.close();
   std::error_code error;
   if (stream) std::filesystem::rename(aside, file, error);
   if (!stream || error) {
     std::filesystem::remove(aside, error);
-    throw Error(file.string() + ": cannot be written; check the folder, its permissions and free space");
+    throw Error(file.string() +
+                ": cannot be written; check the folder, its permissions and free space");
   }
 }
 
 std::vector<BaselineRow> read_baseline(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream)
-    throw Error(file.string() + ": no baseline there; make one with `mapscore check RESULTS --baseline " +
+    throw Error(file.string() +
+                ": no baseline there; make one with `mapscore check RESULTS --baseline " +
                 file.string() + " --write`");
   std::vector<BaselineRow> rows;
   std::string line;
@@ -82,14 +84,9 @@ std::vector<BaselineRow> read_baseline(const std::filesystem::path& file) {
       if (line != kHeader) throw Error(where + ": not a baseline; its first line is " + kHeader);
       continue;
     }
-    std::istringstream cells(line);
-    BaselineRow row;
-    std::string value;
-    if (!std::getline(cells, row.what, ',') || !std::getline(cells, row.group, ',') ||
-        !std::getline(cells, row.metric, ',') || !std::getline(cells, value))
-      throw Error(where + ": needs four columns: " + kHeader);
-    row.value = parse_value(value, where);
-    rows.push_back(std::move(row));
+    const std::vector<std::string> cells = csv_cells(line);
+    if (cells.size() != 4) throw Error(where + ": needs four columns: " + kHeader);
+    rows.push_back({cells[0], cells[1], cells[2], parse_value(cells[3], where)});
   }
   if (rows.empty()) throw Error(file.string() + ": the baseline holds no figure; write it again");
   return rows;
@@ -113,10 +110,10 @@ Table fall_table(const std::vector<Fall>& fallen) {
   Table table;
   table.columns = {"what", "class", "metric", "baseline", "now", "change"};
   for (const Fall& fall : fallen)
-    table.rows.push_back({fall.baseline.what, fall.baseline.group, fall.baseline.metric,
-                          text_of(fall.baseline.value), text_of(fall.now),
-                          fall.now ? fmt::format("{:+.6f}", *fall.now - *fall.baseline.value)
-                                   : "missing"});
+    table.rows.push_back(
+        {fall.baseline.what, fall.baseline.group, fall.baseline.metric,
+         text_of(fall.baseline.value), text_of(fall.now),
+         fall.now ? fmt::format("{:+.6f}", *fall.now - *fall.baseline.value) : "missing"});
   return table;
 }
 

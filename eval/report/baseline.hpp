@@ -3,13 +3,13 @@
 
 #pragma once
 
+#include "eval/report/summary.hpp"
+#include "eval/report/table.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "eval/report/summary.hpp"
-#include "eval/report/table.hpp"
 
 namespace mapscore::eval {
 
@@ -27,7 +27,8 @@ struct Fall {
   std::optional<double> now;
 };
 
-/// The figures of a study that a baseline keeps: those above, pooled and by class, for trials and ceilings.
+/// The figures of a study that a baseline keeps: those above, pooled and by class, for trials and
+/// ceilings.
 [[nodiscard]] std::vector<BaselineRow> baseline_of(const StudySummary& summary);
 
 /// CSV: what,class,metric,value. Written aside, then renamed.

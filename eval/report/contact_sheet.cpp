@@ -92,6 +92,15 @@ cv::Mat3b label_picture(const Frame& frame, const ClassTable& table) {
   return picture;
 }
 
+/// Gives a pixel between two of one class that class.
+void close_gaps(cv::Mat1w& classes, int dv, int du) {
+  const cv::Mat1w before = classes.clone();
+  for (int v = dv; v + dv < classes.rows; ++v)
+    for (int u = du; u + du < classes.cols; ++u)
+      if (before(v, u) == kBackground && before(v - dv, u - du) == before(v + dv, u + du))
+        classes(v, u) = before(v - dv, u - du);
+}
+
 /// Class that registration hands to each depth pixel, background where none. Gaps of one pixel,
 /// which no colour pixel falls on, are closed for the eye.
 cv::Mat1w registered_classes(const Frame& frame, const ClassTable& table,
@@ -106,15 +115,8 @@ cv::Mat1w registered_classes(const Frame& frame, const ClassTable& table,
         classes(source / classes.cols, source % classes.cols) = id;
     }
   }
-  const cv::Mat1w with_gaps = classes.clone();
-  for (int v = 1; v + 1 < classes.rows; ++v) {
-    for (int u = 1; u + 1 < classes.cols; ++u) {
-      if (with_gaps(v, u) != kBackground) continue;
-      if (with_gaps(v, u - 1) == with_gaps(v, u + 1)) classes(v, u) = with_gaps(v, u - 1);
-      if (classes(v, u) == kBackground && with_gaps(v - 1, u) == with_gaps(v + 1, u))
-        classes(v, u) = with_gaps(v - 1, u);
-    }
-  }
+  close_gaps(classes, 0, 1);
+  close_gaps(classes, 1, 0);
   return classes;
 }
 

@@ -20,7 +20,7 @@ constexpr const char* kCeilings =
     "method with "
     "every fault at zero.";
 constexpr std::size_t kClassesShown = 12;
-constexpr int kClassColumns = 3;
+constexpr std::size_t kClassColumns = 3;
 
 struct Shown {
   std::string metric, title;
@@ -44,7 +44,8 @@ std::string figure_name(const char* stem, const StudyLayout& layout) {
 }
 
 std::string accuracy_caption(const StudySummary& summary) {
-  return study_caption(summary) + " Counts pooled over classes and seeds. " + kCeilings;
+  return study_caption(summary) + spread_caption(summary.study) +
+         " Counts pooled over classes and seeds. " + kCeilings;
 }
 
 /// One swept axis: a column a score.
@@ -120,8 +121,9 @@ std::optional<FigureSheet> class_figure(const StudySummary& summary, const Study
   const std::vector<const SemanticClass*> classes = classes_shown(summary);
   if (classes.size() < 2) return std::nullopt;
   const bool wrap = layout.columns().size() == 1;
-  CurveFigure figure(summary, layout, figure_name("by_class", layout),
-                     wrap ? kClassColumns : static_cast<int>(layout.columns().size()));
+  CurveFigure figure(
+      summary, layout, figure_name("by_class", layout),
+      static_cast<int>(wrap ? std::min(kClassColumns, classes.size()) : layout.columns().size()));
   if (wrap)
     add_classes_wrapped(classes, figure);
   else
@@ -132,8 +134,8 @@ std::optional<FigureSheet> class_figure(const StudySummary& summary, const Study
           ? fmt::format(" {} of {} detected classes, those with most visible voxels.",
                         classes.size(), detected)
           : "";
-  return figure.finish(study_caption(summary) + " F1 at tolerance 0, counts pooled over seeds." +
-                       cut + ' ' + kCeilings);
+  return figure.finish(study_caption(summary) + spread_caption(summary.study) +
+                       " F1 at tolerance 0, counts pooled over seeds." + cut + ' ' + kCeilings);
 }
 
 }  // namespace mapscore::eval

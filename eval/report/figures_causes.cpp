@@ -52,7 +52,7 @@ class CauseFigure {
       : summary_(summary), layout_(layout) {
     sheet_.name = layout.bars() ? "causes_by_method" : "causes_by_dose";
     sheet_.columns = layout.bars() ? 1 : static_cast<int>(layout.curves().size());
-    sheet_.panel_width_in = layout.bars() ? 4.0 : std::clamp(6.9 / sheet_.columns, 1.3, 2.2);
+    sheet_.panel_width_in = layout.bars() ? 4.0 : panel_width_in(sheet_.columns);
     sheet_.panel_height_in = 1.2;
   }
 
@@ -87,7 +87,8 @@ class CauseFigure {
   [[nodiscard]] std::string y_settings(const Panel& panel) const {
     const double greatest =
         greatest_[sides_.at(static_cast<std::size_t>(&panel - sheet_.panels.data()))];
-    const double top = std::clamp(std::ceil(20.0 * greatest + 0.2) / 20.0, 0.05, 1.0);
+    const double headroom = layout_.columns().size() > 1 ? 1.2 : 1.02;  // for the label inside
+    const double top = std::clamp(std::ceil(20.0 * headroom * greatest) / 20.0, 0.05, 1.2);
     return fmt::format("set yrange [0:{:.2f}]; set ytics {}", top,
                        top > 0.5   ? 0.2
                        : top > 0.2 ? 0.1

@@ -30,16 +30,19 @@ std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{:.9g}", *value) : "-";
 }
 
-std::string spread_text(const Study& study) {
-  if (study.seeds < 2) return "one seed";
-  return study.seeds < kSeedsForInterval
-             ? fmt::format("bars: range of the {} seeds", study.seeds)
-             : fmt::format("bars: 95 % interval of the mean of {} seeds", study.seeds);
-}
-
 std::string source_of(const Study& study) {
   if (study.scene) return std::filesystem::path(*study.scene).filename().string();
   return study.recording ? std::filesystem::path(*study.recording).filename().string() : study.name;
+}
+
+/// From low to high. Over bars drawn as vectors: gnuplot cuts a hole in the bar for the point of
+/// yerrorbars.
+std::string spread_of(const std::string& data, bool over_bars, const std::string& ink) {
+  return over_bars
+             ? data +
+                   " using 1:3:(0):($4-$3) with vectors heads size screen 0.004,90 lw 0.8 lc rgb "
+                   "'#222222' notitle"
+             : data + " using 1:2:3:4 with yerrorbars pt 1 ps 0 lw 0.8 " + ink + " notitle";
 }
 
 }  // namespace
@@ -68,10 +71,17 @@ std::string study_caption(const StudySummary& summary) {
   std::string detected;
   for (const SemanticClass& c : summary.table.classes)
     if (c.detect) detected += (detected.empty() ? "" : ", ") + c.name;
-  return fmt::format("{}: {}; voxels of {:.6g} cm; detected: {}; each {} scored; {}.", study.name,
-                     source_of(study), 100.0 * study.voxel_m, detected,
-                     study.score.unit == ScoreUnit::map ? "fused map" : "frame",
-                     spread_text(study));
+  return fmt::format("{}: {}; voxels of {:.6g} cm; detected: {}; each {} scored; {} seed{}.",
+                     study.name, source_of(study), 100.0 * study.voxel_m, detected,
+                     study.score.unit == ScoreUnit::map ? "fused map" : "frame", study.seeds,
+                     study.seeds == 1 ? "" : "s");
+}
+
+std::string spread_caption(const Study& study) {
+  if (study.seeds < 2) return "";
+  return study.seeds < kSeedsForInterval
+             ? fmt::format(" Bars: range of the {} seeds.", study.seeds)
+             : fmt::format(" Bars: 95 % interval of the mean of {} seeds.", study.seeds);
 }
 
 CurveFigure::CurveFigure(const StudySummary& summary, const StudyLayout& layout, std::string name,
@@ -79,6 +89,7 @@ CurveFigure::CurveFigure(const StudySummary& summary, const StudyLayout& layout,
     : summary_(summary), layout_(layout) {
   sheet_.name = std::move(name);
   sheet_.columns = columns;
+  sheet_.panel_width_in = panel_width_in(columns);
 }
 
 void CurveFigure::add(const CurvePanel& shown) {
@@ -103,9 +114,7 @@ void CurveFigure::add(const CurvePanel& shown) {
     if (drawn_ceilings.insert("lattice" + block.ceiling[1]).second)
       ceilings.push_back(fmt::format("{} using 1:6 with {} {} notitle", of,
                                      layout_.bars() ? "points pt 2 ps 2" : "lines", kLatticeStyle));
-    if (summary_.study.seeds > 1)
-      spreads.push_back(fmt::format("{} using 1:2:3:4 with yerrorbars pt 1 ps 0 lw 0.8 {} notitle",
-                                    of, layout_.bars() ? "lc rgb '#222222'" : ink));
+    if (summary_.study.seeds > 1) spreads.push_back(spread_of(of, layout_.bars(), ink));
     lines.push_back(
         layout_.bars()
             ? fmt::format("{} using 1:2:(0.7) with boxes {} fs solid 0.75 noborder notitle", of,

@@ -52,5 +52,7 @@ class CurveFigure {
 
 /// What every figure of a study says below: scene, voxels, detected set, seeds.
 [[nodiscard]] std::string study_caption(const StudySummary& summary);
+/// What the bars of spread are; nothing for one seed.
+[[nodiscard]] std::string spread_caption(const Study& study);
 
 }  // namespace mapscore::eval

@@ -22,6 +22,8 @@ namespace fs = std::filesystem;
 constexpr double kDotsPerInch = 150.0, kPointsPerInch = 72.0;
 /// The resolution that the cairo terminals take font sizes for.
 constexpr double kFontUnitsPerInch = 96.0;
+/// Width of all panels of a figure that fills a page.
+constexpr double kPanels_in = 6.6;
 constexpr double kFont_pt = 8.0, kCaption_pt = 6.5;
 /// Mean width of a letter of DejaVu Sans over its size.
 constexpr double kLetterWidth = 0.53;
@@ -164,7 +166,7 @@ std::string header_of(const FigureSheet& sheet, const Geometry& geometry) {
 
 std::string text_of(const Panel& panel, const std::string& margins) {
   std::string text = "\n  " + margins + '\n';
-  text += fmt::format("  set title {} offset 0,-0.6\n", quoted(panel.title));
+  text += fmt::format("  set title {} font ',7.5' offset 0,-0.6\n", quoted(panel.title));
   text += fmt::format("  set xlabel {} offset 0,0.4\n", quoted(panel.x_label));
   text += fmt::format("  set ylabel {} offset 1.2,0\n", quoted(panel.y_label));
   text += panel.y_tic_labels ? "  set format y '%g'\n" : "  set format y ''\n";
@@ -210,6 +212,10 @@ void write_text(const fs::path& file, const std::string& text) {
 }
 
 }  // namespace
+
+double panel_width_in(int columns) {
+  return std::clamp(kPanels_in / columns, 1.5, 3.3);
+}
 
 std::string quoted(const std::string& text) {
   std::string quoted = "\"";

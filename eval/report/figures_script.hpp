@@ -28,6 +28,9 @@ struct FigureSheet {
   std::string data;                 ///< text of the data file
 };
 
+/// Width of a panel when so many stand side by side in a page's width.
+[[nodiscard]] double panel_width_in(int columns);
+
 /// A text as gnuplot reads it; newlines stay.
 [[nodiscard]] std::string quoted(const std::string& text);
 

@@ -3,13 +3,13 @@
 
 #include "eval/report/summary.hpp"
 
-#include <map>
-#include <utility>
+#include "core/error.hpp"
+#include "eval/experiment/study_store.hpp"
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "eval/experiment/study_store.hpp"
+#include <map>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -45,9 +45,10 @@ std::vector<TrialResult> read_results(const ResultStore& store, const Plan& plan
     found.push_back(result ? std::move(*result) : TrialResult{});
   }
   if (missing > 0)
-    throw Error(fmt::format("{}: {} of {} trials are not there yet; run `mapscore sweep STUDY -o {}` again, "
-                            "it goes on where it stopped",
-                            results.string(), missing, plan.tasks.size(), results.string()));
+    throw Error(fmt::format(
+        "{}: {} of {} trials are not there yet; run `mapscore sweep STUDY -o {}` again, "
+        "it goes on where it stopped",
+        results.string(), missing, plan.tasks.size(), results.string()));
   return found;
 }
 
@@ -55,9 +56,12 @@ std::vector<TrialResult> read_results(const ResultStore& store, const Plan& plan
 
 const char* name_of(Role role) {
   switch (role) {
-    case Role::trial: return "trial";
-    case Role::registration_ceiling: return "registration_ceiling";
-    case Role::lattice_ceiling: return "lattice_ceiling";
+    case Role::trial:
+      return "trial";
+    case Role::registration_ceiling:
+      return "registration_ceiling";
+    case Role::lattice_ceiling:
+      return "lattice_ceiling";
   }
   return "?";
 }

@@ -3,12 +3,6 @@
 
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "core/classes.hpp"
 #include "eval/experiment/grid.hpp"
 #include "eval/experiment/plan.hpp"
@@ -16,6 +10,12 @@
 #include "eval/experiment/study.hpp"
 #include "eval/score/intervals.hpp"
 #include "eval/score/metrics.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace mapscore::eval {
 
@@ -55,8 +55,9 @@ struct StudySummary {
   [[nodiscard]] std::vector<std::string> groups() const;
 };
 
-/// Opens the store of a study (`results` is the folder or its results.sqlite) and reads all its trials.
-/// Throws Error when there is none, or when trials are missing (says how many, and the command that goes on).
+/// Opens the store of a study (`results` is the folder or its results.sqlite) and reads all its
+/// trials. Throws Error when there is none, or when trials are missing (says how many, and the
+/// command that goes on).
 [[nodiscard]] StudySummary summarise_store(const std::filesystem::path& results);
 
 /// Metrics of a line's counts for one group of groups().

@@ -3,10 +3,12 @@
 
 #include "eval/report/table.hpp"
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
+#include "eval/report/csv.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace mapscore::eval {
 namespace {
@@ -36,9 +38,11 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
                   study.voxel_m, study.seeds, study.seeds == 1 ? "" : "s",
                   study.score.unit == ScoreUnit::map ? "map" : "frame"),
       study.seeds < kSeedsForInterval
-          ? fmt::format("F1 spread: least and greatest of the seeds (fewer than {})", kSeedsForInterval)
+          ? fmt::format("F1 spread: least and greatest of the seeds (fewer than {})",
+                        kSeedsForInterval)
           : std::string("F1 spread: 95 % interval of the mean over seeds (Student t)"),
-      "ceilings: lattice = true labels on the depth pixels, true pose; registration = the method at dose "
+      "ceilings: lattice = true labels on the depth pixels, true pose; registration = the method "
+      "at dose "
       "zero"};
   return caption;
 }
@@ -103,13 +107,8 @@ std::string to_text(const Table& table) {
 }
 
 std::string to_csv(const Table& table) {
-  const auto line = [](const std::vector<std::string>& cells) {
-    std::string text;
-    for (const std::string& cell : cells) text += (text.empty() ? "" : ",") + cell;
-    return text + '\n';
-  };
-  std::string text = line(table.columns);
-  for (const auto& row : table.rows) text += line(row);
+  std::string text = csv_line(table.columns);
+  for (const auto& row : table.rows) text += csv_line(row);
   return text;
 }
 

@@ -3,14 +3,15 @@
 
 #pragma once
 
+#include "eval/report/summary.hpp"
+
 #include <string>
 #include <vector>
 
-#include "eval/report/summary.hpp"
-
 namespace mapscore::eval {
 
-/// A table for people: a caption of what it stands on, column names, cells as text (`-` is undefined).
+/// A table for people: a caption of what it stands on, column names, cells as text (`-` is
+/// undefined).
 struct Table {
   std::vector<std::string> caption;
   std::vector<std::string> columns;

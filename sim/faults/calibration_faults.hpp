@@ -13,8 +13,9 @@ namespace mapscore::sim {
 
 /// A rigid dose: fixed parts, and a magnitude whose direction the seed draws. Metres, radians.
 struct RigidDose {
-  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();  ///< in colour optical axes
-  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();   ///< rotation vector
+  Eigen::Vector3d translation_m =
+      Eigen::Vector3d::Zero();  ///< in the optical axes that the error stands in
+  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();  ///< rotation vector
   double magnitude_m = 0.0;  ///< along a direction uniform on the circle in the image plane
   double angle_rad = 0.0;    ///< about an axis uniform on the circle in the image plane
 };

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the mapscore authors
 # SPDX-License-Identifier: MIT
-"""Registration of depth to colour and the three 3D segmentations of METHODS.md, as plainly as possible."""
+"""Registration of depth to colour and the three 3D segmentations of docs/methods.md, as plainly as possible."""
 
 import itertools
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-// The buried rule of DESIGN section 7, counted by hand.
+// The buried rule of docs/metrics.md, counted by hand.
 
 namespace mapscore::eval {
 namespace {

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/experiment/store.hpp"
+
+#include <array>
+#include <cstdint>
+#include <utility>
+
+namespace mapscore::eval {
+
+/// Name and member of every plain count of a result, once: the store and the tidy CSV follow.
+template <class Owner>
+using CountField = std::pair<const char*, std::int64_t Owner::*>;
+
+inline constexpr std::array<CountField<ClassCounts>, 10> kClassCountFields{{
+    {"predicted", &ClassCounts::predicted},
+    {"true_predicted", &ClassCounts::true_predicted},
+    {"visible", &ClassCounts::visible},
+    {"found", &ClassCounts::found},
+    {"false_near", &ClassCounts::false_near},
+    {"false_leak", &ClassCounts::false_leak},
+    {"false_floating", &ClassCounts::false_floating},
+    {"missed_mislabelled", &ClassCounts::missed_mislabelled},
+    {"missed_unlabelled", &ClassCounts::missed_unlabelled},
+    {"missed_unmapped", &ClassCounts::missed_unmapped},
+}};
+
+inline constexpr std::array<CountField<Accounting>, 9> kAccountingFields{{
+    {"frames", &Accounting::frames},
+    {"detections", &Accounting::detections},
+    {"skipped_no_points", &Accounting::skipped_no_points},
+    {"skipped_no_seed_point", &Accounting::skipped_no_seed_point},
+    {"skipped_seed_off_object", &Accounting::skipped_seed_off_object},
+    {"skipped_eroded_away", &Accounting::skipped_eroded_away},
+    {"points", &Accounting::points},
+    {"map_voxels", &Accounting::map_voxels},
+    {"hits_beyond_span", &Accounting::hits_beyond_span},
+}};
+
+}  // namespace mapscore::eval
