@@ -36,7 +36,7 @@ struct FigureSheet {
 
 /// Writes NAME.gp and NAME.dat, runs gnuplot for NAME.png and NAME.pdf, aside, and moves all four
 /// into `folder`, which must be there. Returns the PNG and the PDF. Throws Error when gnuplot is
-/// missing or fails (with its own words).
+/// missing or fails (with its own words); NAME.partial then stays, to look into.
 [[nodiscard]] std::vector<std::filesystem::path> draw(const FigureSheet& sheet,
                                                       const std::filesystem::path& folder);
 

@@ -102,8 +102,9 @@ std::vector<TrialMap> map_trials(const Study& study, const ClassTable& table,
     maps.push_back(judged_map(run, task, table, spec, alone));
   }
   if (maps.empty())
-    throw Error(fmt::format("no trial of method '{}' with seed {}; see `mapscore table RESULTS`",
-                            choice.method.value_or("any"), choice.seed_index));
+    throw Error(fmt::format("{}seed {}: the study has no such trial; seeds: 0 to {}",
+                            choice.method ? "method " + *choice.method + ", " : "",
+                            choice.seed_index, study.seeds - 1));
   return maps;
 }
 

@@ -102,7 +102,7 @@ void show_instances(const std::vector<InstanceId>& instances, DrawnScene& drawn)
 /// What renderers need of the model: one sample a pixel, so that nothing blends, room for images,
 /// and shadow maps of a size that software rendering can pay for (MuJoCo's default is 4096).
 void set_quality(mjModel& model, const CameraOverrides& cameras) {
-  constexpr int kLargestShadowMapPx = 1536;
+  constexpr int kLargestShadowMapPx = 1024;
   model.vis.quality.offsamples = 0;
   model.vis.quality.shadowsize = std::min(model.vis.quality.shadowsize, kLargestShadowMapPx);
   model.vis.global.offwidth = cameras.width_px;
