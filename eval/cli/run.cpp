@@ -5,6 +5,7 @@
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/verbs.hpp"
+#include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
@@ -89,9 +90,16 @@ void run(const RunFlags& flags) {
   trial.map().save(folder / "map.ot");
   trial.map().export_color(folder / "map_colour.ot", table, trial.threshold());
   const TrialResult result = trial.finish();
+  const MapFrame frame = map_frame(task.config, task.seed_index);
   std::cout << fmt::format("# {} seed {} {}\n", spec.method, spec.seed_index, text_of(spec.cell))
             << score_text(result, table) << (folder / "map.ot").string() << '\n'
-            << (folder / "map_colour.ot").string() << '\n';
+            << (folder / "map_colour.ot").string() << '\n'
+            << fmt::format(
+                   "# mapscore score {} --truth {} --voxel_m {} --origin_m {} {} {} --yaw_deg {}"
+                   " --threshold {}\n",
+                   (folder / "map.ot").string(), recording.folder().string(), frame.edge_m,
+                   frame.origin_m.x(), frame.origin_m.y(), frame.origin_m.z(),
+                   task.config.map_yaw_deg, trial.threshold());
   print_pictures(draw_pictures(
       study, table, recording,
       {spec.cell.doses, spec.method, spec.seed_index, flags.work.memory_bytes}, folder));

@@ -8,8 +8,6 @@
 #include "eval/cli/verbs.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/report/table.hpp"
-#include "eval/score/distance_score.hpp"
-#include "eval/score/voxel_score.hpp"
 
 #include <fmt/format.h>
 
@@ -25,23 +23,6 @@ struct ScoreFlags {
   LatticeFlags lattice;
   WorkFlags work;
 };
-
-Counts score_map(const MapSnapshot& map, const SourceTruth& source, double threshold,
-                 double voxel_m) {
-  const ScoreOptions options;
-  const ViewTruth& view = source.truth.view(0);
-  Counts counts = score_voxels(map, threshold, source.truth.surface, view.visible,
-                               source.table.classes.size(), options);
-  score_distances(
-      map, threshold,
-      [&](const VoxelKey& key, ClassId class_id) {
-        const Eigen::Vector3d low = low_corner_of(key, voxel_m);
-        const Eigen::Vector3d high = low + Eigen::Vector3d::Constant(voxel_m);
-        return source.truth.distance_to_class[class_id](Box(low, high));
-      },
-      view.samples, options, counts);
-  return counts;
-}
 
 std::vector<std::string> row_of(const std::string& group, const Counts& counts,
                                 const ClassTable& table) {
@@ -69,7 +50,8 @@ void score(const ScoreFlags& flags) {
   if (!source.has_views)
     throw Error(flags.truth + ": a scene says what is there, not what was seen; give a recording");
   const MapSnapshot map(read_map(flags.map, flags.lattice.voxel_m, source.table));
-  const Counts counts = score_map(map, source, flags.threshold, flags.lattice.voxel_m);
+  const Counts counts = source.truth.score(map, flags.threshold, source.truth.view(0),
+                                           source.table.classes.size(), {});
 
   Table table;
   table.caption = {fmt::format("{} against {}", flags.map, flags.truth)};

@@ -3,6 +3,8 @@
 
 #include "eval/experiment/lattice_truth.hpp"
 
+#include "eval/score/voxel_score.hpp"
+
 #include <exception>
 #include <utility>
 
@@ -71,15 +73,21 @@ class ViewMaker {
 
 }  // namespace
 
+Counts LatticeTruth::score(const MapSnapshot& map, double threshold, const ViewTruth& view_truth,
+                           std::size_t class_count, const ScoreOptions& options) const {
+  Counts counts = score_voxels(map, threshold, surface, view_truth.visible, class_count, options);
+  if (!options.distances_m.empty())
+    score_distances(map, threshold, distance_to_class, view_truth.samples, options, counts);
+  return counts;
+}
+
 LatticeTruth make_surface_truth(const std::vector<Shape>& shapes, const ClassTable& table,
                                 const MapFrame& map_frame, const TruthOptions& options, int jobs) {
   const Pose T_map_world = map_frame.T_map_world();
   LatticeTruth truth;
   truth.surface =
       surface_truth(shapes, table, T_map_world, {map_frame.edge_m, options.epsilon_m, jobs});
-  const std::vector<PreparedShape> pieces = prepare(shapes, T_map_world);
-  for (const SemanticClass& semantic_class : table.classes)
-    truth.distance_to_class.emplace_back(pieces_of(pieces, table, semantic_class.id));
+  truth.distance_to_class = cube_distance(prepare(shapes, T_map_world), table, map_frame.edge_m);
   return truth;
 }
 

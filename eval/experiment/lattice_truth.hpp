@@ -7,8 +7,8 @@
 #include "eval/experiment/map_frame.hpp"
 #include "eval/recording/frame_cache.hpp"
 #include "eval/recording/recording.hpp"
+#include "eval/score/distance_score.hpp"
 #include "eval/score/sample_set.hpp"
-#include "eval/truth/distance.hpp"
 #include "eval/truth/surface_truth.hpp"
 #include "eval/truth/visible_truth.hpp"
 
@@ -39,8 +39,13 @@ struct TruthOptions {
 /// Truth of one recording on one lattice. Immutable, shared by all trials that are scored on it.
 struct LatticeTruth {
   SurfaceTruth surface;
-  std::vector<SurfaceDistance> distance_to_class;  ///< by class id
-  std::vector<ViewTruth> views;                    ///< one for all frames, or one for each
+  CubeDistance distance_to_class;
+  std::vector<ViewTruth> views;  ///< one for all frames, or one for each
+
+  /// Counts of a map against this truth and one of its views; distances where the options name
+  /// some.
+  [[nodiscard]] Counts score(const MapSnapshot& map, double threshold, const ViewTruth& view,
+                             std::size_t class_count, const ScoreOptions& options) const;
 
   [[nodiscard]] const ViewTruth& view(int frame) const {
     return views.size() == 1 ? views.front() : views.at(static_cast<std::size_t>(frame));

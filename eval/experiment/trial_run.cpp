@@ -7,9 +7,6 @@
 #include "core/mapping/pose_belief.hpp"
 #include "eval/experiment/doses.hpp"
 #include "eval/experiment/map_frame.hpp"
-#include "eval/score/distance_score.hpp"
-#include "eval/score/voxel_score.hpp"
-#include "eval/truth/distance.hpp"
 
 #include <limits>
 #include <utility>
@@ -162,18 +159,8 @@ void TrialRun::score(const ViewTruth& view) {
   const MapSnapshot snapshot(map_.voxels());
   result_.accounting.hits_beyond_span += static_cast<std::int64_t>(map_.hits_beyond_span());
   result_.accounting.map_voxels += static_cast<std::int64_t>(snapshot.voxels().size());
-  Counts counts = score_voxels(snapshot, threshold_, truth_->surface, view.visible,
-                               table_.classes.size(), score_options_);
-  if (!score_options_.distances_m.empty())
-    score_distances(
-        snapshot, threshold_,
-        [&](const VoxelKey& key, ClassId class_id) {
-          const Eigen::Vector3d low = low_corner_of(key, map_.edge_m());
-          const Eigen::Vector3d edges = Eigen::Vector3d::Constant(map_.edge_m());
-          return truth_->distance_to_class[class_id](Box(low, low + edges));
-        },
-        view.samples, score_options_, counts);
-  pool_into(result_.counts, counts);
+  pool_into(result_.counts,
+            truth_->score(snapshot, threshold_, view, table_.classes.size(), score_options_));
 }
 
 }  // namespace mapscore::eval
