@@ -109,10 +109,11 @@ void SemanticMap::save(const std::filesystem::path& file) const {
 SemanticMap SemanticMap::load(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw Error(file.string() + ": cannot be opened; check the path");
-  std::unique_ptr<octomap::AbstractOcTree> tree(octomap::AbstractOcTree::read(stream));
-  if (!dynamic_cast<SemanticOcTree*>(tree.get()))
-    throw Error(file.string() + ": not a semantic map; write one with `mapscore run`");
-  return SemanticMap(std::unique_ptr<SemanticOcTree>(static_cast<SemanticOcTree*>(tree.release())));
+  try {
+    return SemanticMap(SemanticOcTree::read_whole(stream));
+  } catch (const Error& error) {
+    throw Error(file.string() + ": " + error.what());
+  }
 }
 
 void SemanticMap::export_color(const std::filesystem::path& file, const ClassTable& table,

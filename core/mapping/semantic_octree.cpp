@@ -3,8 +3,12 @@
 
 #include "core/mapping/semantic_octree.hpp"
 
+#include "core/error.hpp"
+
 #include <istream>
 #include <ostream>
+#include <sstream>
+#include <string>
 
 namespace mapscore {
 namespace {
@@ -23,6 +27,30 @@ T read_raw(std::istream& stream) {
   return value;
 }
 
+/// What stands before the data of an .ot file.
+struct OcTreeHeader {
+  std::string type;
+  std::size_t nodes = 0;
+  double edge_m = 0.0;
+};
+
+OcTreeHeader read_header(std::istream& stream) {
+  std::string line, key;
+  std::getline(stream, line);
+  if (line != "# Octomap OcTree file") throw Error("not an OctoMap .ot file");
+  OcTreeHeader header;
+  while (std::getline(stream, line) && line != "data") {
+    std::istringstream words(line);
+    words >> key;
+    if (key == "id") words >> header.type;
+    if (key == "size") words >> header.nodes;
+    if (key == "res") words >> header.edge_m;
+  }
+  if (line != "data" || !(header.edge_m > 0.0))
+    throw Error("its header is damaged; write it again");
+  return header;
+}
+
 }  // namespace
 
 ClassProbability SemanticOcTreeNode::best() const {
@@ -39,6 +67,7 @@ std::istream& SemanticOcTreeNode::readData(std::istream& stream) {
     entry.class_id = read_raw<ClassId>(stream);
     entry.probability = read_raw<double>(stream);
   }
+  if (!stream) throw Error("it is truncated; write it again");
   return stream;
 }
 
@@ -55,6 +84,17 @@ std::ostream& SemanticOcTreeNode::writeData(std::ostream& stream) const {
 SemanticOcTree::SemanticOcTree(double edge_m)
     : octomap::OccupancyOcTreeBase<SemanticOcTreeNode>(edge_m) {
   initializer_.ensureLinking();
+}
+
+std::unique_ptr<SemanticOcTree> SemanticOcTree::read_whole(std::istream& stream) {
+  const OcTreeHeader header = read_header(stream);
+  if (header.type != "SemanticOcTree")
+    throw Error("a " + header.type + ", not a semantic map; write one with `mapscore run`");
+  auto tree = std::make_unique<SemanticOcTree>(header.edge_m);
+  if (header.nodes > 0) tree->readData(stream);
+  if (tree->size() != header.nodes || !stream || stream.peek() != std::istream::traits_type::eof())
+    throw Error("its data do not fit its header; write it again");
+  return tree;
 }
 
 SemanticOcTree::StaticMemberInitializer::StaticMemberInitializer() {

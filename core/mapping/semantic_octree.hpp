@@ -10,6 +10,7 @@
 #include <octomap/OccupancyOcTreeBase.h>
 
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,10 @@ class SemanticOcTree : public octomap::OccupancyOcTreeBase<SemanticOcTreeNode> {
   explicit SemanticOcTree(double edge_m);
   SemanticOcTree* create() const override { return new SemanticOcTree(resolution); }
   std::string getTreeType() const override { return "SemanticOcTree"; }
+
+  /// Reads a whole .ot stream of this type, as octomap::AbstractOcTree::read does, but says nothing
+  /// on standard error and takes nothing half-read for whole. Throws Error with the reason.
+  [[nodiscard]] static std::unique_ptr<SemanticOcTree> read_whole(std::istream& stream);
 
  protected:
   /// Makes the type known to octomap::AbstractOcTree::read.

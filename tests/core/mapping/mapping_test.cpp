@@ -158,6 +158,29 @@ TEST_F(MapFile, ColourExportIsAnOrdinaryColorOcTree) {
   EXPECT_EQ(tree->search(octree_key({5, -3, 2})), nullptr) << "0.4 lies below the threshold";
 }
 
+TEST_F(MapFile, RefusesEveryTruncation) {
+  map_.save(folder_ / "map.ot");
+  const auto size = std::filesystem::file_size(folder_ / "map.ot");
+  for (std::uintmax_t kept = 0; kept < size; ++kept) {
+    std::filesystem::resize_file(folder_ / "map.ot", kept);
+    EXPECT_THROW((void)SemanticMap::load(folder_ / "map.ot"), Error) << kept << " bytes";
+    map_.save(folder_ / "map.ot");
+  }
+}
+
+TEST_F(MapFile, AnEmptyMapIsSavedLoadedAndExported) {
+  const SemanticMap empty(kEdge);
+  empty.save(folder_ / "empty.ot");
+  EXPECT_TRUE(SemanticMap::load(folder_ / "empty.ot").voxels().empty());
+  empty.export_color(folder_ / "colour.ot", ClassTable{}, 0.25);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "colour.ot"));
+}
+
+TEST_F(MapFile, RefusesAnotherTypeOfTree) {
+  map_.export_color(folder_ / "colour.ot", ClassTable{}, 0.9);
+  EXPECT_THROW((void)SemanticMap::load(folder_ / "colour.ot"), Error);
+}
+
 TEST_F(MapFile, RefusesAFolderThatIsNotThere) {
   EXPECT_THROW(map_.save(folder_ / "no" / "map.ot"), Error);
 }
