@@ -101,7 +101,9 @@ ResultStore ResultStore::open_existing(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file))
     fail(file, "no result store there; run `mapscore sweep` first");
   sqlite3* raw = nullptr;
-  const int outcome = sqlite3_open_v2(file.c_str(), &raw, SQLITE_OPEN_READONLY, nullptr);
+  // Read-write, so that SQLite can roll back what a killed sweep left half-written; a store on a
+  // read-only disk is opened for reading all the same.
+  const int outcome = sqlite3_open_v2(file.c_str(), &raw, SQLITE_OPEN_READWRITE, nullptr);
   ResultStore store(std::unique_ptr<sqlite3, Close>(raw), file);
   if (outcome != SQLITE_OK) fail(file, "cannot be opened; check its permissions");
   if (store.text("format_version") != std::to_string(kStoreFormat))

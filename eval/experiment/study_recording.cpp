@@ -4,6 +4,7 @@
 #include "eval/experiment/study_recording.hpp"
 
 #include "core/error.hpp"
+#include "eval/experiment/folder_lock.hpp"
 #include "eval/recording/stamp_list.hpp"
 
 #ifdef MAPSCORE_SIMULATOR
@@ -112,6 +113,7 @@ Recording recording_of(const Study& study, const std::filesystem::path& results,
   if (study.recording) return Recording::open(resolve_path(study, *study.recording));
   const sim::World world = world_of(study);
   const std::filesystem::path folder = results / "recordings" / recording_name(study, world);
+  const FolderLock lock(folder.parent_path());  // of several shards one records, the others wait
   if (!std::filesystem::exists(folder))
     record_world(study, world, sim::poses_along(drive_of(study.trajectory)), folder, jobs,
                  progress);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <tuple>
@@ -35,7 +36,7 @@ std::optional<double> parse_value(const std::string& text, const std::string& wh
   if (text == "-") return std::nullopt;
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
     throw Error(where + ": '" + text + "' is no number; write the baseline again with --write");
   return value;
 }

@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-// Recording and replaying the demo's apartment at 640 x 480. One evaluation of a frame: corrupt, register,
-// segment all detections, place, fuse (5 cm, N = 1, misregistration of 20 mm), on one thread.
-
-#include <benchmark/benchmark.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <memory>
-#include <string>
-#include <thread>
-
-#include <fmt/format.h>
+// Recording and replaying the demo's apartment at 640 x 480. One evaluation of a frame: corrupt,
+// register, segment all detections, place, fuse (5 cm, N = 1, misregistration of 20 mm), on one
+// thread.
 
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
 
 #ifdef MAPSCORE_SIMULATOR
 
@@ -32,7 +32,8 @@ Study demo(const std::string& frames_per_s) {
 }
 
 std::filesystem::path temporary_folder(const std::string& name) {
-  return std::filesystem::temp_directory_path() / fmt::format("mapscore_bench_{}_{}", name, getpid());
+  return std::filesystem::temp_directory_path() /
+         fmt::format("mapscore_bench_{}_{}", name, getpid());
 }
 
 /// A recording of 18 frames spread over the demo's drive, made once and removed at the end.
@@ -104,8 +105,8 @@ void record(benchmark::State& state, bool shadows) {
                  [&](int, int total) { frames = total; });
   }
   std::filesystem::remove_all(folder);
-  state.counters["frames_per_s"] =
-      benchmark::Counter(static_cast<double>(frames), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["frames_per_s"] = benchmark::Counter(
+      static_cast<double>(frames), benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK_CAPTURE(record, without_shadows, false)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(record, with_shadows, true)->UseRealTime()->Unit(benchmark::kMillisecond);

@@ -9,9 +9,9 @@
 
 namespace mapscore::testing {
 
-/// The rule of docs/methods.md word by word: every depth pixel against every colour pixel of a generous
-/// window, |column - u| <= h and |row - v| <= h; index of the winning depth pixel per colour pixel,
-/// or -1.
+/// The rule of docs/methods.md word by word: every depth pixel against every colour pixel of a
+/// generous window, |column - u| <= h and |row - v| <= h; index of the winning depth pixel per
+/// colour pixel, or -1.
 [[nodiscard]] cv::Mat1i register_plain(const cv::Mat1w& depth, const Calibration& believed);
 
 }  // namespace mapscore::testing

@@ -63,7 +63,7 @@ TEST_F(Writer, WithoutFinishNothingIsLeft) {
 TEST_F(Writer, ExistingFolderIsRefusedAndKept) {
   fs::create_directory(out_);
   write_file(out_ / "keep", "me");
-  expect_error("exists already; use --force to replace it or give another folder",
+  expect_error("exists already; remove it or give another folder",
                [&] { RecordingWriter writer(out_, tiny_info()); });
   expect_error("exists already", [&] { RecordingWriter writer(out_ / "", tiny_info()); });
   EXPECT_EQ(read_file(out_ / "keep"), "me");

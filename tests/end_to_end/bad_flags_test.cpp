@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "tests/end_to_end/program.hpp"
+#include "tests/end_to_end/tiny_study.hpp"
+
+namespace mapscore::testing {
+namespace {
+
+using BadFlags = TinyStudy;
+
+TEST_F(BadFlags, NoVerbOrAnUnknownOne) {
+  expect_refused(mapscore({}), {"subcommand is required"});
+  expect_refused(mapscore({"swep", study()}), {"swep", "sweep"});
+}
+
+TEST_F(BadFlags, UnknownOrMissing) {
+  expect_refused(mapscore({"sweep"}), {"STUDY is required", "--help"});
+  expect_refused(mapscore({"sweep", study(), "--frobnicate"}), {"--frobnicate", "--help"});
+  expect_refused(mapscore({"check", results()}), {"--baseline is required", "--help"});
+}
+
+TEST_F(BadFlags, OfTheWrongTypeOrOutOfRange) {
+  expect_refused(mapscore({"sweep", study(), "--jobs", "0"}), {"--jobs", "1 to 1024"});
+  expect_refused(mapscore({"sweep", study(), "--jobs", "two"}), {"--jobs", "1 to 1024"});
+  expect_refused(mapscore({"sweep", study(), "--memory", "lots"}), {"--memory", "lots"});
+  expect_refused(mapscore({"sweep", study(), "-o", results(), "--shard", "3/2"}),
+                 {"--shard 3/2", "e.g. 2/4"});
+  expect_refused(mapscore({"truth", path("tiny"), "-o", path("t.csv"), "--voxel_m", "-0.05"}),
+                 {"--voxel_m"});
+  expect_refused(mapscore({"truth", path("tiny"), "-o", path("t.txt")}), {"t.txt", ".csv or .ply"});
+}
+
+TEST_F(BadFlags, OverridesThatAreWrong) {
+  expect_refused(mapscore({"sweep", study(), "--set", "voxel_m"}), {"voxel_m", "path=value"});
+  expect_refused(mapscore({"sweep", study(), "--set", "voxel=1"}), {"voxel", "voxel_m"});
+  expect_refused(mapscore({"sweep", study(), "--set", "voxel_m=nan"}), {"voxel_m", "finite"});
+  expect_refused(mapscore({"run", study(), "-o", results(), "--seed", "2"}), {"seed 2", "0 to 1"});
+  expect_refused(mapscore({"run", study(), "-o", results(), "--method", "guess"}),
+                 {"'guess'", "direct erosion"});
+}
+
+TEST_F(BadFlags, FilesThatAreNotThere) {
+  expect_refused(mapscore({"sweep", path("no.yaml")}), {"no.yaml", "give the path"});
+  expect_refused(mapscore({"info", path("nothing")}), {"nothing", "no such file"});
+  expect_refused(mapscore({"truth", path("nothing"), "-o", path("t.csv")}), {"nothing", "give"});
+  expect_refused(mapscore({"score", path("no.csv"), "--truth", path("tiny")}),
+                 {"no.csv", "check the path"});
+}
+
+TEST_F(BadFlags, LeaveNothingBehind) {
+  const auto before = contents_of(folder());
+  (void)mapscore({"sweep", study(), "-o", results(), "--set", "voxel_m=-1"});
+  (void)mapscore({"truth", path("tiny"), "-o", path("t.txt")});
+  EXPECT_EQ(contents_of(folder()), before);
+}
+
+}  // namespace
+}  // namespace mapscore::testing

@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 the mapscore authors
+# SPDX-License-Identifier: MIT
+
+# Tests of the built program, from the outside. A suite is one entry of CTest, since its tests share what it
+# records.
+set(folder ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end)
+file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+set(suites BadFlags BadStudy BadRecording BadOutput TinySweep)
+if(MAPSCORE_SIMULATOR)
+  file(GLOB rendered CONFIGURE_DEPENDS ${folder}/rendered/*.cpp)
+  list(APPEND suites BadScene Gate)
+endif()
+
+add_executable(end_to_end_test ${sources} ${rendered})
+target_link_libraries(end_to_end_test PRIVATE mapscore_experiment mapscore_test_support GTest::gtest_main
+                      GTest::gmock)
+target_compile_definitions(end_to_end_test PRIVATE MAPSCORE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                           MAPSCORE_PROGRAM="$<TARGET_FILE:mapscore>")
+add_dependencies(end_to_end_test mapscore)
+foreach(suite IN LISTS suites)
+  add_test(NAME end_to_end.${suite} COMMAND end_to_end_test --gtest_filter=*${suite}.*:*${suite}/*)
+endforeach()
+
+if(NOT MAPSCORE_SIMULATOR)
+  return()
+endif()
+
+# A mapscore that is wrong by half a voxel: it rounds where it should take the floor. Its object comes before
+# the library's, so the library's is never linked.
+set(placement ${PROJECT_SOURCE_DIR}/core/mapping/placement.cpp)
+set(right "voxel_of(p_map, edge_m)")
+set(wrong "voxel_of(p_map + Eigen::Vector3d::Constant(0.5 * edge_m), edge_m)")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${placement})
+file(READ ${placement} text)
+string(REPLACE "${right}" "${wrong}" mutated "${text}")
+if(mutated STREQUAL text)
+  message(FATAL_ERROR "${placement}: no `${right}` to put the error of half a voxel in; mend end_to_end.cmake")
+endif()
+file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/rounding_placement.cpp CONTENT "${mutated}" @ONLY)
+
+add_executable(mapscore_mutant ${CMAKE_CURRENT_BINARY_DIR}/rounding_placement.cpp
+               $<TARGET_OBJECTS:mapscore_cli>)
+target_link_libraries(mapscore_mutant PRIVATE mapscore::eval)
+target_compile_definitions(end_to_end_test PRIVATE MAPSCORE_MUTANT="$<TARGET_FILE:mapscore_mutant>")
+add_dependencies(end_to_end_test mapscore_mutant)
+
+# The same counts from a second implementation, written from the documents alone.
+find_program(PYTHON3 python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(PYTHON3 python3 REQUIRED)
+foreach(drive apartment person)
+  add_test(NAME independent_ruler.${drive}
+           COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/compare.py
+                   $<TARGET_FILE:mapscore> ${PROJECT_SOURCE_DIR}/scenes ${drive})
+  set_tests_properties(independent_ruler.${drive} PROPERTIES COST 100)  # the longest ones start first
+endforeach()

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "tests/end_to_end/program.hpp"
+#include "tests/end_to_end/tiny_study.hpp"
+
+#include <gmock/gmock.h>
+
+namespace mapscore::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The replaying half, which needs no simulator, through every verb.
+class TinySweep : public TinyStudy {
+ protected:
+  TinySweep() { expect_done(mapscore({"sweep", study(), "-o", results(), "-q"})); }
+};
+
+TEST_F(TinySweep, PrintsAndChecksItsScores) {
+  const Outcome table = mapscore({"table", results()});
+  expect_done(table);
+  EXPECT_THAT(table.out, HasSubstr("detected: crate"));
+  const std::string baseline = path("baseline.csv");
+  expect_done(mapscore({"check", results(), "--baseline", baseline, "--write"}));
+  const Outcome check = mapscore({"check", results(), "--baseline", baseline});
+  expect_done(check);
+  EXPECT_THAT(check.out, HasSubstr("figures hold"));
+}
+
+TEST_F(TinySweep, CheckSaysWhichFigureFell) {
+  const std::string baseline = path("baseline.csv");
+  write_text(baseline,
+             "what,class,metric,value\n"
+             "trial direct faults.misregistration.magnitude_m=0.03,crate,precision,1.000000\n"
+             "trial guess,pooled,f1,0.500000\n");
+  const Outcome check = mapscore({"check", results(), "--baseline", baseline});
+  EXPECT_EQ(check.exit_code, 1) << check.err;
+  EXPECT_EQ(check.err, "");
+  EXPECT_THAT(check.out, HasSubstr("magnitude_m=0.03  crate   precision  1.000000"));
+  EXPECT_THAT(check.out, HasSubstr("missing"));
+  EXPECT_THAT(check.out, HasSubstr("2 of 2 figures fell"));
+}
+
+TEST_F(TinySweep, TellsWhatThingsAre) {
+  EXPECT_THAT(mapscore({"info", results()}).out, HasSubstr("10 of 10 trials and ceilings"));
+  EXPECT_THAT(mapscore({"info", path("tiny")}).out, HasSubstr("4 frames of 64 x 48"));
+}
+
+TEST_F(TinySweep, ScoresItsOwnTruthAsPerfect) {
+  expect_done(mapscore({"truth", path("tiny"), "-o", path("truth.csv")}));
+  const Outcome score =
+      mapscore({"score", path("truth.csv"), "--truth", path("tiny"), "--format", "csv"});
+  expect_done(score);
+  EXPECT_THAT(score.out, HasSubstr("\ncrate,1.000,1.000,1.000,1.000,"));
+}
+
+TEST_F(TinySweep, AnotherNameAndAMethodMoreComputeOnlyWhatIsNew) {
+  replace("study.yaml", "methods:", "name: again\nmethods:");
+  replace("study.yaml", "  direct:", "  plain:");
+  replace("study.yaml", "sweep:", "  growing: {segmentation: {region_growing: {}}}\nsweep:");
+  const Outcome more = mapscore({"sweep", study(), "-o", results()});
+  expect_done(more);
+  EXPECT_THAT(more.err, HasSubstr("sweep again: 4 trials computed, 10 already there"));
+}
+
+}  // namespace
+}  // namespace mapscore::testing

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/summary.hpp"
+
+#include "tests/eval/recording/expect_error.hpp"
+#include "tests/eval/report/swept_plate.hpp"
+#include "tests/eval/report/synthetic_summary.hpp"
+
+#include <gmock/gmock.h>
+
+namespace mapscore::eval {
+namespace {
+
+using mapscore::testing::expect_error;
+using ::testing::ElementsAre;
+using ::testing::SizeIs;
+
+using Summary = testing::SweptPlate;
+
+TEST_F(Summary, HasALineForEachMethodAndCellBesideItsCeilings) {
+  sweep();
+  const StudySummary summary = summarise_store(results());
+  EXPECT_THAT(summary.groups(), ElementsAre("pooled", "macro", "plate"));
+  ASSERT_THAT(summary.trials, SizeIs(2));
+  ASSERT_THAT(summary.registration_ceilings, SizeIs(2));
+  ASSERT_THAT(summary.lattice_ceilings, SizeIs(2));
+  EXPECT_EQ(summary.trials[1].pooled.at(1).true_predicted, 12);
+  EXPECT_EQ(summary.registration_ceilings[1].pooled.at(1).true_predicted, 16);
+  EXPECT_EQ(summary.lattice_ceilings[1].pooled.at(1).found, 16);
+  EXPECT_EQ(summary.lattice_ceilings[1].role, Role::lattice_ceiling);
+}
+
+TEST_F(Summary, EstimatesAreOfThePooledCounts) {
+  sweep();
+  const StudySummary summary = summarise_store(store_file());
+  const ResultLine& shifted = summary.trials.at(1);
+  for (const char* group : {"pooled", "macro", "plate"}) {
+    EXPECT_EQ(estimate(shifted, summary.table, group, "precision").pooled, 0.75);
+    EXPECT_EQ(estimate(shifted, summary.table, group, "recall").pooled, 0.75);
+    EXPECT_EQ(estimate(shifted, summary.table, group, "iou").pooled, 12.0 / 20.0);
+  }
+  expect_error("guess", [&] { (void)estimate(shifted, summary.table, "plate", "guess"); });
+  expect_error("'cup'", [&] { (void)estimate(shifted, summary.table, "cup", "f1"); });
+}
+
+TEST_F(Summary, IsRefusedWhileTrialsAreMissing) {
+  expect_error("run `mapscore sweep` first", [&] { (void)summarise_store(results()); });
+  sweep(1, 2);
+  expect_error("1 of 3 trials are not there yet; run `mapscore sweep STUDY -o",
+               [&] { (void)summarise_store(results()); });
+  sweep(2, 2);
+  EXPECT_THAT(summarise_store(results()).trials, SizeIs(2));
+}
+
+TEST(Estimate, PoolsCountsAndNotRatios) {
+  ResultLine line{Role::trial, "direct", {}, {0, 1}, {}, {}};
+  for (const std::int64_t size : {10, 90}) {
+    Counts counts(4);
+    counts[1].predicted = size;
+    counts[1].true_predicted = size == 10 ? 10 : 45;
+    line.results.push_back({counts, {}});
+    pool_into(line.pooled, counts);
+  }
+  const Estimate precision = estimate(line, testing::synthetic_table(), "cup", "precision");
+  EXPECT_EQ(precision.pooled, 0.55);
+  EXPECT_EQ(precision.over_seeds.mean, 0.75);
+}
+
+}  // namespace
+}  // namespace mapscore::eval

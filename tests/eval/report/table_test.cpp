@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/table.hpp"
+
+#include "tests/eval/report/synthetic_summary.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace mapscore::eval {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+StudySummary summary_of(int seeds) {
+  return testing::synthetic_summary(testing::synthetic_study(
+      {"direct", "erosion"}, {{"faults.misregistration.magnitude_m", {"0", "0.01"}}}, seeds));
+}
+
+TEST(ScoreTable, HasARowForEveryMethodAtEveryCell) {
+  const Table table = score_table(summary_of(2), "cup");
+  EXPECT_THAT(table.columns,
+              ElementsAre("magnitude_m", "method", "precision", "recall", "F1", "IoU", "F1 spread",
+                          "registration F1", "lattice precision", "lattice recall"));
+  ASSERT_THAT(table.rows, SizeIs(4));
+  // Cups at cell 1 of direct: 100 predicted a seed, 4 and 5 false; 200 visible a seed, 20 missed.
+  // P = 191/200, R = 0.9, F = 2PR/(P+R), IoU = 360/(400 + 9); at dose zero P = 0.98, lattice P = 1.
+  // F of the seeds: P = 0.96 and 0.95.
+  EXPECT_THAT(table.rows[2], ElementsAre("0.01", "direct", "0.955", "0.900", "0.927", "0.880",
+                                         "0.924..0.929", "0.938", "1.000", "0.900"));
+}
+
+TEST(ScoreTable, SaysWhatItStandsOn) {
+  const auto caption = [](int seeds) {
+    std::string text;
+    for (const std::string& line : score_table(summary_of(seeds), "pooled").caption)
+      text += line + '\n';
+    return text;
+  };
+  EXPECT_THAT(caption(2), HasSubstr("detected: cup, chair\n"));
+  EXPECT_THAT(caption(2), HasSubstr("voxels of 0.05 m; 2 seeds; each map scored"));
+  EXPECT_THAT(caption(2), HasSubstr("least and greatest of the seeds (fewer than 10)"));
+  EXPECT_THAT(caption(10), HasSubstr("95 % interval"));
+}
+
+Table small_table() {
+  return {{"a caption"}, {"dose", "method", "F1"}, {{"0", "direct", "0.500"}, {"0.01", "x", "-"}}};
+}
+
+TEST(Table, AsTextIsAlignedWithoutTrailingBlanks) {
+  EXPECT_EQ(to_text(small_table()),
+            "# a caption\n"
+            "dose  method  F1\n"
+            "0     direct  0.500\n"
+            "0.01  x       -\n");
+}
+
+TEST(Table, AsCsvHasNoCaption) {
+  EXPECT_EQ(to_csv(small_table()), "dose,method,F1\n0,direct,0.500\n0.01,x,-\n");
+}
+
+TEST(Table, AsCsvQuotesWhatHoldsACommaAndKeepsEmptyCells) {
+  Table table;
+  table.columns = {"translation_m", "method", "F1"};
+  table.rows = {{"[0, 0, 0]", "", "1"}, {"", "say \"x\"", "2"}};
+  EXPECT_EQ(to_csv(table), "translation_m,method,F1\n\"[0, 0, 0]\",,1\n,\"say \"\"x\"\"\",2\n");
+}
+
+TEST(Table, AsJsonNamesEveryCell) {
+  EXPECT_EQ(to_json({{"c"}, {"b", "a"}, {{"1", "2"}}}),
+            "{\n  \"caption\": [\n    \"c\"\n  ],\n  \"rows\": [\n    {\n      \"b\": \"1\",\n"
+            "      \"a\": \"2\"\n    }\n  ]\n}\n");
+}
+
+}  // namespace
+}  // namespace mapscore::eval
