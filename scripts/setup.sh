@@ -64,6 +64,9 @@ install_packages() {
 # The wheel carries libmujoco and its headers; nothing of its Python is used.
 install_mujoco() {
   [ -f "$mujoco_folder/mujoco/include/mujoco/mujoco.h" ] && return
+  for prefix in /usr/local /usr; do  # the system's own
+    [ -f "$prefix/include/mujoco/mujoco.h" ] && return
+  done
   say "fetching MuJoCo $mujoco_version into $mujoco_folder"
   local machine wheel_folder
   machine=$(uname -m)

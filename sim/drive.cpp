@@ -10,6 +10,8 @@
 namespace mapscore::sim {
 namespace {
 
+constexpr double kMostFrames = 1e7;  ///< more than any recording could hold
+
 void check(const Drive& drive) {
   if (drive.waypoints.empty()) throw Error("trajectory: no waypoints; give at least one");
   const auto positive = [](double value, const char* name) {
@@ -64,10 +66,14 @@ std::vector<StampedPose> poses_along(const Drive& drive) {
   check(drive);
   const std::vector<Leg> legs = legs_of(drive);
   const double end_s = legs.back().start_s + legs.back().duration_s;
-  constexpr double kRounding =
-      1e-9;  // so that a drive of a whole number of frames keeps its last one
-  std::size_t count = static_cast<std::size_t>(end_s * drive.frames_per_s + kRounding) + 1;
-  if (drive.max_frames > 0) count = std::min(count, static_cast<std::size_t>(drive.max_frames));
+  constexpr double kRounding = 1e-9;  // a drive of a whole number of frames keeps its last one
+  double frames = std::floor(end_s * drive.frames_per_s + kRounding) + 1.0;
+  if (drive.max_frames > 0) frames = std::min(frames, static_cast<double>(drive.max_frames));
+  if (!(frames <= kMostFrames))
+    throw Error(
+        "trajectory: the drive takes too many frames to record; raise speed_mps or turn_rate_dps, "
+        "lower frames_per_s, or set max_frames");
+  const auto count = static_cast<std::size_t>(frames);
   std::vector<StampedPose> poses(count);
   std::size_t leg = 0;
   for (std::size_t i = 0; i < count; ++i) {

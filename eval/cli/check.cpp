@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include "eval/cli/options.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/report/baseline.hpp"
 
@@ -46,7 +47,7 @@ void add_check(CLI::App& program, int& exit_code) {
   verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
   verb->add_option("--baseline", flags->baseline, "CSV: what,class,metric,value")->required();
   verb->add_option("--allow", flags->allowed, "How far a figure may fall, absolutely [0.002]")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(finite_within(0.0, 1.0));
   verb->add_flag("--write", flags->write, "Write the baseline from these results instead");
   verb->footer(
       "Examples:\n"

@@ -4,6 +4,7 @@
 #include "eval/report/figures.hpp"
 
 #include "core/error.hpp"
+#include "eval/cli/options.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/study_store.hpp"
 #include "eval/report/contact_sheet.hpp"
@@ -94,9 +95,7 @@ void add_figures(CLI::App& program) {
   verb->add_option("--method", flags->method, "Draw the map of this method alone [all]");
   verb->add_option("--seed", flags->seed, "Index of the seed whose maps are drawn [0]")
       ->check(CLI::NonNegativeNumber);
-  verb->add_option("--memory", flags->memory_bytes,
-                   "Decoded frames held at once, e.g. 512MB [1GiB]")
-      ->transform(CLI::AsSizeValue(false));
+  add_memory_flag(*verb, flags->memory_bytes);
   verb->add_flag("--no-pictures", flags->no_pictures, "Figures and tables alone");
   verb->footer(
       "Writes trials.csv, table.txt, figures (PNG, PDF, and the gnuplot script and numbers they "

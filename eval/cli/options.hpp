@@ -27,6 +27,12 @@ struct StudyFlags {
   [[nodiscard]] std::filesystem::path results_folder(const Study& study) const;
 };
 
+/// A finite number within limits, both included; CLI::Range would let NaN pass.
+[[nodiscard]] CLI::Validator finite_within(double low, double high);
+
+/// `--memory` with units; refuses what is negative.
+void add_memory_flag(CLI::App& verb, std::size_t& bytes);
+
 /// Flags of verbs that work long.
 struct WorkFlags {
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

@@ -85,7 +85,8 @@ void run(const RunFlags& flags) {
     progress.show(frame + 1, recording.frame_count());
   }
   const std::filesystem::path folder =
-      results / "runs" / fmt::format("{}-seed{}", spec.method, spec.seed_index);
+      results / "runs" /
+      fmt::format("{}-seed{}-{}", spec.method, spec.seed_index, task.key.substr(0, 8));
   std::filesystem::create_directories(folder);
   trial.map().save(folder / "map.ot");
   trial.map().export_color(folder / "map_colour.ot", table, trial.threshold());

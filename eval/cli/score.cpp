@@ -13,6 +13,7 @@
 
 #include <iostream>
 #include <memory>
+#include <set>
 
 namespace mapscore::eval {
 namespace {
@@ -44,12 +45,19 @@ std::vector<std::string> counts_of(const ClassCounts& c) {
   return cells;
 }
 
+std::vector<ClassId> classes_of(const MapSnapshot& map) {
+  std::set<ClassId> classes;
+  for (const MapVoxel& voxel : map.voxels()) classes.insert(voxel.best_class);
+  return {classes.begin(), classes.end()};
+}
+
 void score(const ScoreFlags& flags) {
-  const SourceTruth source =
-      truth_of(flags.truth, flags.lattice, true, flags.work.jobs, flags.work.memory_bytes);
-  if (!source.has_views)
+  if (std::filesystem::path(flags.truth).extension() == ".xml")
     throw Error(flags.truth + ": a scene says what is there, not what was seen; give a recording");
-  const MapSnapshot map(read_map(flags.map, flags.lattice.voxel_m, source.table));
+  const MapSnapshot map(
+      read_map(flags.map, flags.lattice.voxel_m, Recording::open(flags.truth).info().table));
+  const SourceTruth source = truth_of(flags.truth, flags.lattice, classes_of(map), flags.work.jobs,
+                                      flags.work.memory_bytes);
   const Counts counts = source.truth.score(map, flags.threshold, source.truth.view(0),
                                            source.table.classes.size(), {});
 
@@ -80,7 +88,7 @@ void add_score(CLI::App& program) {
   verb->add_option("MAP", flags->map, ".ot of mapscore, or .csv of i,j,k,class")->required();
   verb->add_option("--truth", flags->truth, "Recording")->required();
   verb->add_option("--threshold", flags->threshold, "Least probability of a predicted voxel [0.25]")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(finite_within(0.0, 1.0));
   verb->add_option("--format", flags->format, "text, csv or json [text]")
       ->check(CLI::IsMember({"text", "csv", "json"}));
   flags->lattice.add_to(*verb, true);

@@ -3,13 +3,17 @@
 
 #include "eval/report/table.hpp"
 
+#include "core/error.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/report/tidy_csv.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <iostream>
 #include <memory>
-#include <sstream>
 
 namespace mapscore::eval {
 namespace {
@@ -22,6 +26,10 @@ struct TableFlags {
 void print_table(const TableFlags& flags) {
   const StudySummary summary = summarise_store(flags.results);
   if (flags.tidy) return write_tidy_csv(summary, std::cout);
+  const std::vector<std::string> groups = summary.groups();
+  if (std::find(groups.begin(), groups.end(), flags.group) == groups.end())
+    throw Error(fmt::format("--class {}: not scored in this study; there are: {}", flags.group,
+                            fmt::join(groups, ", ")));
   const Table table = score_table(summary, flags.group);
   std::cout << (flags.format == "csv"    ? to_csv(table)
                 : flags.format == "json" ? to_json(table)

@@ -22,7 +22,7 @@ struct TruthFlags {
 
 void write_truth_of(const TruthFlags& flags) {
   const SourceTruth source =
-      truth_of(flags.source, flags.lattice, false, flags.work.jobs, flags.work.memory_bytes);
+      truth_of(flags.source, flags.lattice, {}, flags.work.jobs, flags.work.memory_bytes);
   const VisibleTruth* visible = source.has_views ? &source.truth.view(0).visible : nullptr;
   write_truth(flags.file, source.truth.surface, visible, source.table);
   std::cout << fmt::format("{:<16} {:>10} {:>10}\n", "class", "surface", "visible");

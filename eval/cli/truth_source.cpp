@@ -4,6 +4,7 @@
 #include "eval/cli/truth_source.hpp"
 
 #include "core/error.hpp"
+#include "eval/cli/options.hpp"
 #include "eval/experiment/study_recording.hpp"
 
 #include <numbers>
@@ -13,12 +14,14 @@ namespace mapscore::eval {
 void LatticeFlags::add_to(CLI::App& verb, bool with_voxel) {
   if (with_voxel)
     verb.add_option("--voxel_m", voxel_m, "Voxel edge in metres [0.05]")
-        ->check(CLI::Range(1e-4, 100.0));
+        ->check(finite_within(1e-4, 100.0));
   verb.add_option("--origin_m", origin_m, "Origin of the map frame in the world: x y z [0 0 0]")
-      ->expected(3);
-  verb.add_option("--yaw_deg", yaw_deg, "Heading of the map frame in the world [0]");
+      ->expected(3)
+      ->check(finite_within(-1e6, 1e6));
+  verb.add_option("--yaw_deg", yaw_deg, "Heading of the map frame in the world [0]")
+      ->check(finite_within(-360, 360));
   verb.add_option("--epsilon_m", epsilon_m, "How far a cube is widened on each side [0.0005]")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(finite_within(0.0, 1.0));
   verb.add_option("--min_samples", min_samples, "Depth samples that make a voxel visible [1]")
       ->check(CLI::Range(1, 1000000));
 }
@@ -29,9 +32,9 @@ MapFrame LatticeFlags::map_frame() const {
           yaw_deg * std::numbers::pi / 180.0};
 }
 
-SourceTruth truth_of(const std::string& source, const LatticeFlags& flags, bool distances, int jobs,
-                     std::size_t memory_bytes) {
-  const TruthOptions options{flags.epsilon_m, flags.min_samples, false, distances};
+SourceTruth truth_of(const std::string& source, const LatticeFlags& flags,
+                     const std::vector<ClassId>& sampled, int jobs, std::size_t memory_bytes) {
+  const TruthOptions options{flags.epsilon_m, flags.min_samples, false, !sampled.empty()};
   if (std::filesystem::path(source).extension() == ".xml") {
     SceneSurfaces scene = surfaces_of_scene(source);
     LatticeTruth truth =
@@ -44,8 +47,10 @@ SourceTruth truth_of(const std::string& source, const LatticeFlags& flags, bool 
                 ": the recording has no truth/; only maps of rendered recordings can be scored");
   FrameCache frames(recording, {.color = false, .label = false, .depth = true, .depth_label = true},
                     memory_bytes);
-  LatticeTruth truth = make_lattice_truth(recording, recording.info().table, frames,
-                                          flags.map_frame(), options, jobs);
+  ClassTable table = recording.info().table;  // samples are kept of its detected classes
+  for (const ClassId id : sampled) table.classes.at(id).detect = true;
+  LatticeTruth truth =
+      make_lattice_truth(recording, table, frames, flags.map_frame(), options, jobs);
   return {recording.info().table, std::move(truth), true};
 }
 

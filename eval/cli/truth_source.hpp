@@ -34,8 +34,10 @@ struct SourceTruth {
   bool has_views = false;
 };
 
-/// `source`: an MJCF file or a recording's folder. Throws Error.
+/// `source`: an MJCF file or a recording's folder. `sampled`: classes whose depth samples are kept
+/// for distances, beside the detected ones; without any, none are. Throws Error.
 [[nodiscard]] SourceTruth truth_of(const std::string& source, const LatticeFlags& flags,
-                                   bool distances, int jobs, std::size_t memory_bytes);
+                                   const std::vector<ClassId>& sampled, int jobs,
+                                   std::size_t memory_bytes);
 
 }  // namespace mapscore::eval

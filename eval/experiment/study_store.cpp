@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -46,7 +47,7 @@ ClassTable table_from_json(const std::string& text) {
 void write_study(ResultStore& store, const StudyRecord& record,
                  const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  store.set_text("study_folder", fs::absolute(record.study.base_folder)
+  store.set_text("study_folder", fs::absolute(record.study.base_folder / ".")
                                      .lexically_normal()
                                      .lexically_relative(fs::absolute(folder).lexically_normal()));
   store.set_text("study", to_yaml(record.study));
@@ -68,7 +69,17 @@ StudyRecord read_study(const ResultStore& store, const std::filesystem::path& fo
               "); sweep again into another folder");
 }
 
-ClassTable detected_table(const Study& study, ClassTable table) {
+namespace {
+
+/// Names that stand for all classes in tables and CSV.
+void refuse_reserved_names(const ClassTable& table) {
+  for (const SemanticClass& c : table.classes)
+    if (c.name == "pooled" || c.name == "macro" || c.name == "all")
+      throw Error("class '" + c.name +
+                  "': the name stands for all classes in tables; rename it in the class file");
+}
+
+ClassTable with_detected_set(const Study& study, ClassTable table) {
   if (!study.detect) return table;
   for (const std::string& name : study.detect->classes) {
     const auto named = [&](const SemanticClass& c) { return c.name == name; };
@@ -81,6 +92,20 @@ ClassTable detected_table(const Study& study, ClassTable table) {
         c.id != kBackground &&
         (study.detect->all || std::find(study.detect->classes.begin(), study.detect->classes.end(),
                                         c.name) != study.detect->classes.end());
+  return table;
+}
+
+}  // namespace
+
+ClassTable detected_table(const Study& study, ClassTable table) {
+  refuse_reserved_names(table);
+  table = with_detected_set(study, std::move(table));
+  if (std::none_of(table.classes.begin(), table.classes.end(),
+                   [](const SemanticClass& c) { return c.detect; }))
+    throw Error(
+        "detect: no class of the scene is detected, so there is nothing to map; set `detect: true` "
+        "in the "
+        "class file, or name classes under the study's `detect`");
   return table;
 }
 

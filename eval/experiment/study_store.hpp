@@ -27,8 +27,9 @@ void write_study(ResultStore& store, const StudyRecord& record,
 /// Throws Error when the store holds none.
 [[nodiscard]] StudyRecord read_study(const ResultStore& store, const std::filesystem::path& folder);
 
-/// The class table of a recording with the study's `detect`. Throws Error naming a class that is
-/// not there.
+/// The class table of a recording with the study's `detect`. Throws Error when no class is
+/// detected, or naming a class that stands for all in tables ("pooled", "macro", "all") or is not
+/// there.
 [[nodiscard]] ClassTable detected_table(const Study& study, ClassTable table);
 
 }  // namespace mapscore::eval

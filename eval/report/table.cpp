@@ -21,6 +21,15 @@ std::string spread(const SeedSummary& seeds) {
   return seeds.low && seeds.high ? fmt::format("{:.3f}..{:.3f}", *seeds.low, *seeds.high) : "-";
 }
 
+/// The last part of a swept path, or all of it where two end alike.
+std::string column_of(const SweepAxis& axis, const std::vector<SweepAxis>& sweep) {
+  const auto last_part = [](const SweepAxis& of) { return of.path.substr(of.path.rfind('.') + 1); };
+  const auto alike = std::count_if(sweep.begin(), sweep.end(), [&](const SweepAxis& other) {
+    return last_part(other) == last_part(axis);
+  });
+  return alike == 1 ? last_part(axis) : axis.path;
+}
+
 bool has_metric(const ResultLine& line, const StudySummary& summary, const std::string& name) {
   const auto metrics = metrics_of_group(line.pooled, summary.table, kPooled);
   return std::any_of(metrics.begin(), metrics.end(),
@@ -64,7 +73,7 @@ Table score_table(const StudySummary& summary, const std::string& group) {
       metrics.emplace_back(title, name);
 
   for (const SweepAxis& axis : summary.study.sweep)
-    table.columns.push_back(axis.path.substr(axis.path.rfind('.') + 1));
+    table.columns.push_back(column_of(axis, summary.study.sweep));
   table.columns.push_back("method");
   for (const auto& [title, name] : metrics) table.columns.push_back(title);
   for (const char* title : {"F1 spread", "registration F1", "lattice precision", "lattice recall"})

@@ -31,6 +31,14 @@ TEST_F(BadFlags, OfTheWrongTypeOrOutOfRange) {
   expect_refused(mapscore({"truth", path("tiny"), "-o", path("t.txt")}), {"t.txt", ".csv or .ply"});
 }
 
+TEST_F(BadFlags, NotANumberOrNegative) {
+  expect_refused(mapscore({"check", results(), "--baseline", path("b.csv"), "--allow", "nan"}),
+                 {"--allow", "0 to 1"});
+  expect_refused(mapscore({"score", path("m.csv"), "--truth", path("tiny"), "--threshold", "nan"}),
+                 {"--threshold", "0 to 1"});
+  expect_refused(mapscore({"sweep", study(), "--memory", "-5"}), {"--memory", "negative"});
+}
+
 TEST_F(BadFlags, OverridesThatAreWrong) {
   expect_refused(mapscore({"sweep", study(), "--set", "voxel_m"}), {"voxel_m", "path=value"});
   expect_refused(mapscore({"sweep", study(), "--set", "voxel=1"}), {"voxel", "voxel_m"});

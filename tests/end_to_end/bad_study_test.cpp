@@ -62,5 +62,11 @@ INSTANTIATE_TEST_SUITE_P(
                 {"detect", "'elephant'", "mapscore info"}}),
     [](const auto& bad) { return bad.param.name; });
 
+TEST_F(BadStudy, NothingIsDetected) {
+  replace("tiny/recording.yaml", "detect: true", "detect: false");
+  expect_refused(mapscore({"sweep", study(), "-o", results(), "-q"}),
+                 {"detect", "nothing to map", "class file"});
+}
+
 }  // namespace
 }  // namespace mapscore::testing

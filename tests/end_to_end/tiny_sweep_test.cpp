@@ -42,6 +42,29 @@ TEST_F(TinySweep, CheckSaysWhichFigureFell) {
   EXPECT_THAT(check.out, HasSubstr("2 of 2 figures fell"));
 }
 
+TEST_F(TinySweep, TakesAStudyInTheWorkingFolder) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder());
+  const Outcome sweep = mapscore({"sweep", "study.yaml", "-o", "here", "-q"});
+  const Outcome table = mapscore({"table", "here"});
+  std::filesystem::current_path(before);
+  expect_done(sweep);
+  expect_done(table);
+}
+
+TEST_F(TinySweep, TableKnowsOnlyTheClassesThatWereScored) {
+  expect_refused(mapscore({"table", results(), "--class", "wall"}), {"wall", "pooled", "crate"});
+}
+
+TEST_F(TinySweep, TwoSweptPathsThatEndAlikeKeepAColumnEach) {
+  expect_done(
+      mapscore({"sweep", study(), "-o", path("two"), "-q", "--set",
+                "sweep={faults.misregistration.magnitude_m: [0], faults.mount.magnitude_m: [0]}"}));
+  EXPECT_THAT(mapscore({"table", path("two"), "--format", "json"}).out,
+              AllOf(HasSubstr("faults.misregistration.magnitude_m"),
+                    HasSubstr("faults.mount.magnitude_m")));
+}
+
 TEST_F(TinySweep, TellsWhatThingsAre) {
   EXPECT_THAT(mapscore({"info", results()}).out, HasSubstr("10 of 10 trials and ceilings"));
   EXPECT_THAT(mapscore({"info", path("tiny")}).out, HasSubstr("4 frames of 64 x 48"));
