@@ -9,6 +9,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/setup.sh
+mkdir -p build
 cmake --preset release >build/configure.log || { cat build/configure.log >&2; exit 1; }
 cmake --build --preset release --target mapscore
 build/release/mapscore sweep configs/demo.yaml -o results/demo

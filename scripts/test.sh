@@ -8,6 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/setup.sh
+mkdir -p build
 cmake --preset release >build/configure.log || { cat build/configure.log >&2; exit 1; }
 cmake --build --preset release
 ctest --test-dir build/release --output-on-failure -j "$(nproc)" "$@"
