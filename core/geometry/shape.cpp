@@ -25,4 +25,21 @@ const char* name_of(ShapeKind kind) {
   return "?";
 }
 
+int sizes_of(ShapeKind kind) {
+  switch (kind) {
+    case ShapeKind::mesh:
+      return 0;
+    case ShapeKind::sphere:
+      return 1;
+    case ShapeKind::plane:
+    case ShapeKind::capsule:
+    case ShapeKind::cylinder:
+      return 2;
+    case ShapeKind::ellipsoid:
+    case ShapeKind::box:
+      return 3;
+  }
+  return 0;
+}
+
 }  // namespace mapscore

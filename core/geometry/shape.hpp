@@ -35,4 +35,7 @@ struct Shape {
 
 [[nodiscard]] const char* name_of(ShapeKind kind);
 
+/// How many of the three sizes a kind uses; these must be above 0.
+[[nodiscard]] int sizes_of(ShapeKind kind);
+
 }  // namespace mapscore

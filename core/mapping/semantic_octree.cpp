@@ -14,6 +14,7 @@ namespace mapscore {
 namespace {
 
 constexpr std::int32_t kOctreeOffset = 1 << 15;
+constexpr const char* kMisfit = "its data do not fit its header; write it again";
 
 template <class T>
 void write_raw(std::ostream& stream, const T& value) {
@@ -91,10 +92,33 @@ std::unique_ptr<SemanticOcTree> SemanticOcTree::read_whole(std::istream& stream)
   if (header.type != "SemanticOcTree")
     throw Error("a " + header.type + ", not a semantic map; write one with `mapscore run`");
   auto tree = std::make_unique<SemanticOcTree>(header.edge_m);
-  if (header.nodes > 0) tree->readData(stream);
+  if (header.nodes > 0) {
+    tree->root = new SemanticOcTreeNode;
+    tree->tree_size = 1;
+    const std::size_t voxels =
+        tree->read_node(stream, tree->root, tree->getTreeDepth(), header.nodes);
+    if (voxels > kMostMapVoxels)
+      throw Error("its leaves cover " + std::to_string(voxels) + " voxels, at most " +
+                  std::to_string(kMostMapVoxels) + " are read; write it with larger voxels");
+  }
   if (tree->size() != header.nodes || !stream || stream.peek() != std::istream::traits_type::eof())
-    throw Error("its data do not fit its header; write it again");
+    throw Error(kMisfit);
   return tree;
+}
+
+std::size_t SemanticOcTree::read_node(std::istream& stream, SemanticOcTreeNode* node,
+                                      unsigned level, std::size_t most_nodes) {
+  node->readData(stream);
+  const auto children = read_raw<std::uint8_t>(stream);
+  if (children == 0) return std::size_t{1} << (3 * level);
+  if (level == 0) throw Error(kMisfit);
+  std::size_t voxels = 0;
+  for (unsigned index = 0; index < 8; ++index) {
+    if ((children >> index & 1) == 0) continue;
+    if (tree_size == most_nodes) throw Error(kMisfit);
+    voxels += read_node(stream, createNodeChild(node, index), level - 1, most_nodes);
+  }
+  return voxels;
 }
 
 SemanticOcTree::StaticMemberInitializer::StaticMemberInitializer() {

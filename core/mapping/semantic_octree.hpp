@@ -9,12 +9,16 @@
 #include <octomap/OcTreeNode.h>
 #include <octomap/OccupancyOcTreeBase.h>
 
+#include <cstddef>
 #include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace mapscore {
+
+/// Most finest voxels that the leaves of a map file may cover; damaged leaves can ask for 2^48.
+inline constexpr std::size_t kMostMapVoxels = 50'000'000;
 
 struct ClassProbability {
   ClassId class_id = kBackground;
@@ -52,10 +56,16 @@ class SemanticOcTree : public octomap::OccupancyOcTreeBase<SemanticOcTreeNode> {
   std::string getTreeType() const override { return "SemanticOcTree"; }
 
   /// Reads a whole .ot stream of this type, as octomap::AbstractOcTree::read does, but says nothing
-  /// on standard error and takes nothing half-read for whole. Throws Error with the reason.
+  /// on standard error, takes nothing half-read for whole and goes no deeper than an octree does.
+  /// Throws Error with the reason, also where the leaves cover more than kMostMapVoxels.
   [[nodiscard]] static std::unique_ptr<SemanticOcTree> read_whole(std::istream& stream);
 
  protected:
+  /// Reads the node of `level`, 0 for the finest, and all below it, as long as the tree has at most
+  /// `most_nodes`. Returns how many finest voxels its leaves cover.
+  std::size_t read_node(std::istream& stream, SemanticOcTreeNode* node, unsigned level,
+                        std::size_t most_nodes);
+
   /// Makes the type known to octomap::AbstractOcTree::read.
   class StaticMemberInitializer {
    public:

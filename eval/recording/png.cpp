@@ -29,8 +29,21 @@ struct PixelType {
 constexpr PixelType kColour{8, 2, 3, "8-bit RGB", 1};
 constexpr PixelType kGrey16{16, 0, 2, "16-bit grey", 2};
 
+/// Rows of less than a byte a pixel are filled up to whole bytes.
 RowLayout layout_of(cv::Size size, const PixelType& type) {
-  return {size.height, static_cast<std::size_t>(size.width) * type.bytes, type.bytes};
+  const std::size_t bits = type.bit_depth < 8 ? type.bit_depth : 8 * type.bytes;
+  return {size.height, (static_cast<std::size_t>(size.width) * bits + 7) / 8, type.bytes};
+}
+
+/// The kind that an image of ids has by its header, which is yet to be checked.
+PixelType id_type_of(std::string_view png) {
+  constexpr std::size_t kBitDepth = 24, kColourType = 25;  // after signature, length, type and size
+  constexpr const char* kName = "grey or palette of up to 16 bits";
+  const auto bits = static_cast<std::uint8_t>(png.size() > kColourType ? png[kBitDepth] : 16);
+  const auto colour = static_cast<std::uint8_t>(png.size() > kColourType ? png[kColourType] : 0);
+  const bool narrow = bits == 1 || bits == 2 || bits == 4 || bits == 8;
+  if (narrow && (colour == 0 || colour == 3)) return {bits, colour, 1, kName, 0};
+  return {16, 0, 2, kName, 0};
 }
 
 std::string big_endian(std::uint32_t value) {
@@ -150,6 +163,18 @@ std::unique_ptr<std::uint8_t[]> rows_of(std::string_view png, cv::Size size, con
   return rows;
 }
 
+/// 16-bit pixels of unfiltered rows.
+cv::Mat1w grey16_of(const std::uint8_t* rows, cv::Size size) {
+  cv::Mat1w image(size);
+  for (int v = 0; v < size.height; ++v) {
+    ++rows;
+    std::uint16_t* row = image[v];
+    for (int u = 0; u < size.width; ++u, rows += 2)
+      row[u] = static_cast<std::uint16_t>(rows[0] << 8 | rows[1]);
+  }
+  return image;
+}
+
 }  // namespace
 
 std::string encode_png(const cv::Mat3b& image) {
@@ -190,14 +215,22 @@ cv::Mat3b decode_color_png(std::string_view bytes, cv::Size size, const std::str
 }
 
 cv::Mat1w decode_grey16_png(std::string_view bytes, cv::Size size, const std::string& name) {
-  const auto rows = rows_of(bytes, size, kGrey16, name);
+  return grey16_of(rows_of(bytes, size, kGrey16, name).get(), size);
+}
+
+cv::Mat1w decode_id_png(std::string_view bytes, cv::Size size, const std::string& name) {
+  const PixelType type = id_type_of(bytes);
+  const auto rows = rows_of(bytes, size, type, name);
+  if (type.bit_depth == 16) return grey16_of(rows.get(), size);
+  const std::size_t stride = 1 + layout_of(size, type).row_bytes;
+  const int per_byte = 8 / type.bit_depth, mask = (1 << type.bit_depth) - 1;
   cv::Mat1w image(size);
-  const std::uint8_t* in = rows.get();
   for (int v = 0; v < size.height; ++v) {
-    ++in;
-    std::uint16_t* row = image[v];
-    for (int u = 0; u < size.width; ++u, in += 2)
-      row[u] = static_cast<std::uint16_t>(in[0] << 8 | in[1]);
+    const std::uint8_t* in = rows.get() + static_cast<std::size_t>(v) * stride + 1;
+    for (int u = 0; u < size.width; ++u) {  // the leftmost pixel in the highest bits
+      const int shift = (per_byte - 1 - u % per_byte) * type.bit_depth;
+      image(v, u) = static_cast<std::uint16_t>(in[u / per_byte] >> shift & mask);
+    }
   }
   return image;
 }

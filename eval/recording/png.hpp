@@ -25,5 +25,9 @@ namespace mapscore::eval {
                                          const std::string& name);
 [[nodiscard]] cv::Mat1w decode_grey16_png(std::string_view bytes, cv::Size size,
                                           const std::string& name);
+/// An image of ids of any writer: grey or palette of 1, 2, 4 or 8 bits, or grey of 16. The id is
+/// the stored sample, or the index into the palette, whatever colour that gives it.
+[[nodiscard]] cv::Mat1w decode_id_png(std::string_view bytes, cv::Size size,
+                                      const std::string& name);
 
 }  // namespace mapscore::eval

@@ -14,6 +14,8 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+
 namespace mapscore::eval {
 namespace {
 
@@ -49,8 +51,9 @@ void check_poses(const fs::path& file, const std::vector<TrajectoryPose>& poses,
 }
 
 void check_files(const fs::path& folder, const std::vector<std::string>& images, bool has_truth) {
+  std::error_code no_such_name;  // such as one that is too long
   for (const std::string& image : images)
-    if (!fs::is_regular_file(folder / image))
+    if (!fs::is_regular_file(folder / image, no_such_name))
       throw Error(fmt::format("{}: image is missing; copy the recording anew or record again",
                               (folder / image).string()));
   if (has_truth && !fs::is_regular_file(folder / "truth/shapes.csv"))

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/recording/file_bytes.hpp"
+#include "eval/recording/one_line.hpp"
 #include "eval/recording/pose_text.hpp"
 
 #include <fmt/format.h>
@@ -19,20 +20,6 @@ constexpr const char* kHeader = "kind,instance,name,px,py,pz,qx,qy,qz,qw,sx,sy,s
 constexpr std::size_t kColumns = 13;
 constexpr ShapeKind kKinds[] = {ShapeKind::plane,     ShapeKind::sphere,   ShapeKind::capsule,
                                 ShapeKind::ellipsoid, ShapeKind::cylinder, ShapeKind::box};
-
-/// How many of the three sizes a kind uses; these must be above 0.
-int sizes_of(ShapeKind kind) {
-  switch (kind) {
-    case ShapeKind::sphere:
-      return 1;
-    case ShapeKind::plane:
-    case ShapeKind::capsule:
-    case ShapeKind::cylinder:
-      return 2;
-    default:
-      return 3;
-  }
-}
 
 bool has_extent(const Shape& shape) {
   return (shape.size.head(sizes_of(shape.kind)).array() > 0.0).all() && shape.size.allFinite();
@@ -138,7 +125,7 @@ std::vector<Shape> read_shape_table(const std::filesystem::path& file, std::size
     Parsed parsed = parse(line, instance_count);
     if (!parsed.wrong.empty())
       throw Error(fmt::format("{}:{}: {}; mend the line or record again", file.string(), number,
-                              parsed.wrong));
+                              one_line(parsed.wrong)));
     shapes.push_back(std::move(parsed.shape));
   }
   return shapes;

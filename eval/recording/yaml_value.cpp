@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/recording/file_bytes.hpp"
+#include "eval/recording/one_line.hpp"
 #include "eval/recording/pose_text.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ YamlValue YamlValue::load(const std::filesystem::path& file) {
     return value;
   } catch (const YAML::Exception& error) {
     throw Error(fmt::format("{}:{}: broken YAML ({}); mend the line or make the recording again",
-                            file.string(), std::max(error.mark.line, 0) + 1, error.msg));
+                            file.string(), std::max(error.mark.line, 0) + 1, one_line(error.msg)));
   }
 }
 
@@ -87,7 +88,7 @@ std::uint64_t YamlValue::whole(std::uint64_t low, std::uint64_t high) const {
 void YamlValue::refuse(const std::string& what) const {
   const std::string key = path_.empty() ? "" : path_ + ": ";
   const int line = std::max(node_.Mark().line, 0) + 1;  // an empty file has no place
-  throw Error(fmt::format("{}:{}: {}{}", file_, line, key, what));
+  throw Error(fmt::format("{}:{}: {}{}", file_, line, key, one_line(what)));
 }
 
 std::string yaml_quoted(std::string_view text) {
