@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/verbs.hpp"
+#include "eval/cli/view_flag.hpp"
 #include "eval/experiment/study_store.hpp"
 #include "eval/report/contact_sheet.hpp"
 #include "eval/report/pictures.hpp"
@@ -28,6 +29,7 @@ struct FigureFlags {
   int seed = 0;
   std::size_t memory_bytes = std::size_t{1} << 30;
   bool no_pictures = false;
+  ViewFlag view;
 };
 
 PictureChoice choice_of(const FigureFlags& flags) {
@@ -42,6 +44,7 @@ PictureChoice choice_of(const FigureFlags& flags) {
   if (!flags.method.empty()) choice.method = flags.method;
   choice.seed_index = flags.seed;
   choice.memory_bytes = flags.memory_bytes;
+  choice.view = flags.view.view();
   return choice;
 }
 
@@ -58,10 +61,10 @@ std::optional<Recording> find_recording(const StudyRecord& record, const fs::pat
   return std::nullopt;
 }
 
-void draw_from_recording(const FigureFlags& flags, const fs::path& folder) {
+void draw_from_recording(const FigureFlags& flags, const PictureChoice& choice,
+                         const fs::path& folder) {
   const fs::path file = store_file(flags.results);
   const StudyRecord record = read_study(ResultStore::open_existing(file), file.parent_path());
-  const PictureChoice choice = choice_of(flags);
   const std::optional<Recording> recording = find_recording(record, file.parent_path());
   if (!recording) return;
   print({write_picture(folder / "contact_sheet.png",
@@ -73,12 +76,13 @@ void draw_from_recording(const FigureFlags& flags, const fs::path& folder) {
 }
 
 void figures(const FigureFlags& flags) {
+  const PictureChoice choice = choice_of(flags);
   const StudySummary summary = summarise_store(flags.results);
   const fs::path folder = flags.folder.empty() ? store_file(flags.results).parent_path() / "figures"
                                                : fs::path(flags.folder);
   print(write_tables(summary, folder));
   print(draw_figures(summary, folder));
-  if (!flags.no_pictures) draw_from_recording(flags, folder);
+  if (!flags.no_pictures) draw_from_recording(flags, choice, folder);
 }
 
 }  // namespace
@@ -95,6 +99,7 @@ void add_figures(CLI::App& program) {
   verb->add_option("--method", flags->method, "Draw the map of this method alone [all]");
   verb->add_option("--seed", flags->seed, "Index of the seed whose maps are drawn [0]")
       ->check(CLI::NonNegativeNumber);
+  flags->view.add_to(*verb);
   add_memory_flag(*verb, flags->memory_bytes);
   verb->add_flag("--no-pictures", flags->no_pictures, "Figures and tables alone");
   verb->footer(
@@ -105,6 +110,7 @@ void add_figures(CLI::App& program) {
       "Examples:\n"
       "  mapscore figures results/demo\n"
       "  mapscore figures results/demo -o paper --trial faults.misregistration.magnitude_m=0.04\n"
+      "  mapscore figures results/demo --view 4 1 2.2 5.5 3 0.8\n"
       "  mapscore figures results/person --no-pictures");
   verb->callback([flags] { figures(*flags); });
 }

@@ -2,16 +2,20 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "core/mapping/semantic_map.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
+#include "eval/map_files/legend.hpp"
+#include "eval/map_files/map_file.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/report/summary.hpp"
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -70,26 +74,60 @@ void print_store(const fs::path& results) {
   std::cout << store.text("study");
 }
 
+bool is_map(const fs::path& file) {
+  constexpr std::array kEndings{".ot", ".bt", ".ply", ".pcd", ".csv"};
+  return std::ranges::find(kEndings, file.extension().string()) != kEndings.end();
+}
+
+const char* name_of(LabelKind kind) {
+  switch (kind) {
+    case LabelKind::colour:
+      return "colour";
+    case LabelKind::id:
+      return "id";
+    case LabelKind::name:
+      return "class";
+    default:
+      return "label";
+  }
+}
+
 void print_map(const fs::path& file) {
-  const SemanticMap map = SemanticMap::load(file);
-  const std::vector<MapVoxel> voxels = map.voxels();
-  std::cout << fmt::format("{}: semantic map of {} voxels of {} m\n", file.string(), voxels.size(),
-                           map.edge_m());
-  std::map<ClassId, int> by_class;
-  for (const MapVoxel& voxel : voxels) ++by_class[voxel.best_class];
-  for (const auto& [class_id, count] : by_class)
-    std::cout << fmt::format("  class {:<5} {}\n", class_id, count);
+  constexpr std::size_t kLabels = 40;
+  const MapFile map = read_map_file(file, NotFinite::skip);
+  const auto free = std::ranges::count(map.occupied, std::uint8_t{0});
+  const char* unit = map.points.empty() ? "voxels" : "points";
+  const std::string edge = map.edge_m > 0 ? fmt::format(" of {} m", map.edge_m) : "";
+  std::cout << fmt::format("{}: map of {} {}{}{}\n", file.string(), map.size(), unit, edge,
+                           free ? fmt::format(", {} of them free", free) : "");
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& point : map.points) bounds.extend(point);
+  for (const VoxelKey& key : map.voxels)
+    bounds.extend(centre_of(key, map.edge_m > 0 ? map.edge_m : 1.0));
+  std::cout << fmt::format("  x {:.3f} to {:.3f}, y {:.3f} to {:.3f}, z {:.3f} to {:.3f} {}\n",
+                           bounds.min().x(), bounds.max().x(), bounds.min().y(), bounds.max().y(),
+                           bounds.min().z(), bounds.max().z(),
+                           map.points.empty() && map.edge_m == 0 ? "voxels" : "m");
+  const std::vector<Leftover> labels = labels_of(map);
+  if (labels.empty()) std::cout << "  no labels: geometry alone\n";
+  for (std::size_t n = 0; n < std::min(kLabels, labels.size()); ++n)
+    std::cout << fmt::format("  {} {:<12} {}\n", name_of(map.label_kind), labels[n].label,
+                             labels[n].count);
+  if (labels.size() > kLabels)
+    std::cout << fmt::format("  and {} labels more\n", labels.size() - kLabels);
 }
 
 void info(const fs::path& file) {
   if (!fs::exists(file)) throw Error(file.string() + ": there is no such file or folder");
   if (file.extension() == ".xml") return print_scene(file);
-  if (file.extension() == ".ot") return print_map(file);
+  if (is_map(file)) return print_map(file);
   if (fs::exists(file / "recording.yaml")) return print_recording(file);
   if (fs::exists(store_file(file)) && store_file(file).extension() == ".sqlite")
     return print_store(file);
-  throw Error(file.string() +
-              ": not a scene (.xml), a recording's folder, a map (.ot) or a results folder");
+  throw Error(
+      file.string() +
+      ": not a scene (.xml), a recording's folder, a map (.ot, .bt, .ply, .pcd, .csv) or a results "
+      "folder");
 }
 
 }  // namespace
@@ -101,6 +139,7 @@ void add_info(CLI::App& program) {
   verb->footer(
       "Examples:\n"
       "  mapscore info scenes/apartment.xml\n"
+      "  mapscore info map.pcd\n"
       "  mapscore info results/demo");
   verb->callback([file] { info(*file); });
 }

@@ -38,6 +38,7 @@ int run(CLI::App& program, int argc, char** argv) {
   verbs::add_truth(program);
   verbs::add_score(program);
   verbs::add_table(program);
+  verbs::add_compare(program);
   verbs::add_figures(program);
   verbs::add_check(program, exit_code);
   verbs::add_info(program);

@@ -5,6 +5,7 @@
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/verbs.hpp"
+#include "eval/cli/view_flag.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/study_recording.hpp"
@@ -28,6 +29,7 @@ struct RunFlags {
   WorkFlags work;
   std::string method;
   int seed = 0;
+  ViewFlag view;
 };
 
 TrialSpec spec_of(const Study& study, const RunFlags& flags) {
@@ -65,6 +67,7 @@ void print_pictures(const Pictures& pictures) {
 }
 
 void run(const RunFlags& flags) {
+  const std::optional<sim::View> view = flags.view.view();
   const Study study = flags.study.load();
   const std::filesystem::path results = flags.study.results_folder(study);
   Progress recording_progress("record", "frames", flags.work.quiet);
@@ -103,7 +106,7 @@ void run(const RunFlags& flags) {
                    task.config.map_yaw_deg, trial.threshold());
   print_pictures(draw_pictures(
       study, table, recording,
-      {spec.cell.doses, spec.method, spec.seed_index, flags.work.memory_bytes}, folder));
+      {spec.cell.doses, spec.method, spec.seed_index, flags.work.memory_bytes, view}, folder));
 }
 
 }  // namespace
@@ -115,10 +118,12 @@ void add_run(CLI::App& program) {
   flags->work.add_to(*verb);
   verb->add_option("--method", flags->method, "Name of a method of the study [the first]");
   verb->add_option("--seed", flags->seed, "Index of the seed [0]");
+  flags->view.add_to(*verb);
   verb->footer(
       "The trial is the first cell of the sweep; --set changes doses.\n"
       "Examples:\n"
       "  mapscore run configs/demo.yaml --method region_growing\n"
+      "  mapscore run configs/demo.yaml --view 4 1 2.2 5.5 3 0.8\n"
       "  mapscore run configs/demo.yaml --set 'sweep={}' --set "
       "faults.misregistration.magnitude_m=0.04");
   verb->callback([flags] { run(*flags); });

@@ -2,101 +2,180 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/cli/map_file.hpp"
+#include "eval/cli/map_input.hpp"
+#include "eval/cli/map_score.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/truth_source.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/report/summary.hpp"
+#include "eval/cli/view_flag.hpp"
+#include "eval/report/error_ply.hpp"
+#include "eval/report/map_pictures.hpp"
+#include "eval/report/pictures_view.hpp"
 #include "eval/report/table.hpp"
+#include "eval/score/label_images.hpp"
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
-#include <set>
 
 namespace mapscore::eval {
 namespace {
 
+constexpr double kDefaultThreshold = 0.25;  // half of what a first full hit gives under the blend
+constexpr std::size_t kListedLeftovers = 10;
+
 struct ScoreFlags {
-  std::string map, truth, format = "text";
-  double threshold = 0.25;
+  MapFlags map;
+  std::string truth, format = "text";
+  std::optional<double> threshold;
+  bool details = false, tidy = false;
+  std::string picture, errors_ply;
+  ViewFlag view;
   LatticeFlags lattice;
   WorkFlags work;
 };
 
-std::vector<std::string> row_of(const std::string& group, const Counts& counts,
-                                const ClassTable& table) {
-  const std::vector<Metric> metrics = metrics_of_group(counts, table, group);
-  std::vector<std::string> row{group};
-  for (const char* name : {"precision", "recall", "f1", "iou", "f1_t1", "f_2cm"}) {
-    const auto value = metrics.empty() ? std::nullopt : value_of(metrics, name);
-    row.push_back(value ? fmt::format("{:.3f}", *value) : "-");
+void print(const ScoreFlags& flags, const std::vector<Table>& tables) {
+  if (flags.format == "json" && tables.size() > 1) {
+    std::cout << to_json(tables);
+    return;
   }
-  return row;
+  for (std::size_t n = 0; n < tables.size(); ++n)
+    std::cout << (n ? "\n" : "")
+              << (flags.format == "csv"    ? to_csv(tables[n])
+                  : flags.format == "json" ? to_json(tables[n])
+                                           : to_text(tables[n]));
 }
 
-std::vector<std::string> counts_of(const ClassCounts& c) {
-  std::vector<std::string> cells;
-  for (const std::int64_t count :
-       {c.predicted, c.true_predicted, c.false_near, c.false_leak, c.false_floating, c.visible,
-        c.found, c.missed_mislabelled, c.missed_unlabelled, c.missed_unmapped})
-    cells.push_back(std::to_string(count));
-  return cells;
+/// For other tools: never as text.
+void print_tidy(const ScoreFlags& flags, const Table& table) {
+  std::cout << (flags.format == "json" ? to_json(table) : to_csv(table));
 }
 
-std::vector<ClassId> classes_of(const MapSnapshot& map) {
-  std::set<ClassId> classes;
-  for (const MapVoxel& voxel : map.voxels()) classes.insert(voxel.best_class);
-  return {classes.begin(), classes.end()};
+std::vector<std::string> caption_of(const ScoreFlags& flags, const InputMap& map,
+                                    const MapScore& score, const TruthSource& source) {
+  std::string seen = "all of the scene's surface counts as visible; no samples";
+  if (source.recording()) seen = fmt::format("as {} frames saw it", source.frames().size());
+  std::string detected;
+  for (const SemanticClass& c : score.table.classes)
+    if (c.detect) detected += (detected.empty() ? "" : ", ") + c.name;
+  std::vector<std::string> caption{
+      fmt::format("{} against {}, {}", flags.map.file, flags.truth, seen),
+      fmt::format("voxels of {} m; threshold {}; pooled and macro over: {}", flags.lattice.voxel_m,
+                  score.threshold, detected)};
+  if (map.geometry) caption.emplace_back("geometry alone: occupied voxels against all surfaces");
+  return caption;
+}
+
+/// The verdicts that were asked for, in the scene and as points.
+void write_errors(const ScoreFlags& flags, const InputMap& map, const MapScore& score,
+                  const TruthSource& source) {
+  if (flags.picture.empty() && flags.errors_ply.empty()) return;
+  const std::string name = std::filesystem::path(flags.map.file).filename().string();
+  const JudgedMap judged =
+      judged_map(name, name, map.snapshot, score.threshold, score.truth.surface,
+                 score.truth.view(0).visible, score.table, flags.lattice.map_frame().T_map_world());
+  if (!flags.errors_ply.empty()) write_error_ply(flags.errors_ply, judged);
+  if (flags.picture.empty()) return;
+  ScenePainter painter(source.shapes(), source.table());
+  std::vector<Pose> T_world_depth;
+  if (source.recording()) T_world_depth = depth_camera_poses(*source.recording());
+  draw_error_picture(flags.picture, judged, painter, flags.view.view(), T_world_depth);
+}
+
+/// Refuses before the work what could not be written after it.
+void check_outputs(const ScoreFlags& flags) {
+  if (!flags.picture.empty()) check_picture_name(flags.picture);
+  if (flags.view.view() && flags.picture.empty())
+    throw Error("--view: needs --picture, the file that it is drawn into");
+}
+
+void score_map(const ScoreFlags& flags) {
+  check_outputs(flags);
+  TruthSource source(flags.truth, flags.lattice, flags.work);
+  const InputMap map = read_input_map(flags.map, source.table(), flags.lattice.voxel_m);
+  if (!map.leftovers.empty())
+    std::cerr << "mapscore: labels without a meaning: " << text_of(map.leftovers, kListedLeftovers)
+              << "; --legend can give them one\n";
+  const double threshold = flags.threshold.value_or(map.geometry ? 0.0 : kDefaultThreshold);
+  const MapScore score = score_input(map, flags.map, threshold, source, flags.work.jobs);
+  write_errors(flags, map, score, source);
+  if (flags.tidy) return print_tidy(flags, tidy_table(score));
+  std::vector<Table> tables{class_table(score)};
+  tables.front().caption = caption_of(flags, map, score, source);
+  if (flags.details)
+    for (Table& table : detail_tables(score)) tables.push_back(std::move(table));
+  print(flags, tables);
+}
+
+LabelLegend legend_of(const ScoreFlags& flags, const ClassTable& table) {
+  if (flags.map.legend.empty()) return class_id_legend(table);
+  return
+      [legend = read_legend(flags.map.legend, table)](std::uint16_t id) -> std::optional<ClassId> {
+        const auto found = legend.ids.find(id);
+        return found == legend.ids.end() ? std::nullopt : std::optional(found->second);
+      };
+}
+
+void score_label_images(const ScoreFlags& flags) {
+  TruthSource source(flags.truth, flags.lattice, flags.work);
+  if (!source.recording())
+    throw Error(flags.map.file + ": a folder of label images needs a recording as --truth");
+  if (!flags.picture.empty() || !flags.errors_ply.empty())
+    throw Error(flags.map.file + ": a folder of label images has no voxels to draw");
+  const ConfusionMatrix matrix =
+      label_folder_confusion(*source.recording(), flags.map.file, source.frames(),
+                             legend_of(flags, source.table()), flags.work.jobs);
+  if (flags.tidy) return print_tidy(flags, tidy_label_table(matrix, source.table()));
+  std::vector<Table> tables = label_tables(matrix, source.table());
+  tables.front().caption.insert(tables.front().caption.begin(),
+                                fmt::format("{} against the label images of {}, {} frames",
+                                            flags.map.file, flags.truth, source.frames().size()));
+  if (!flags.details) tables.resize(1);
+  print(flags, tables);
 }
 
 void score(const ScoreFlags& flags) {
-  if (std::filesystem::path(flags.truth).extension() == ".xml")
-    throw Error(flags.truth + ": a scene says what is there, not what was seen; give a recording");
-  const MapSnapshot map(
-      read_map(flags.map, flags.lattice.voxel_m, Recording::open(flags.truth).info().table));
-  const SourceTruth source = truth_of(flags.truth, flags.lattice, classes_of(map), flags.work.jobs,
-                                      flags.work.memory_bytes);
-  const Counts counts = source.truth.score(map, flags.threshold, source.truth.view(0),
-                                           source.table.classes.size(), {});
-
-  Table table;
-  table.caption = {fmt::format("{} against {}", flags.map, flags.truth)};
-  table.columns = {"class",     "precision", "recall",      "F1",         "IoU",     "F1 tol. 1",
-                   "F at 2 cm", "predicted", "true",        "near",       "leak",    "floating",
-                   "visible",   "found",     "mislabelled", "unlabelled", "unmapped"};
-  for (const SemanticClass& c : source.table.classes) {
-    const ClassCounts& of_class = counts[c.id];
-    if (!c.detect && of_class.predicted == 0) continue;
-    table.rows.push_back(row_of(c.name, counts, source.table));
-    for (std::string& cell : counts_of(of_class)) table.rows.back().push_back(std::move(cell));
-  }
-  table.rows.push_back(row_of(std::string(kPooled), counts, source.table));
-  for (std::string& cell : counts_of(pool_detected(counts, source.table)))
-    table.rows.back().push_back(std::move(cell));
-  std::cout << (flags.format == "csv"    ? to_csv(table)
-                : flags.format == "json" ? to_json(table)
-                                         : to_text(table));
+  if (flags.details && flags.format == "csv")
+    throw Error("--details: --format csv holds one table; --tidy prints everything as one");
+  if (std::filesystem::is_directory(flags.map.file))
+    score_label_images(flags);
+  else
+    score_map(flags);
 }
 
 }  // namespace
 
 void add_score(CLI::App& program) {
-  auto* verb = program.add_subcommand("score", "Score any map against the truth of a recording");
+  auto* verb =
+      program.add_subcommand("score", "Score any map against the truth of a recording or a scene");
   const auto flags = std::make_shared<ScoreFlags>();
-  verb->add_option("MAP", flags->map, ".ot of mapscore, or .csv of i,j,k,class")->required();
-  verb->add_option("--truth", flags->truth, "Recording")->required();
-  verb->add_option("--threshold", flags->threshold, "Least probability of a predicted voxel [0.25]")
+  flags->map.add_to(*verb);
+  verb->add_option("--truth", flags->truth, "Recording, or scene (MJCF)")->required();
+  verb->add_option("--threshold", flags->threshold,
+                   "Least probability of a predicted voxel [0.25; 0 for geometry]")
       ->check(finite_within(0.0, 1.0));
+  verb->add_flag("--details", flags->details,
+                 "And distances, probabilities, instances, confusion, free space");
+  verb->add_flag("--tidy", flags->tidy, "Everything as one table: class,metric,value");
   verb->add_option("--format", flags->format, "text, csv or json [text]")
       ->check(CLI::IsMember({"text", "csv", "json"}));
-  flags->lattice.add_to(*verb, true);
+  verb->add_option("--picture", flags->picture,
+                   "PNG: true, near, leak, floating and missed voxels in the scene");
+  flags->view.add_to(*verb);
+  verb->add_option("--errors_ply", flags->errors_ply, "The same as a coloured point cloud");
+  flags->lattice.add_to(*verb);
   flags->work.add_to(*verb);
   verb->footer(
       "Examples:\n"
-      "  mapscore score map.ot --truth /data/apartment\n"
-      "  mapscore score other.csv --truth /data/apartment --voxel_m 0.05 --origin_m 0 0 0.02");
+      "  mapscore score map.ot --truth /data/apartment --details\n"
+      "  mapscore score rgb.ply --legend legend.yaml --truth /data/apartment\n"
+      "  mapscore score octomap.bt --truth scenes/apartment.xml\n"
+      "  mapscore score map.ot --truth /data/apartment --picture errors.png --view 4 1 2 5 3 0.8\n"
+      "  mapscore score cloud.pcd --transform '1 0 0 0 0 0.7071068 0.7071068' --truth /data/home\n"
+      "  mapscore score predicted_labels/ --truth /data/apartment --frames 0:50");
   verb->callback([flags] { score(*flags); });
 }
 

@@ -21,13 +21,17 @@ struct TruthFlags {
 };
 
 void write_truth_of(const TruthFlags& flags) {
-  const SourceTruth source =
-      truth_of(flags.source, flags.lattice, {}, flags.work.jobs, flags.work.memory_bytes);
-  const VisibleTruth* visible = source.has_views ? &source.truth.view(0).visible : nullptr;
-  write_truth(flags.file, source.truth.surface, visible, source.table);
+  TruthSource source(flags.source, flags.lattice, flags.work);
+  LatticeTruth truth;
+  if (source.recording())
+    truth = source.truth(source.table(), false);
+  else
+    truth.surface = source.surface();
+  const VisibleTruth* visible = source.recording() ? &truth.view(0).visible : nullptr;
+  write_truth(flags.file, truth.surface, visible, source.table());
   std::cout << fmt::format("{:<16} {:>10} {:>10}\n", "class", "surface", "visible");
-  for (const SemanticClass& c : source.table.classes)
-    std::cout << fmt::format("{:<16} {:>10} {:>10}\n", c.name, source.truth.surface.count(c.id),
+  for (const SemanticClass& c : source.table().classes)
+    std::cout << fmt::format("{:<16} {:>10} {:>10}\n", c.name, truth.surface.count(c.id),
                              visible ? std::to_string(visible->count(c.id)) : "-");
 }
 
@@ -41,13 +45,14 @@ void add_truth(CLI::App& program) {
       ->required();
   verb->add_option("-o,--output", flags->file, ".csv (i,j,k,class,touch_only,samples) or .ply")
       ->required();
-  flags->lattice.add_to(*verb, true);
+  flags->lattice.add_to(*verb);
   flags->work.add_to(*verb);
   verb->footer(
       "Prints voxels by class: on the surface, and visible to the recording.\n"
       "Examples:\n"
       "  mapscore truth scenes/apartment.xml --voxel_m 0.05 -o truth.ply\n"
-      "  mapscore truth results/demo/recordings/apartment-* --voxel_m 0.02 -o truth.csv");
+      "  mapscore truth results/demo/recordings/apartment-* --voxel_m 0.02 -o truth.csv\n"
+      "  mapscore truth /data/apartment --frames 0:50:2 -o half.csv");
   verb->callback([flags] { write_truth_of(*flags); });
 }
 

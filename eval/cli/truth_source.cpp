@@ -11,10 +11,9 @@
 
 namespace mapscore::eval {
 
-void LatticeFlags::add_to(CLI::App& verb, bool with_voxel) {
-  if (with_voxel)
-    verb.add_option("--voxel_m", voxel_m, "Voxel edge in metres [0.05]")
-        ->check(finite_within(1e-4, 100.0));
+void LatticeFlags::add_to(CLI::App& verb) {
+  verb.add_option("--voxel_m", voxel_m, "Voxel edge in metres [0.05]")
+      ->check(finite_within(1e-4, 100.0));
   verb.add_option("--origin_m", origin_m, "Origin of the map frame in the world: x y z [0 0 0]")
       ->expected(3)
       ->check(finite_within(-1e6, 1e6));
@@ -24,6 +23,9 @@ void LatticeFlags::add_to(CLI::App& verb, bool with_voxel) {
       ->check(finite_within(0.0, 1.0));
   verb.add_option("--min_samples", min_samples, "Depth samples that make a voxel visible [1]")
       ->check(CLI::Range(1, 1000000));
+  verb.add_option("--frames", frames,
+                  "Frames of the recording that count: 3,7,9 or first:end:step, from 0, without "
+                  "end [all]");
 }
 
 MapFrame LatticeFlags::map_frame() const {
@@ -32,26 +34,55 @@ MapFrame LatticeFlags::map_frame() const {
           yaw_deg * std::numbers::pi / 180.0};
 }
 
-SourceTruth truth_of(const std::string& source, const LatticeFlags& flags,
-                     const std::vector<ClassId>& sampled, int jobs, std::size_t memory_bytes) {
-  const TruthOptions options{flags.epsilon_m, flags.min_samples, false, !sampled.empty()};
+TruthSource::TruthSource(const std::string& source, const LatticeFlags& lattice,
+                         const WorkFlags& work)
+    : lattice_(lattice), jobs_(work.jobs) {
   if (std::filesystem::path(source).extension() == ".xml") {
+    if (lattice.frames)
+      throw Error("--frames: " + source + " is a scene and has none; give a recording");
     SceneSurfaces scene = surfaces_of_scene(source);
-    LatticeTruth truth =
-        make_surface_truth(scene.shapes, scene.table, flags.map_frame(), options, jobs);
-    return {std::move(scene.table), std::move(truth), false};
+    table_ = std::move(scene.table);
+    shapes_ = std::move(scene.shapes);
+    return;
   }
-  const Recording recording = Recording::open(source);
-  if (!recording.info().has_truth)
+  recording_.emplace(Recording::open(source));
+  if (!recording_->info().has_truth)
     throw Error(source +
                 ": the recording has no truth/; only maps of rendered recordings can be scored");
-  FrameCache frames(recording, {.color = false, .label = false, .depth = true, .depth_label = true},
-                    memory_bytes);
-  ClassTable table = recording.info().table;  // samples are kept of its detected classes
-  for (const ClassId id : sampled) table.classes.at(id).detect = true;
-  LatticeTruth truth =
-      make_lattice_truth(recording, table, frames, flags.map_frame(), options, jobs);
-  return {recording.info().table, std::move(truth), true};
+  if (lattice.frames) selection_ = FrameSelection(*lattice.frames);
+  table_ = recording_->info().table;
+  shapes_ = recording_->read_shapes();
+  frames_.emplace(*recording_,
+                  Channels{.color = false, .label = false, .depth = true, .depth_label = true},
+                  work.memory_bytes);
+}
+
+std::vector<int> TruthSource::frames() const {
+  return recording_ ? selection_.of(recording_->frame_count()) : std::vector<int>{};
+}
+
+SurfaceTruth TruthSource::surface() const {
+  const TruthOptions options{.epsilon_m = lattice_.epsilon_m};
+  return make_surface_truth(shapes_, table_, lattice_.map_frame(), options, jobs_).surface;
+}
+
+LatticeTruth TruthSource::truth(const ClassTable& table, bool distances) {
+  const MapFrame map_frame = lattice_.map_frame();
+  const TruthOptions options{lattice_.epsilon_m, lattice_.min_samples, false, distances,
+                             selection_};
+  LatticeTruth truth = make_surface_truth(shapes_, table, map_frame, options, jobs_);
+  if (recording_)
+    truth.views =
+        make_views(*recording_, table, *frames_, map_frame, options, truth.surface, jobs_);
+  else
+    truth.views.push_back(whole_surface_view(truth.surface, table.classes.size()));
+  return truth;
+}
+
+OccupancyTruth TruthSource::occupancy(const SurfaceTruth& surface) {
+  return make_occupancy_truth(*frames_, frames(), recording_->info().calibration,
+                              lattice_.map_frame().T_map_world(), surface, lattice_.min_samples,
+                              jobs_);
 }
 
 }  // namespace mapscore::eval

@@ -4,8 +4,11 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "core/geometry/shape.hpp"
+#include "eval/cli/options.hpp"
 #include "eval/experiment/lattice_truth.hpp"
 #include "eval/experiment/map_frame.hpp"
+#include "eval/truth/occupancy_truth.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -15,29 +18,53 @@
 
 namespace mapscore::eval {
 
-/// Flags that say on which lattice the truth is taken.
+/// Flags that say on which lattice the truth is taken, and of what.
 struct LatticeFlags {
   double voxel_m = 0.05;
   std::vector<double> origin_m{0, 0, 0};
   double yaw_deg = 0.0;
   double epsilon_m = 0.0005;
   int min_samples = 1;
+  std::optional<std::string> frames;  ///< as FrameSelection reads them; none: all
 
-  void add_to(CLI::App& verb, bool with_voxel);
+  void add_to(CLI::App& verb);
   [[nodiscard]] MapFrame map_frame() const;
 };
 
-/// Truth of a scene (surfaces alone) or of a recording (and what its frames saw).
-struct SourceTruth {
-  ClassTable table;
-  LatticeTruth truth;
-  bool has_views = false;
-};
+/// A scene or a recording, opened once, of which truths are made by any class table.
+class TruthSource {
+ public:
+  /// `source`: an MJCF file or a recording's folder. Throws Error when it is neither, or a
+  /// recording without truth.
+  TruthSource(const std::string& source, const LatticeFlags& lattice, const WorkFlags& work);
+  TruthSource(const TruthSource&) = delete;
+  TruthSource& operator=(const TruthSource&) = delete;
 
-/// `source`: an MJCF file or a recording's folder. `sampled`: classes whose depth samples are kept
-/// for distances, beside the detected ones; without any, none are. Throws Error.
-[[nodiscard]] SourceTruth truth_of(const std::string& source, const LatticeFlags& flags,
-                                   const std::vector<ClassId>& sampled, int jobs,
-                                   std::size_t memory_bytes);
+  [[nodiscard]] const ClassTable& table() const { return table_; }
+  /// Drawn surfaces in the world frame.
+  [[nodiscard]] const std::vector<Shape>& shapes() const { return shapes_; }
+  /// Nothing for a scene, which no camera saw.
+  [[nodiscard]] const Recording* recording() const { return recording_ ? &*recording_ : nullptr; }
+  /// Indices of the recording's frames that count; none for a scene.
+  [[nodiscard]] std::vector<int> frames() const;
+
+  /// The surfaces of the source's own classes, without any view.
+  [[nodiscard]] SurfaceTruth surface() const;
+  /// Surfaces, and one view: what the frames saw, or all of a scene's surface. `table`: that of the
+  /// source, or another reading of its instances; depth samples are kept of its detected classes
+  /// where `distances` are asked for.
+  [[nodiscard]] LatticeTruth truth(const ClassTable& table, bool distances);
+  /// What the frames know to be occupied and free. Needs a recording.
+  [[nodiscard]] OccupancyTruth occupancy(const SurfaceTruth& surface);
+
+ private:
+  const LatticeFlags& lattice_;
+  int jobs_;
+  FrameSelection selection_;
+  ClassTable table_;
+  std::vector<Shape> shapes_;
+  std::optional<Recording> recording_;
+  std::optional<FrameCache> frames_;
+};
 
 }  // namespace mapscore::eval

@@ -15,6 +15,7 @@ void add_sweep(CLI::App& program);
 void add_truth(CLI::App& program);
 void add_score(CLI::App& program);
 void add_table(CLI::App& program);
+void add_compare(CLI::App& program);
 void add_figures(CLI::App& program);
 void add_check(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program);

@@ -3,81 +3,125 @@
 
 #include "eval/experiment/lattice_truth.hpp"
 
+#include "core/parallel.hpp"
+#include "eval/score/curve.hpp"
 #include "eval/score/voxel_score.hpp"
 
+#include <algorithm>
 #include <exception>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace mapscore::eval {
 namespace {
 
-/// Depth samples of the detected classes in the map frame, by class.
-using SamplePoints = std::vector<std::vector<Eigen::Vector3d>>;
+/// Depth samples of some frames: counted by voxel, and kept for distances.
+struct ViewSamples {
+  SampleCounter counter;
+  SampleCollector points;
+};
 
-void append_samples(const Frame& frame, const Calibration& calibration, const ClassTable& table,
-                    const Pose& T_map_base, SamplePoints& points) {
-  const Pose T_map_depth = T_map_base * calibration.T_base_depth;
-  for (int v = 0; v < frame.depth.rows; ++v) {
-    for (int u = 0; u < frame.depth.cols; ++u) {
-      const ClassId class_id = table.class_of(frame.depth_label(v, u));
-      const double z = frame.depth(v, u) / kDepthUnitsPerMetre;
-      if (!table.detected(class_id) || z == 0.0 || z < calibration.range_min_m ||
-          z > calibration.range_max_m)
-        continue;
-      points[class_id].push_back(T_map_depth * calibration.depth.back_project(u, v, z));
-    }
-  }
-}
-
-/// Makes the truth of the views, one frame at a time.
+/// Makes the views of one recording on one lattice. Safe to share between threads.
 class ViewMaker {
  public:
-  ViewMaker(const Recording& recording, const ClassTable& table, const MapFrame& map_frame,
-            const TruthOptions& options, const SurfaceTruth& surface)
+  ViewMaker(const Recording& recording, const ClassTable& table, FrameCache& frames,
+            const MapFrame& map_frame, const TruthOptions& options, const SurfaceTruth& surface)
       : recording_(recording),
         table_(table),
+        frames_(frames),
         map_frame_(map_frame),
-        T_map_world_(map_frame.T_map_world()),
         options_(options),
-        surface_(surface),
-        counter_(map_frame.edge_m),
-        points_(table.classes.size()) {}
+        surface_(surface) {}
 
-  void add(const Frame& frame) {
-    const Calibration& calibration = recording_.info().calibration;
-    const Pose T_map_base = T_map_world_ * frame.T_world_base;
-    counter_.add(frame, calibration, table_, T_map_base);
-    if (options_.distances) append_samples(frame, calibration, table_, T_map_base, points_);
+  /// Samples of the frames, one frame after the other.
+  [[nodiscard]] ViewSamples samples_of(std::span<const int> frames) const {
+    ViewSamples samples{SampleCounter(map_frame_.edge_m),
+                        SampleCollector(table_.classes.size(), map_frame_.edge_m)};
+    for (const int frame : frames) add(*frames_.get(frame), samples);
+    return samples;
   }
 
-  /// The view of all frames added since the last call.
-  ViewTruth take() {
-    ViewTruth view;
-    view.visible = visible_truth(counter_, surface_, options_.min_samples);
-    view.samples = SampleSet(points_, map_frame_.edge_m);
-    counter_ = SampleCounter(map_frame_.edge_m);
-    for (auto& of_class : points_) of_class.clear();
-    return view;
+  [[nodiscard]] ViewTruth view_of(ViewSamples&& samples, int jobs) const {
+    return {visible_truth(samples.counter, surface_, options_.min_samples),
+            samples.points.take(jobs)};
   }
 
  private:
+  void add(const Frame& frame, ViewSamples& samples) const {
+    const Calibration& calibration = recording_.info().calibration;
+    const Pose T_map_base = map_frame_.T_map_world() * frame.T_world_base;
+    samples.counter.add(frame, calibration, table_, T_map_base);
+    if (options_.distances) append(frame, calibration, T_map_base, samples.points);
+  }
+
+  /// Samples of the detected classes in the map frame.
+  void append(const Frame& frame, const Calibration& calibration, const Pose& T_map_base,
+              SampleCollector& points) const {
+    const Pose T_map_depth = T_map_base * calibration.T_base_depth;
+    for (int v = 0; v < frame.depth.rows; ++v) {
+      for (int u = 0; u < frame.depth.cols; ++u) {
+        const ClassId class_id = table_.class_of(frame.depth_label(v, u));
+        const double z = frame.depth(v, u) / kDepthUnitsPerMetre;
+        if (!table_.detected(class_id) || z == 0.0 || z < calibration.range_min_m ||
+            z > calibration.range_max_m)
+          continue;
+        points.add(class_id, T_map_depth * calibration.depth.back_project(u, v, z));
+      }
+    }
+  }
+
   const Recording& recording_;
   const ClassTable& table_;
+  FrameCache& frames_;
   const MapFrame& map_frame_;
-  const Pose T_map_world_;
   const TruthOptions& options_;
   const SurfaceTruth& surface_;
-  SampleCounter counter_;
-  SamplePoints points_;
 };
+
+std::vector<ViewTruth> view_of_each(const ViewMaker& maker, std::span<const int> frames, int jobs) {
+  std::vector<ViewTruth> views(frames.size());
+  Runs places(frames.size(), 1);
+  run_jobs(jobs, [&](int) {
+    for (Runs::Run place; places.next(place);) {
+      views[place.first] = maker.view_of(maker.samples_of(frames.subspan(place.first, 1)), 1);
+    }
+  });
+  return views;
+}
+
+/// Each job takes frames that follow each other, so that the samples come in their order.
+ViewTruth view_of_all(const ViewMaker& maker, std::span<const int> frames, int jobs) {
+  const std::size_t shares = std::clamp<std::size_t>(frames.size(), 1, std::max(jobs, 1));
+  std::vector<std::optional<ViewSamples>> samples(shares);
+  run_jobs(static_cast<int>(shares), [&](int job) {
+    const auto share = static_cast<std::size_t>(job);
+    const std::size_t first = frames.size() * share / shares;
+    const std::size_t last = frames.size() * (share + 1) / shares;
+    samples[share] = maker.samples_of(frames.subspan(first, last - first));
+  });
+  ViewSamples all = *std::exchange(samples.front(), std::nullopt);
+  for (std::size_t share = 1; share < shares; ++share) {
+    all.counter.merge(samples[share]->counter);
+    all.points.append(std::move(samples[share]->points));
+    samples[share].reset();
+  }
+  return maker.view_of(std::move(all), jobs);
+}
 
 }  // namespace
 
+ViewTruth whole_surface_view(const SurfaceTruth& surface, std::size_t class_count) {
+  return {whole_surface(surface), SampleCollector(class_count, surface.edge_m()).take()};
+}
+
 Counts LatticeTruth::score(const MapSnapshot& map, double threshold, const ViewTruth& view_truth,
-                           std::size_t class_count, const ScoreOptions& options) const {
+                           std::size_t class_count, const ScoreOptions& options, int jobs) const {
   Counts counts = score_voxels(map, threshold, surface, view_truth.visible, class_count, options);
+  std::vector<ClassCurve> curves = curves_of(map, surface, view_truth.visible, class_count);
+  for (std::size_t c = 0; c < class_count; ++c) counts[c].curve = std::move(curves[c]);
   if (!options.distances_m.empty())
-    score_distances(map, threshold, distance_to_class, view_truth.samples, options, counts);
+    score_distances(map, threshold, distance_to_class, view_truth.samples, options, counts, jobs);
   return counts;
 }
 
@@ -91,22 +135,33 @@ LatticeTruth make_surface_truth(const std::vector<Shape>& shapes, const ClassTab
   return truth;
 }
 
+std::vector<ViewTruth> make_views(const Recording& recording, const ClassTable& table,
+                                  FrameCache& frames, const MapFrame& map_frame,
+                                  const TruthOptions& options, const SurfaceTruth& surface,
+                                  int jobs) {
+  const ViewMaker maker(recording, table, frames, map_frame, options, surface);
+  const std::vector<int> selected = options.frames.of(recording.frame_count());
+  if (options.by_frame) return view_of_each(maker, selected, jobs);
+  std::vector<ViewTruth> views;
+  views.push_back(view_of_all(maker, selected, jobs));
+  return views;
+}
+
 LatticeTruth make_lattice_truth(const Recording& recording, const ClassTable& table,
                                 FrameCache& frames, const MapFrame& map_frame,
                                 const TruthOptions& options, int jobs) {
   LatticeTruth truth = make_surface_truth(recording.read_shapes(), table, map_frame, options, jobs);
-  ViewMaker maker(recording, table, map_frame, options, truth.surface);
-  for (int index = 0; index < recording.frame_count(); ++index) {
-    maker.add(*frames.get(index));
-    if (options.by_frame) truth.views.push_back(maker.take());
-  }
-  if (!options.by_frame) truth.views.push_back(maker.take());
+  truth.views = make_views(recording, table, frames, map_frame, options, truth.surface, jobs);
   return truth;
 }
 
 TruthCache::TruthCache(const Recording& recording, const ClassTable& table, FrameCache& frames,
                        std::size_t capacity)
-    : recording_(recording), table_(table), frames_(frames), capacity_(capacity) {}
+    : recording_(recording),
+      table_(table),
+      frames_(frames),
+      capacity_(capacity),
+      boxes_(recording) {}
 
 std::shared_ptr<const LatticeTruth> TruthCache::get(const MapFrame& map_frame,
                                                     const TruthOptions& options) {

@@ -30,6 +30,7 @@ Study determining(Study config) {
   config.trajectory = none.trajectory;
   config.cameras = none.cameras;
   config.sweep.clear();
+  config.picture_view.reset();
   config.base_folder.clear();
   for (MethodSettings& method : config.methods) method.name = "method";
   return config;

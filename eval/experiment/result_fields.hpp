@@ -28,6 +28,15 @@ inline constexpr std::array<CountField<ClassCounts>, 10> kClassCountFields{{
     {"missed_unmapped", &ClassCounts::missed_unmapped},
 }};
 
+inline constexpr std::array<CountField<BoxCounts>, 6> kBoxCountFields{{
+    {"boxes", &BoxCounts::detections},
+    {"boxes_unseen", &BoxCounts::unseen},
+    {"iou_sum_billionth", &BoxCounts::iou_sum_nano},
+    {"at_25", &BoxCounts::at_25},
+    {"at_50", &BoxCounts::at_50},
+    {"at_75", &BoxCounts::at_75},
+}};
+
 inline constexpr std::array<CountField<Accounting>, 9> kAccountingFields{{
     {"frames", &Accounting::frames},
     {"detections", &Accounting::detections},

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -40,6 +41,24 @@ DistanceTally tally_from_json(const json& object) {
                                             object.at("sum_nm"), object.at("bins")});
 }
 
+/// Steps as [thousandth, predicted, true_predicted, found, probability sum], since there are many.
+json curve_to_json(const ClassCurve& curve) {
+  json steps = json::array();
+  for (const CurveStep& step : curve.steps)
+    steps.push_back({step.thousandth, step.predicted, step.true_predicted, step.found,
+                     step.probability_sum_billionth});
+  return {{"visible", curve.visible},
+          {"squared_error_billionth", curve.squared_error_billionth},
+          {"steps", std::move(steps)}};
+}
+
+ClassCurve curve_from_json(const json& object) {
+  ClassCurve curve{object.at("visible"), object.at("squared_error_billionth"), {}};
+  for (const json& step : object.at("steps"))
+    curve.steps.push_back({step.at(0), step.at(1), step.at(2), step.at(3), step.at(4)});
+  return curve;
+}
+
 json counts_to_json(const ClassCounts& counts) {
   json object = fields_to_json(counts, kClassCountFields);
   object["at_tolerance"] = json::array();
@@ -47,6 +66,8 @@ json counts_to_json(const ClassCounts& counts) {
     object["at_tolerance"].push_back({at.voxels, at.true_predicted, at.found});
   object["accuracy"] = tally_to_json(counts.accuracy);
   object["completeness"] = tally_to_json(counts.completeness);
+  object["curve"] = curve_to_json(counts.curve);
+  object["boxes"] = fields_to_json(counts.boxes, kBoxCountFields);
   return object;
 }
 
@@ -57,6 +78,8 @@ ClassCounts counts_from_json(const json& object) {
     counts.at_tolerance.push_back({at.at(0), at.at(1), at.at(2)});
   counts.accuracy = tally_from_json(object.at("accuracy"));
   counts.completeness = tally_from_json(object.at("completeness"));
+  counts.curve = curve_from_json(object.at("curve"));
+  fields_from_json(object.at("boxes"), counts.boxes, kBoxCountFields);
   return counts;
 }
 

@@ -179,6 +179,7 @@ struct Study {
   FaultSettings faults;
   ScoreSettings score;
   std::vector<SweepAxis> sweep;
+  std::optional<std::vector<double>> picture_view;  ///< see view_of_numbers; changes no result
 
   std::filesystem::path base_folder;
 

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/experiment/grid.hpp"
+#include "eval/experiment/picture_view.hpp"
 
 #include <fmt/format.h>
 
@@ -115,6 +116,12 @@ void check_methods(const std::vector<MethodSettings>& methods, const Blame& blam
   }
 }
 
+void check_view(const Study& study, const Blame& blame) try {
+  if (study.picture_view) (void)view_of_numbers(*study.picture_view);
+} catch (const Error& error) {
+  blame("picture_view", error.what());
+}
+
 /// One point of the grid, or a study without a sweep.
 void check_leaves(const Study& study, const Blame& blame) {
   check_input(study, blame);
@@ -151,6 +158,7 @@ void check_cell(const Study& study, const Cell& cell, const Blame& blame) {
 }  // namespace
 
 void check(const Study& study, const Blame& blame) {
+  check_view(study, blame);
   check_size(study, blame);
   if (study.sweep.empty()) return check_leaves(study, blame);
   check_input(study, blame);

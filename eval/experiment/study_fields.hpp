@@ -196,6 +196,11 @@ void fields(auto&& visit, Of<Study> auto& s) {
   visit(Field{"faults", "doses of the faults"}, s.faults);
   visit(Field{"score", "how maps are scored"}, s.score);
   visit(Field{"sweep", "values of the leaf at a path; several paths make a grid"}, s.sweep);
+  visit(Field{"picture_view",
+              "view of the pictures: [ex, ey, ez, tx, ty, tz, vfov_deg], eye and target in the "
+              "world in metres, the angle may be left out; default: an overview, and where most "
+              "errors are"},
+        s.picture_view);
 }
 
 }  // namespace mapscore::eval

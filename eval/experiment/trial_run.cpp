@@ -73,6 +73,7 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       blend_(std::get<BlendSettings>(task.config.fusion)),
       threshold_(task.config.score.threshold.value.value_or(default_threshold(blend_.K))),
       score_options_{positive(task.config.score.tolerances), task.config.score.distances_m},
+      boxes_(truths.boxes()),
       truth_(truths.get(map_frame(task.config, task.seed_index), truth_options(task.config))),
       map_(task.config.voxel_m) {
   result_.counts = zero_counts(table.classes.size(), score_options_);
@@ -98,10 +99,13 @@ Observation TrialRun::observe(const Frame& frame) {
   const std::vector<Detection> detections = detections_of(frame.label, table_);
   const RegisteredCloud cloud = register_depth(
       frame.depth, believed_, pixels_wanted(detections, frame.label.cols, frame.label.rows));
+  const std::vector<Eigen::AlignedBox3d>& true_boxes = boxes_.of(frame);
   Observation observation;
   for (const Detection& detection : detections) {
     Segment found = segment(detection, cloud, map_.edge_m(), segmentation_, place_voxels_);
     account(found);
+    result_.counts[found.class_id].boxes.add(found.box, true_boxes.at(found.instance),
+                                             0.5 * map_.edge_m());
     observation.push_back({found.class_id, found.score,
                            std::move(place_voxels_ ? found.voxel_centres : found.points)});
   }

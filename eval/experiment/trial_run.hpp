@@ -57,6 +57,7 @@ class TrialRun {
   BlendSettings blend_;
   double threshold_;
   ScoreOptions score_options_;
+  FrameBoxes& boxes_;  ///< true ones, shared by all trials
   std::shared_ptr<const LatticeTruth> truth_;
   SemanticMap map_;
   TrialResult result_;

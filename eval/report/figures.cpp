@@ -8,6 +8,7 @@
 #include "eval/report/figures_causes.hpp"
 #include "eval/report/figures_layout.hpp"
 #include "eval/report/figures_script.hpp"
+#include "eval/report/figures_threshold.hpp"
 #include "eval/report/table.hpp"
 #include "eval/report/tidy_csv.hpp"
 
@@ -48,6 +49,8 @@ std::vector<fs::path> draw_figures(const StudySummary& summary, const fs::path& 
   const StudyLayout layout(summary);
   std::vector<FigureSheet> sheets{accuracy_figure(summary, layout), causes_figure(summary, layout)};
   if (auto by_class = class_figure(summary, layout)) sheets.push_back(std::move(*by_class));
+  sheets.push_back(precision_recall_figure(summary, layout));
+  sheets.push_back(reliability_figure(summary, layout));
   std::vector<fs::path> pictures;
   for (const FigureSheet& sheet : sheets)
     for (fs::path& file : draw(sheet, folder)) pictures.push_back(std::move(file));

@@ -22,6 +22,8 @@ namespace mapscore::eval {
 /// of the
 ///   visible ones.
 /// - by_class_by_dose: F1 of each detected class; only where there are several.
+/// - precision_recall: both over the threshold, with the working threshold marked.
+/// - reliability: how true voxels are against how probable the map has them.
 ///
 /// Returns the pictures that were drawn. Throws Error when gnuplot is missing or fails, or the
 /// folder cannot be written.

@@ -20,16 +20,17 @@ struct Pictures {
   std::string skipped;
 };
 
-/// Runs the chosen trials anew and draws, for each method, in the pale scene:
+/// Runs the chosen trials anew and draws, for each method, in the pale scene (its surfaces as the
+/// recording holds them, where the scene is gone or has changed):
 ///
 /// - map_METHOD.png: its predicted voxels in the colours of their classes;
-/// - errors_METHOD.png, errors_METHOD_close.png: true, near, leak, floating and missed voxels, over
-/// all that
-///   was seen and where most errors are;
+/// - errors_METHOD.png: true, near, leak, floating and missed voxels, over all that was seen;
+/// - errors_METHOD_close.png: the same where most errors are;
 ///
-/// and errors.png, the methods side by side. `table` has the study's detected set. Skips when there
-/// is no simulator or no scene. Throws Error when there is no such trial or the folder cannot be
-/// written.
+/// and errors.png, the methods side by side. From the choice's view, or else the study's
+/// `picture_view`, when there is one; then there are no close pictures. `table` has the study's
+/// detected set. Skips when there is no simulator or no truth. Throws Error when there is no such
+/// trial or the folder cannot be written.
 [[nodiscard]] Pictures draw_pictures(const Study& study, const ClassTable& table,
                                      const Recording& recording, const PictureChoice& choice,
                                      const std::filesystem::path& folder);

@@ -7,6 +7,7 @@
 #include "eval/score/voxel_shell.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -68,6 +69,17 @@ std::vector<JudgedVoxel> judge(const MapSnapshot& map, double threshold,
     if (labelled && voxel->best_class == truth.owner) continue;
     judged.push_back({truth.key, truth.owner, Verdict::missed, labelled});
   }
+  return judged;
+}
+
+JudgedMap judged_map(std::string name, std::string title, const MapSnapshot& map, double threshold,
+                     const SurfaceTruth& surface, const VisibleTruth& visible,
+                     const ClassTable& table, const Pose& T_map_world) {
+  JudgedMap judged{
+      std::move(name), std::move(title), surface.edge_m(), T_map_world.inverse(), {}, {}};
+  judged.voxels = judge(map, threshold, surface, visible, table);
+  for (const VisibleVoxel& voxel : visible.voxels())
+    judged.seen_map.extend(centre_of(voxel.key, judged.edge_m));
   return judged;
 }
 

@@ -4,13 +4,16 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "core/geometry/pose.hpp"
 #include "core/geometry/voxel.hpp"
 #include "eval/score/prediction.hpp"
 #include "eval/truth/surface_truth.hpp"
 #include "eval/truth/visible_truth.hpp"
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace mapscore::eval {
@@ -35,6 +38,22 @@ struct JudgedVoxel {
 [[nodiscard]] std::vector<JudgedVoxel> judge(const MapSnapshot& map, double threshold,
                                              const SurfaceTruth& surface,
                                              const VisibleTruth& visible, const ClassTable& table);
+
+/// A map with its verdicts, where it lies, and what could be seen of its scene.
+struct JudgedMap {
+  std::string name;   ///< in the names of files
+  std::string title;  ///< above pictures; ASCII
+  double edge_m = 0.05;
+  Pose T_world_map = Pose::Identity();
+  std::vector<JudgedVoxel> voxels;
+  Eigen::AlignedBox3d seen_map;  ///< bounds of everything visible, frame map
+};
+
+/// Judges a map of the lattice that both truths lie on; `T_map_world` places it.
+[[nodiscard]] JudgedMap judged_map(std::string name, std::string title, const MapSnapshot& map,
+                                   double threshold, const SurfaceTruth& surface,
+                                   const VisibleTruth& visible, const ClassTable& table,
+                                   const Pose& T_map_world);
 
 /// How many voxels have a verdict.
 [[nodiscard]] std::int64_t count(const std::vector<JudgedVoxel>& voxels, Verdict verdict);

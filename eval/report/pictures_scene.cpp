@@ -6,40 +6,87 @@
 #include "core/error.hpp"
 #include "eval/experiment/study_recording.hpp"
 
+#include <optional>
+#include <utility>
+
 namespace mapscore::eval {
 
 #ifdef MAPSCORE_SIMULATOR
 
+namespace {
+
+/// The study's scene as it was recorded; none when it is gone, refused or another one by now.
+std::optional<sim::World> recorded_world(const Study& study, const Recording& recording) try {
+  if (!study.scene) return std::nullopt;
+  sim::World world = world_of(study);
+  if (world.hash() != recording.info().scene_hash) return std::nullopt;
+  return world;
+} catch (const Error&) {
+  return std::nullopt;
+}
+
+std::vector<Shape> shapes_of(const Recording& recording) {
+  if (!recording.info().has_truth)
+    throw Error(recording.folder().string() +
+                ": has no truth/, so its scene cannot be drawn; give the scene file");
+  return recording.read_shapes();
+}
+
+}  // namespace
+
 struct ScenePainter::State {
-  explicit State(const sim::World& drawn) : world(drawn), renderer(world, false) {}
+  explicit State(const sim::World& drawn) : world(drawn), renderer(world, false, true) {}
   sim::World world;
   sim::Renderer renderer;
 };
 
 ScenePainter::ScenePainter(const Study& study, const Recording& recording) {
-  if (!study.scene) throw Error("scene: the study names none; pictures are drawn in its scene");
-  const sim::World world = world_of(study);
-  if (world.hash() != recording.info().scene_hash)
-    throw Error(resolve_path(study, *study.scene).string() +
-                ": changed since it was recorded; sweep again to draw pictures");
-  state_ = std::make_unique<State>(world);
+  const std::optional<sim::World> world = recorded_world(study, recording);
+  state_ = std::make_unique<State>(
+      world ? *world : sim::World::of_shapes(shapes_of(recording), recording.info().table));
 }
+
+ScenePainter::ScenePainter(const std::filesystem::path& scene)
+    : state_(std::make_unique<State>(world_of(study_of_scene(scene, {})))) {}
+
+ScenePainter::ScenePainter(const Recording& recording)
+    : ScenePainter(shapes_of(recording), recording.info().table) {}
+
+ScenePainter::ScenePainter(std::vector<Shape> shapes, const ClassTable& table)
+    : state_(std::make_unique<State>(sim::World::of_shapes(std::move(shapes), table))) {}
 
 cv::Mat3b ScenePainter::paint(sim::View view, std::span<const sim::Cube> cubes) {
   for (const SemanticClass& c : state_->world.classes().classes)
     if (c.name == "ceiling") view.hidden_classes.push_back(c.name);
-  view.ghost_scene = true;
+  view.ghost_scene = view.open_ceiling = true;
   return state_->renderer.picture(view, cubes);
 }
 
 #else
 
-struct ScenePainter::State {};
+namespace {
 
-ScenePainter::ScenePainter(const Study&, const Recording&) {
+[[noreturn]] void refuse() {
   throw Error(
       "pictures: this mapscore was built without the simulator; build with "
       "-DMAPSCORE_SIMULATOR=ON");
+}
+
+}  // namespace
+
+struct ScenePainter::State {};
+
+ScenePainter::ScenePainter(const Study&, const Recording&) {
+  refuse();
+}
+ScenePainter::ScenePainter(const std::filesystem::path&) {
+  refuse();
+}
+ScenePainter::ScenePainter(const Recording&) {
+  refuse();
+}
+ScenePainter::ScenePainter(std::vector<Shape>, const ClassTable&) {
+  refuse();
 }
 
 cv::Mat3b ScenePainter::paint(sim::View, std::span<const sim::Cube>) {

@@ -3,26 +3,37 @@
 
 #pragma once
 
+#include "core/classes.hpp"
+#include "core/geometry/shape.hpp"
 #include "eval/experiment/study.hpp"
 #include "eval/recording/recording.hpp"
 #include "sim/render/renderer.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace mapscore::eval {
 
-/// Paints the scene of a study, without its ceiling. Used by the thread that made it.
+/// Paints a scene without its ceiling. Used by the thread that made it. Every constructor throws
+/// Error when the program was built without the simulator.
 class ScenePainter {
  public:
-  /// Throws Error when the program was built without the simulator, the study has no scene, or the
-  /// scene is not there, is refused, or is not the one of the recording any more.
+  /// The scene of a study, or, where it names none, or it is not there or not the one of the
+  /// recording any more, the surfaces of the recording.
   ScenePainter(const Study& study, const Recording& recording);
+  /// An MJCF file, with the class file and the robot beside it. Throws Error when it is refused.
+  explicit ScenePainter(const std::filesystem::path& scene);
+  /// The exact surfaces of a recording, in the muted colours of their classes. Throws Error when it
+  /// has none.
+  explicit ScenePainter(const Recording& recording);
+  ScenePainter(std::vector<Shape> shapes, const ClassTable& table);
   ~ScenePainter();
   ScenePainter(const ScenePainter&) = delete;
   ScenePainter& operator=(const ScenePainter&) = delete;
 
-  /// The scene, pale, with the cubes in it.
+  /// The scene, pale, with the cubes in it. Throws Error when the view cannot be drawn.
   [[nodiscard]] cv::Mat3b paint(sim::View view, std::span<const sim::Cube> cubes);
 
  private:

@@ -9,6 +9,7 @@
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
+#include "eval/report/figures_axes.hpp"
 
 #include <fmt/format.h>
 
@@ -38,17 +39,26 @@ void check_paths(const Study& study, const PictureChoice& choice) {
   }
 }
 
-TrialMap judged_map(const TrialRun& run, const Task& task, const ClassTable& table,
-                    const TrialSpec& spec, std::optional<int> frame) {
+/// ASCII, since OpenCV writes nothing else.
+std::string title_of(const TrialSpec& spec, std::optional<int> frame) {
+  std::string title = spec.method;
+  for (const auto& [path, value] : spec.cell.doses) {
+    std::string text = figure_axis({path, {value}}).text(0);
+    for (const auto& [letter, ascii] : {std::pair{"σ", "sigma"}, {"×", "x"}})
+      if (const std::size_t at = text.find(letter); at != std::string::npos)
+        text.replace(at, std::string(letter).size(), ascii);
+    title += ", " + text;
+  }
+  title += fmt::format(", seed {}", spec.seed_index);
+  return frame ? title + fmt::format(", frame {}", *frame) : title;
+}
+
+JudgedMap judged_trial(const TrialRun& run, const Task& task, const ClassTable& table,
+                       const TrialSpec& spec, std::optional<int> frame) {
   const LatticeTruth& truth = run.truth();
-  const VisibleTruth& visible = truth.view(frame.value_or(0)).visible;
-  TrialMap map{spec.method, spec.cell, spec.seed_index, frame, task.config.voxel_m, {}, {}, {}};
-  map.T_world_map = map_frame(task.config, task.seed_index).T_map_world().inverse();
-  map.voxels =
-      judge(MapSnapshot(run.map().voxels()), run.threshold(), truth.surface, visible, table);
-  for (const VisibleVoxel& voxel : visible.voxels())
-    map.seen_map.extend(centre_of(voxel.key, map.edge_m));
-  return map;
+  return judged_map(spec.method, title_of(spec, frame), MapSnapshot(run.map().voxels()),
+                    run.threshold(), truth.surface, truth.view(frame.value_or(0)).visible, table,
+                    map_frame(task.config, task.seed_index).T_map_world());
 }
 
 }  // namespace
@@ -78,8 +88,8 @@ int fullest_frame(const Recording& recording, const ClassTable& table, int first
   return fullest;
 }
 
-std::vector<TrialMap> map_trials(const Study& study, const ClassTable& table,
-                                 const Recording& recording, const PictureChoice& choice) {
+std::vector<JudgedMap> map_trials(const Study& study, const ClassTable& table,
+                                  const Recording& recording, const PictureChoice& choice) {
   const Cell cell = chosen_cell(study, choice);
   Study undistanced = study;  // pictures need no distances, and those cost most of a truth
   undistanced.score.distances_m.clear();
@@ -90,7 +100,7 @@ std::vector<TrialMap> map_trials(const Study& study, const ClassTable& table,
   if (study.score.unit == ScoreUnit::frame)
     alone = fullest_frame(recording, table, 0, recording.frame_count());
 
-  std::vector<TrialMap> maps;
+  std::vector<JudgedMap> maps;
   for (const TrialSpec& spec : trials(study)) {
     if (spec.cell != cell || spec.seed_index != choice.seed_index) continue;
     if (choice.method && *choice.method != spec.method) continue;
@@ -99,7 +109,7 @@ std::vector<TrialMap> map_trials(const Study& study, const ClassTable& table,
     for (int frame = alone.value_or(0); frame < (alone ? *alone + 1 : recording.frame_count());
          ++frame)
       run.advance(*frames.get(frame));
-    maps.push_back(judged_map(run, task, table, spec, alone));
+    maps.push_back(judged_trial(run, task, table, spec, alone));
   }
   if (maps.empty())
     throw Error(fmt::format("{}seed {}: the study has no such trial; seeds: 0 to {}",

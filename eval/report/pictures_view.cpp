@@ -21,13 +21,24 @@ constexpr double kPlace_m = 0.75;  ///< edge of the squares in which errors are 
 constexpr double kNearby_m = 1.9;  ///< distance that a close view prefers
 constexpr double kAbove_m = 1.3;   ///< how far a close view looks down
 
-Eigen::AlignedBox3d seen_in_world(const std::vector<TrialMap>& maps) {
+/// Bounds of what was seen; of the voxels, where nothing was.
+Eigen::AlignedBox3d seen_in_world(const std::vector<JudgedMap>& maps) {
   Eigen::AlignedBox3d seen;
-  for (const TrialMap& map : maps)
-    for (int corner = 0; corner < 8; ++corner)
+  for (const JudgedMap& map : maps)
+    for (int corner = 0; corner < 8 && !map.seen_map.isEmpty(); ++corner)
       seen.extend(map.T_world_map *
                   map.seen_map.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
-  return seen;
+  for (const JudgedMap& map : maps)
+    for (std::size_t i = 0; i < map.voxels.size() && map.seen_map.isEmpty(); ++i)
+      seen.extend(map.T_world_map * centre_of(map.voxels[i].key, map.edge_m));
+  return seen.isEmpty() ? Eigen::AlignedBox3d(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero())
+                        : seen;
+}
+
+/// Horizontal direction from the middle of a box to an eye that sees its longer side.
+Eigen::Vector3d viewing_side(const Eigen::AlignedBox3d& seen) {
+  return seen.sizes().x() >= seen.sizes().y() ? -Eigen::Vector3d::UnitY()
+                                              : -Eigen::Vector3d::UnitX();
 }
 
 /// True when the whole box lies in the picture.
@@ -49,9 +60,9 @@ bool holds(const sim::View& view, const Eigen::AlignedBox3d& box) {
 }
 
 /// Middle of the errors in the square that has most of them.
-Eigen::Vector3d worst_place(const std::vector<TrialMap>& maps) {
+Eigen::Vector3d worst_place(const std::vector<JudgedMap>& maps) {
   std::map<std::pair<long, long>, std::pair<int, Eigen::Vector3d>> squares;
-  for (const TrialMap& map : maps) {
+  for (const JudgedMap& map : maps) {
     for (const JudgedVoxel& voxel : map.voxels) {
       if (voxel.verdict == Verdict::right || voxel.covered) continue;
       const Eigen::Vector3d p = map.T_world_map * centre_of(voxel.key, map.edge_m);
@@ -73,13 +84,10 @@ Eigen::Vector3d worst_place(const std::vector<TrialMap>& maps) {
 
 }  // namespace
 
-sim::View overview(const std::vector<TrialMap>& maps) {
+sim::View overview(const std::vector<JudgedMap>& maps) {
   const Eigen::AlignedBox3d seen = seen_in_world(maps);
-  const Eigen::Vector3d sizes = seen.sizes();
-  const double heading = (sizes.x() >= sizes.y() ? -0.5 * std::numbers::pi : std::numbers::pi);
-  const Eigen::Vector3d towards_eye(std::cos(heading) * std::cos(kElevation_rad),
-                                    std::sin(heading) * std::cos(kElevation_rad),
-                                    std::sin(kElevation_rad));
+  const Eigen::Vector3d towards_eye = std::cos(kElevation_rad) * viewing_side(seen) +
+                                      std::sin(kElevation_rad) * Eigen::Vector3d::UnitZ();
   sim::View view;
   view.height_px = kOverviewHeight_px;
   view.vfov_deg = kVerticalField_deg;
@@ -92,24 +100,37 @@ sim::View overview(const std::vector<TrialMap>& maps) {
   return view;
 }
 
-sim::View error_view(const std::vector<TrialMap>& maps, const Recording& recording) {
+sim::View error_view(const std::vector<JudgedMap>& maps, const std::vector<Pose>& T_world_depth) {
   sim::View view;
   view.vfov_deg = 50.0;
   view.target_m = worst_place(maps);
-  const Pose T_base_depth = recording.info().calibration.T_base_depth;
+  view.eye_m = view.target_m + kNearby_m * viewing_side(seen_in_world(maps));
   double best = std::numeric_limits<double>::infinity();
-  for (int frame = 0; frame < recording.frame_count(); ++frame) {
-    const Pose T_world_depth = recording.T_world_base(frame) * T_base_depth;
-    const Eigen::Vector3d target_depth = T_world_depth.inverse() * view.target_m;
+  for (const Pose& T_world_camera : T_world_depth) {
+    const Eigen::Vector3d target_camera = T_world_camera.inverse() * view.target_m;
     const bool in_view =
-        target_depth.z() > 0.5 && target_depth.head<2>().norm() < 0.6 * target_depth.z();
-    const double unlike = std::abs(target_depth.norm() - kNearby_m) + (in_view ? 0.0 : 100.0);
+        target_camera.z() > 0.5 && target_camera.head<2>().norm() < 0.6 * target_camera.z();
+    const double unlike = std::abs(target_camera.norm() - kNearby_m) + (in_view ? 0.0 : 100.0);
     if (unlike >= best) continue;
     best = unlike;
-    view.eye_m = T_world_depth.translation();
+    view.eye_m = T_world_camera.translation();
   }
   view.eye_m.z() = std::max(view.eye_m.z(), view.target_m.z() + kAbove_m);
   return view;
+}
+
+std::vector<sim::View> error_views(const std::vector<JudgedMap>& maps,
+                                   const std::optional<sim::View>& chosen,
+                                   const std::vector<Pose>& T_world_depth) {
+  if (chosen) return {*chosen};
+  return {overview(maps), error_view(maps, T_world_depth)};
+}
+
+std::vector<Pose> depth_camera_poses(const Recording& recording) {
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < recording.frame_count(); ++frame)
+    poses.push_back(recording.T_world_base(frame) * recording.info().calibration.T_base_depth);
+  return poses;
 }
 
 }  // namespace mapscore::eval

@@ -3,20 +3,30 @@
 
 #pragma once
 
+#include "core/geometry/pose.hpp"
 #include "eval/recording/recording.hpp"
-#include "eval/report/pictures_trial.hpp"
+#include "eval/report/pictures_judgement.hpp"
 #include "sim/render/renderer.hpp"
 
-#include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 namespace mapscore::eval {
 
 /// Looks down on everything that was seen, from the side along which it is longest.
-[[nodiscard]] sim::View overview(const std::vector<TrialMap>& maps);
+[[nodiscard]] sim::View overview(const std::vector<JudgedMap>& maps);
 
-/// Looks at the place with most false and missed voxels of all maps, from above where the camera
-/// was once.
-[[nodiscard]] sim::View error_view(const std::vector<TrialMap>& maps, const Recording& recording);
+/// Looks at the place with most false and missed voxels of all maps: from above where one of the
+/// cameras was once, or, without any, from the side that the overview looks from.
+[[nodiscard]] sim::View error_view(const std::vector<JudgedMap>& maps,
+                                   const std::vector<Pose>& T_world_depth);
+
+/// The chosen view, or the overview and the error view.
+[[nodiscard]] std::vector<sim::View> error_views(const std::vector<JudgedMap>& maps,
+                                                 const std::optional<sim::View>& chosen,
+                                                 const std::vector<Pose>& T_world_depth);
+
+/// Poses of the depth camera's optical frame, by frame.
+[[nodiscard]] std::vector<Pose> depth_camera_poses(const Recording& recording);
 
 }  // namespace mapscore::eval

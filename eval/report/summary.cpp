@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/experiment/study_store.hpp"
+#include "eval/report/best_threshold.hpp"
 
 #include <fmt/format.h>
 
@@ -50,6 +51,12 @@ std::vector<TrialResult> read_results(const ResultStore& store, const Plan& plan
         "it goes on where it stopped",
         results.string(), missing, plan.tasks.size(), results.string()));
   return found;
+}
+
+Estimate estimate(const BestThreshold& best, std::optional<double> ChosenScore::*figure) {
+  std::vector<std::optional<double>> values;
+  for (const ChosenScore& score : best.by_seed) values.push_back(score.*figure);
+  return {best.pooled.*figure, summarise(values), values};
 }
 
 }  // namespace
@@ -107,13 +114,16 @@ std::vector<Metric> metrics_of_group(const Counts& counts, const ClassTable& tab
 
 Estimate estimate(const ResultLine& line, const ClassTable& table, std::string_view group,
                   const std::string& metric) {
+  if (metric == kBestF1) return estimate(best_threshold(line, table, group), &ChosenScore::f1);
+  if (metric == kBestThreshold)
+    return estimate(best_threshold(line, table, group), &ChosenScore::threshold);
   const auto value = [&](const Counts& counts) -> std::optional<double> {
     const std::vector<Metric> metrics = metrics_of_group(counts, table, group);
     return metrics.empty() ? std::nullopt : value_of(metrics, metric);
   };
   std::vector<std::optional<double>> values;
   for (const TrialResult& result : line.results) values.push_back(value(result.counts));
-  return {value(line.pooled), summarise(values)};
+  return {value(line.pooled), summarise(values), values};
 }
 
 }  // namespace mapscore::eval

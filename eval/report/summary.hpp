@@ -23,6 +23,10 @@ namespace mapscore::eval {
 inline constexpr std::string_view kPooled = "pooled";
 inline constexpr std::string_view kMacro = "macro";
 
+/// Figures that need several seeds, see best_threshold.hpp.
+inline constexpr const char* kBestF1 = "f1_best";
+inline constexpr const char* kBestThreshold = "threshold_best";
+
 /// What a line of results stands for.
 enum class Role { trial, registration_ceiling, lattice_ceiling };
 [[nodiscard]] const char* name_of(Role role);
@@ -41,6 +45,7 @@ struct ResultLine {
 struct Estimate {
   std::optional<double> pooled;
   SeedSummary over_seeds;
+  std::vector<std::optional<double>> by_seed = {};  ///< in the order of the line's seeds
 };
 
 /// The results of one study, complete and in the order of its grid. Immutable.
@@ -64,7 +69,8 @@ struct StudySummary {
 [[nodiscard]] std::vector<Metric> metrics_of_group(const Counts& counts, const ClassTable& table,
                                                    std::string_view group);
 
-/// Throws Error when there is no such metric.
+/// Of a metric of metrics_of_group, or kBestF1 or kBestThreshold. Throws Error when there is no
+/// such metric.
 [[nodiscard]] Estimate estimate(const ResultLine& line, const ClassTable& table,
                                 std::string_view group, const std::string& metric);
 

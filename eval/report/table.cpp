@@ -21,15 +21,6 @@ std::string spread(const SeedSummary& seeds) {
   return seeds.low && seeds.high ? fmt::format("{:.3f}..{:.3f}", *seeds.low, *seeds.high) : "-";
 }
 
-/// The last part of a swept path, or all of it where two end alike.
-std::string column_of(const SweepAxis& axis, const std::vector<SweepAxis>& sweep) {
-  const auto last_part = [](const SweepAxis& of) { return of.path.substr(of.path.rfind('.') + 1); };
-  const auto alike = std::count_if(sweep.begin(), sweep.end(), [&](const SweepAxis& other) {
-    return last_part(other) == last_part(axis);
-  });
-  return alike == 1 ? last_part(axis) : axis.path;
-}
-
 bool has_metric(const ResultLine& line, const StudySummary& summary, const std::string& name) {
   const auto metrics = metrics_of_group(line.pooled, summary.table, kPooled);
   return std::any_of(metrics.begin(), metrics.end(),
@@ -49,7 +40,9 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
       study.seeds < kSeedsForInterval
           ? fmt::format("F1 spread: least and greatest of the seeds (fewer than {})",
                         kSeedsForInterval)
-          : std::string("F1 spread: 95 % interval of the mean over seeds (Student t)"),
+          : fmt::format("F1 spread: 95 % interval of the mean over seeds ({})", kIntervalMethod),
+      "AP: over all thresholds; F1 best: each seed at the threshold that is best on the others; "
+      "threshold: best on all seeds",
       "ceilings: lattice = true labels on the depth pixels, true pose; registration = the method "
       "at dose "
       "zero"};
@@ -62,6 +55,14 @@ std::string padded(const std::string& text, std::size_t width) {
 
 }  // namespace
 
+std::string column_of(const SweepAxis& axis, const std::vector<SweepAxis>& sweep) {
+  const auto last_part = [](const SweepAxis& of) { return of.path.substr(of.path.rfind('.') + 1); };
+  const auto alike = std::count_if(sweep.begin(), sweep.end(), [&](const SweepAxis& other) {
+    return last_part(other) == last_part(axis);
+  });
+  return alike == 1 ? last_part(axis) : axis.path;
+}
+
 Table score_table(const StudySummary& summary, const std::string& group) {
   Table table;
   table.caption = caption_of(summary, group);
@@ -71,6 +72,9 @@ Table score_table(const StudySummary& summary, const std::string& group) {
            {"F1 tol. 1", "f1_t1"}, {"F at 2 cm", "f_2cm"}})
     if (!summary.trials.empty() && has_metric(summary.trials.front(), summary, name))
       metrics.emplace_back(title, name);
+  for (const auto& [title, name] : std::vector<std::pair<std::string, std::string>>{
+           {"AP", "ap"}, {"F1 best", kBestF1}, {"threshold", kBestThreshold}})
+    metrics.emplace_back(title, name);
 
   for (const SweepAxis& axis : summary.study.sweep)
     table.columns.push_back(column_of(axis, summary.study.sweep));
@@ -121,7 +125,9 @@ std::string to_csv(const Table& table) {
   return text;
 }
 
-std::string to_json(const Table& table) {
+namespace {
+
+nlohmann::ordered_json json_of(const Table& table) {
   nlohmann::ordered_json object{{"caption", table.caption},
                                 {"rows", nlohmann::ordered_json::array()}};
   for (const auto& row : table.rows) {
@@ -129,7 +135,19 @@ std::string to_json(const Table& table) {
     for (std::size_t i = 0; i < row.size(); ++i) entry[table.columns[i]] = row[i];
     object["rows"].push_back(std::move(entry));
   }
-  return object.dump(2) + '\n';
+  return object;
+}
+
+}  // namespace
+
+std::string to_json(const Table& table) {
+  return json_of(table).dump(2) + '\n';
+}
+
+std::string to_json(const std::vector<Table>& tables) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Table& table : tables) list.push_back(json_of(table));
+  return list.dump(2) + '\n';
 }
 
 }  // namespace mapscore::eval

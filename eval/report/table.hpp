@@ -22,8 +22,13 @@ struct Table {
 /// tolerance 0 and, where scored, 1 and by distance, with both ceilings.
 [[nodiscard]] Table score_table(const StudySummary& summary, const std::string& group);
 
+/// Column of a swept path: its last part, or all of it where two end alike.
+[[nodiscard]] std::string column_of(const SweepAxis& axis, const std::vector<SweepAxis>& sweep);
+
 [[nodiscard]] std::string to_text(const Table& table);
 [[nodiscard]] std::string to_csv(const Table& table);
 [[nodiscard]] std::string to_json(const Table& table);
+/// Several tables as one list.
+[[nodiscard]] std::string to_json(const std::vector<Table>& tables);
 
 }  // namespace mapscore::eval

@@ -4,6 +4,7 @@
 #include "eval/report/tidy_csv.hpp"
 
 #include "eval/experiment/result_fields.hpp"
+#include "eval/report/best_threshold.hpp"
 #include "eval/report/csv.hpp"
 
 #include <fmt/format.h>
@@ -23,17 +24,8 @@ std::vector<Metric> counts_as_metrics(const ClassCounts& c) {
     add(fmt::format("true_predicted_t{}", at.voxels), at.true_predicted);
     add(fmt::format("found_t{}", at.voxels), at.found);
   }
-  return metrics;
-}
-
-std::vector<Metric> all_metrics(const Counts& counts, const ClassTable& table,
-                                const std::string& group) {
-  std::vector<Metric> metrics;
-  if (group == kPooled) metrics = counts_as_metrics(pool_detected(counts, table));
-  for (const SemanticClass& c : table.classes)
-    if (c.name == group) metrics = counts_as_metrics(counts.at(c.id));
-  for (Metric& metric : metrics_of_group(counts, table, group))
-    metrics.push_back(std::move(metric));
+  add("boxes", c.boxes.detections);
+  add("boxes_unseen", c.boxes.unseen);
   return metrics;
 }
 
@@ -41,8 +33,9 @@ std::string text_of(const std::optional<double>& value) {
   return value ? fmt::format("{:.9g}", *value) : "-";
 }
 
+/// `best`: of each of the summary's groups.
 void write_result(const ResultLine& line, std::size_t seed, const StudySummary& summary,
-                  std::ostream& out) {
+                  const std::vector<BestThreshold>& best, std::ostream& out) {
   std::vector<std::string> head{name_of(line.role), line.method, std::to_string(line.seeds[seed])};
   for (const auto& [path, value] : line.cell.doses) head.push_back(value);
   const auto write = [&](const std::string& group, const std::string& metric,
@@ -52,14 +45,37 @@ void write_result(const ResultLine& line, std::size_t seed, const StudySummary& 
     out << csv_line(cells);
   };
   const TrialResult& result = line.results[seed];
-  for (const std::string& group : summary.groups())
-    for (const Metric& metric : all_metrics(result.counts, summary.table, group))
-      write(group, metric.name, text_of(metric.value));
+  const std::vector<std::string> groups = summary.groups();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const Metric& metric : tidy_metrics(result.counts, summary.table, groups[g]))
+      write(groups[g], metric.name, text_of(metric.value));
+    write(groups[g], kBestF1, text_of(best[g].by_seed[seed].f1));
+    write(groups[g], kBestThreshold, text_of(best[g].by_seed[seed].threshold));
+  }
   for (const auto& [name, member] : kAccountingFields)
     write("all", name, std::to_string(result.accounting.*member));
 }
 
+void write_line(const ResultLine& line, const StudySummary& summary, std::ostream& out) {
+  std::vector<BestThreshold> best;
+  for (const std::string& group : summary.groups())
+    best.push_back(best_threshold(line, summary.table, group));
+  for (std::size_t seed = 0; seed < line.results.size(); ++seed)
+    write_result(line, seed, summary, best, out);
+}
+
 }  // namespace
+
+std::vector<Metric> tidy_metrics(const Counts& counts, const ClassTable& table,
+                                 std::string_view group) {
+  std::vector<Metric> metrics;
+  if (group == kPooled) metrics = counts_as_metrics(pool_detected(counts, table));
+  for (const SemanticClass& c : table.classes)
+    if (c.name == group) metrics = counts_as_metrics(counts.at(c.id));
+  for (Metric& metric : metrics_of_group(counts, table, group))
+    metrics.push_back(std::move(metric));
+  return metrics;
+}
 
 void write_tidy_csv(const StudySummary& summary, std::ostream& out) {
   std::vector<std::string> columns{"role", "method", "seed"};
@@ -68,9 +84,7 @@ void write_tidy_csv(const StudySummary& summary, std::ostream& out) {
   out << csv_line(columns);
   for (const auto* lines :
        {&summary.trials, &summary.registration_ceilings, &summary.lattice_ceilings})
-    for (const ResultLine& line : *lines)
-      for (std::size_t seed = 0; seed < line.results.size(); ++seed)
-        write_result(line, seed, summary, out);
+    for (const ResultLine& line : *lines) write_line(line, summary, out);
 }
 
 }  // namespace mapscore::eval

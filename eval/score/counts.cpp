@@ -64,6 +64,8 @@ ClassCounts& ClassCounts::operator+=(const ClassCounts& other) {
   missed_unmapped += other.missed_unmapped;
   accuracy += other.accuracy;
   completeness += other.completeness;
+  curve += other.curve;
+  boxes += other.boxes;
   return *this;
 }
 

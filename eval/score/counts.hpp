@@ -4,6 +4,8 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "eval/score/box_counts.hpp"
+#include "eval/score/class_curve.hpp"
 #include "eval/score/distance_tally.hpp"
 
 #include <cstdint>
@@ -50,6 +52,8 @@ struct ClassCounts {
   std::vector<ToleranceCounts> at_tolerance;
   DistanceTally accuracy;      ///< predicted cubes to the class's exact surface
   DistanceTally completeness;  ///< noise-free samples of the class to the nearest predicted cube
+  ClassCurve curve;            ///< the counts at every threshold
+  BoxCounts boxes;             ///< of detections; none where a map is all there is
 
   /// Pools. Throws Error when tolerances or distances differ.
   ClassCounts& operator+=(const ClassCounts& other);

@@ -26,9 +26,10 @@ using CubeDistance = std::function<double(const VoxelKey&, ClassId)>;
 /// same map, threshold and options): the distance from every predicted cube to the class's exact
 /// surface, and from every noise-free sample of the class to the nearest predicted cube. Exact for
 /// every voxel and sample; the time goes into samples outside predicted voxels. Throws Error when
-/// the options are not usable or the class tables differ in size. Thread-safe when
-/// `distance_of` is.
+/// the options are not usable or the class tables differ in size. Works on `jobs` threads, which
+/// call `distance_of` at the same time; the counts do not depend on how many.
 void score_distances(const MapSnapshot& map, double threshold, const CubeDistance& distance_of,
-                     const SampleSet& samples, const ScoreOptions& options, Counts& counts);
+                     const SampleSet& samples, const ScoreOptions& options, Counts& counts,
+                     int jobs = 1);
 
 }  // namespace mapscore::eval

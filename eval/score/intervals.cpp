@@ -3,83 +3,23 @@
 
 #include "eval/score/intervals.hpp"
 
-#include "core/error.hpp"
-
-#include <fmt/format.h>
+#include "eval/score/mean_interval.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace mapscore::eval {
-
-namespace {
-
-constexpr double kConfidence = 0.95;
-
-/// P(|T| <= t), t >= 0. With theta = atan(t / sqrt(n)): for even n
-/// sin(theta) (1 + 1/2 cos^2 + (1 3)/(2 4) cos^4 + ...), for odd n
-/// 2/pi (theta + sin(theta) (cos + 2/3 cos^3 + (2 4)/(3 5) cos^5 + ...)), up to the power n - 2.
-double central_probability(double t, int degrees) {
-  const double theta = std::atan(t / std::sqrt(static_cast<double>(degrees)));
-  const double cosine = std::cos(theta);
-  const bool odd = degrees % 2 == 1;
-  double term = odd ? cosine : 1.0;
-  double series = degrees > 1 ? term : 0.0;
-  for (int power = odd ? 3 : 2; power <= degrees - 2; power += 2) {
-    term *= cosine * cosine * (power - 1) / power;
-    series += term;
-  }
-  const double sum = std::sin(theta) * series;
-  return odd ? 2.0 / std::numbers::pi * (theta + sum) : sum;
-}
-
-double mean_of(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-std::optional<double> sd_of(const std::vector<double>& values, double mean) {
-  if (values.size() < 2) return std::nullopt;
-  double squares = 0.0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return std::sqrt(squares / static_cast<double>(values.size() - 1));
-}
-
-}  // namespace
 
 const char* name_of(SpreadKind kind) {
   switch (kind) {
     case SpreadKind::range:
       return "range";
-    case SpreadKind::student_t:
-      return "95% t interval";
+    case SpreadKind::interval:
+      return "95% interval";
     case SpreadKind::none:
       break;
   }
   return "-";
-}
-
-double student_t_cdf(double t, int degrees) {
-  const double central = central_probability(std::abs(t), degrees);
-  return t < 0.0 ? (1.0 - central) / 2.0 : (1.0 + central) / 2.0;
-}
-
-double student_t_quantile(double p, int degrees) {
-  if (!(p > 0.0 && p < 1.0) || degrees < 1) {
-    throw Error(fmt::format(
-        "student_t_quantile: p = {}, degrees = {}; give 0 < p < 1, degrees >= 1", p, degrees));
-  }
-  if (p < 0.5) return -student_t_quantile(1.0 - p, degrees);
-  double low = 0.0, high = 1.0;
-  while (student_t_cdf(high, degrees) < p) high *= 2.0;
-  for (double middle = 0.5 * (low + high); low < middle && middle < high;
-       middle = 0.5 * (low + high)) {
-    (student_t_cdf(middle, degrees) < p ? low : high) = middle;
-  }
-  return high;
 }
 
 SeedSummary summarise(std::span<const std::optional<double>> values) {
@@ -91,19 +31,21 @@ SeedSummary summarise(std::span<const std::optional<double>> values) {
   summary.seeds = static_cast<int>(defined.size());
   summary.undefined = static_cast<int>(values.size() - defined.size());
   if (defined.empty()) return summary;
-  summary.mean = mean_of(defined);
-  summary.sd = sd_of(defined, *summary.mean);
-  if (summary.seeds < kSeedsForInterval) {
-    summary.kind = SpreadKind::range;
-    summary.low = *std::min_element(defined.begin(), defined.end());
-    summary.high = *std::max_element(defined.begin(), defined.end());
-    return summary;
-  }
-  summary.kind = SpreadKind::student_t;
-  const double half = student_t_quantile(0.5 + kConfidence / 2.0, summary.seeds - 1) * *summary.sd /
-                      std::sqrt(static_cast<double>(summary.seeds));
-  summary.low = *summary.mean - half;
-  summary.high = *summary.mean + half;
+
+  summary.kind = SpreadKind::range;
+  const auto [least, greatest] = std::minmax_element(defined.begin(), defined.end());
+  summary.low = *least;
+  summary.high = *greatest;
+  summary.mean = defined.front();
+  if (defined.size() < 2) return summary;
+
+  const MeanInterval interval = mean_interval(defined);
+  summary.mean = interval.mean;
+  summary.sd = interval.sd;
+  if (summary.seeds < kSeedsForInterval) return summary;
+  summary.kind = SpreadKind::interval;
+  summary.low = interval.low;
+  summary.high = interval.high;
   return summary;
 }
 

@@ -11,10 +11,14 @@ namespace mapscore::eval {
 /// Fewer seeds than this give a range in place of an interval.
 inline constexpr int kSeedsForInterval = 10;
 
+/// Name of the interval's method in captions.
+inline constexpr const char* kIntervalMethod =
+    "the farther of Student t and Hall's skewness-corrected t on each side";
+
 enum class SpreadKind {
-  none,       ///< nothing defined to summarise
-  range,      ///< least and greatest value; fewer than kSeedsForInterval
-  student_t,  ///< 95 % interval of the mean: mean +- t(0.975, n - 1) sd / sqrt(n)
+  none,      ///< nothing defined to summarise
+  range,     ///< least and greatest value; fewer than kSeedsForInterval
+  interval,  ///< 95 % interval of the mean, by mean_interval
 };
 
 [[nodiscard]] const char* name_of(SpreadKind kind);
@@ -25,19 +29,11 @@ struct SeedSummary {
   int seeds = 0;      ///< with a defined value
   int undefined = 0;  ///< seeds whose value is undefined; left out
   std::optional<double> mean;
-  std::optional<double> sd;  ///< with n - 1; needs two seeds
-  std::optional<double> low,
-      high;  ///< of the range or interval; not clipped to what the figure can be
+  std::optional<double> sd;         ///< with n - 1; needs two seeds
+  std::optional<double> low, high;  ///< of the range or interval
 };
 
 /// Summary of one figure, one value a seed; nullopt where it is undefined.
 [[nodiscard]] SeedSummary summarise(std::span<const std::optional<double>> values);
-
-/// P(T <= t) of Student's distribution with `degrees` >= 1 degrees of freedom, by the finite
-/// trigonometric series for whole degrees (Abramowitz and Stegun 26.7.3 and 26.7.4).
-[[nodiscard]] double student_t_cdf(double t, int degrees);
-
-/// t with student_t_cdf(t, degrees) = p. Throws Error unless 0 < p < 1 and degrees >= 1.
-[[nodiscard]] double student_t_quantile(double p, int degrees);
 
 }  // namespace mapscore::eval

@@ -4,11 +4,13 @@
 #include "eval/score/metrics.hpp"
 
 #include "core/error.hpp"
+#include "eval/score/box_score.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace mapscore::eval {
 
@@ -34,6 +36,18 @@ void append_limit(const DistanceTally& accuracy, const DistanceTally& completene
   metrics.push_back({"precision_" + tau, ratio(precise, accuracy.count())});
   metrics.push_back({"recall_" + tau, ratio(complete, completeness.count())});
   metrics.push_back({"f_" + tau, f1(precise, accuracy.count(), complete, completeness.count())});
+}
+
+void append_distances(const ClassCounts& counts, std::vector<Metric>& metrics) {
+  const DistanceTally &accuracy = counts.accuracy, &completeness = counts.completeness;
+  for (std::size_t l = 0; l < accuracy.limits_m().size(); ++l) {
+    append_limit(accuracy, completeness, l, metrics);
+  }
+  if (accuracy.limits_m().empty()) return;
+  metrics.push_back({"accuracy_mean_m", accuracy.mean_m()});
+  metrics.push_back({"accuracy_p95_m", accuracy.percentile_m(kPercentile)});
+  metrics.push_back({"completeness_mean_m", completeness.mean_m()});
+  metrics.push_back({"completeness_p95_m", completeness.percentile_m(kPercentile)});
 }
 
 /// Mean of one figure over the classes where it is defined.
@@ -86,15 +100,11 @@ std::vector<Metric> metrics_of(const ClassCounts& counts) {
                               {"f1", f1(counts)},
                               {"iou", iou(counts)}};
   for (const ToleranceCounts& at : counts.at_tolerance) append_tolerance(counts, at, metrics);
-  const DistanceTally &accuracy = counts.accuracy, &completeness = counts.completeness;
-  for (std::size_t l = 0; l < accuracy.limits_m().size(); ++l) {
-    append_limit(accuracy, completeness, l, metrics);
-  }
-  if (accuracy.limits_m().empty()) return metrics;
-  metrics.push_back({"accuracy_mean_m", accuracy.mean_m()});
-  metrics.push_back({"accuracy_p95_m", accuracy.percentile_m(kPercentile)});
-  metrics.push_back({"completeness_mean_m", completeness.mean_m()});
-  metrics.push_back({"completeness_p95_m", completeness.percentile_m(kPercentile)});
+  append_distances(counts, metrics);
+  metrics.push_back({"ap", average_precision(counts.curve)});
+  metrics.push_back({"brier", brier(counts.curve)});
+  metrics.push_back({"ece", expected_calibration_error(counts.curve)});
+  for (Metric& metric : box_metrics(counts.boxes)) metrics.push_back(std::move(metric));
   return metrics;
 }
 
@@ -113,6 +123,8 @@ std::vector<Metric> macro_metrics(const Counts& counts, const ClassTable& table)
   for (std::size_t figure = 0; figure < macro.size(); ++figure) {
     macro[figure].value = mean_defined(classes, figure);
   }
+  macro.push_back({"mpa", value_of(macro, "recall")});
+  macro.push_back({"miou", value_of(macro, "iou")});
   return macro;
 }
 

@@ -10,11 +10,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numbers>
 
 namespace mapscore::eval {
 
 namespace {
+
+/// How far `enter` looks first, and then before it asks the tree, voxels.
+constexpr int kNear = 2, kFarther = 6;
+constexpr std::size_t kLeafCubes = 16;
 
 /// Cube indices as nanoflann reads them; in double precision they and their squared distances are
 /// exact.
@@ -65,35 +70,75 @@ class WithinReach {
 
 }  // namespace
 
+/// Built by the first thread that needs it.
 struct NearestCube::Tree {
   CubeIndices indices;
-  KdTree tree;
+  std::once_flag built;
+  std::unique_ptr<KdTree> index;
 
-  explicit Tree(std::span<const VoxelKey> cubes) : indices{cubes}, tree(3, indices, {16}) {
-    if (!cubes.empty()) tree.buildIndex();
+  explicit Tree(std::span<const VoxelKey> cubes) : indices{cubes} {}
+  [[nodiscard]] const KdTree& get() {
+    std::call_once(built, [this] { index = std::make_unique<KdTree>(3, indices, kLeafCubes); });
+    return *index;
   }
 };
 
 NearestCube::NearestCube(std::span<const VoxelKey> cubes, double edge_m)
-    : edge_m_(edge_m), tree_(std::make_unique<Tree>(cubes)) {}
-
-NearestCube::~NearestCube() = default;
+    : cubes_(cubes),
+      edge_m_(edge_m),
+      tree_(std::make_shared<Tree>(cubes)),
+      near_(cubes, kNear),
+      farther_(cubes, kFarther) {}
 
 void NearestCube::enter(const VoxelKey& voxel) {
   candidates_.clear();
-  if (tree_->indices.cubes.empty()) return;
-  const Eigen::Vector3d here(voxel.i, voxel.j, voxel.k);
-  WithinReach reach;
-  tree_->tree.radiusSearchCustomCallback(here.data(), reach);
-  for (const std::uint32_t cube : reach.found()) {
-    const VoxelKey& key = tree_->indices.cubes[cube];
-    const Eigen::Vector3d offset = Eigen::Vector3d(key.i, key.j, key.k) - here;
-    const double least = (offset.array().abs() - 1.0).max(0.0).matrix().squaredNorm();
-    if (least <= reach.nearest_squared()) candidates_.push_back({offset, least});
+  if (cubes_.empty()) return;
+  if (voxel < entered_) {  // windows only move on
+    near_ = RowWindow<VoxelKey>(cubes_, kNear);
+    farther_ = RowWindow<VoxelKey>(cubes_, kFarther);
+  }
+  entered_ = voxel;
+  if (!look_around(voxel, kNear, near_) && !look_around(voxel, kFarther, farther_)) {
+    search_tree(voxel);
   }
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
     return a.least_squared < b.least_squared;
   });
+}
+
+/// True when that was enough. A cube out of reach has an offset of more than `reach` on some axis,
+/// hence is at least `reach` from any point; the nearest one is at most its offset away.
+bool NearestCube::look_around(const VoxelKey& voxel, int reach, RowWindow<VoxelKey>& around) {
+  candidates_.clear();
+  double nearest_squared = std::numeric_limits<double>::infinity();
+  around.for_each_within_reach(voxel, [&](const VoxelKey& cube) {
+    candidates_.push_back(candidate(cube, voxel));
+    nearest_squared = std::min(nearest_squared, candidates_.back().offset.squaredNorm());
+  });
+  if (nearest_squared >= reach * reach) return false;
+  keep_nearest(nearest_squared);
+  return true;
+}
+
+void NearestCube::search_tree(const VoxelKey& voxel) {
+  const Eigen::Vector3d here(voxel.i, voxel.j, voxel.k);
+  WithinReach reach;
+  tree_->get().radiusSearchCustomCallback(here.data(), reach);
+  candidates_.clear();
+  for (const std::uint32_t cube : reach.found()) {
+    candidates_.push_back(candidate(cubes_[cube], voxel));
+  }
+  keep_nearest(reach.nearest_squared());
+}
+
+/// Of the candidates those that can be nearer than the nearest index vector.
+void NearestCube::keep_nearest(double squared) {
+  std::erase_if(candidates_, [=](const Candidate& c) { return c.least_squared > squared; });
+}
+
+NearestCube::Candidate NearestCube::candidate(const VoxelKey& cube, const VoxelKey& voxel) {
+  const Eigen::Vector3d offset(cube.i - voxel.i, cube.j - voxel.j, cube.k - voxel.k);
+  return {offset, (offset.array().abs() - 1.0).max(0.0).matrix().squaredNorm()};
 }
 
 double NearestCube::distance_m(const Eigen::Vector3d& offset_m) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/geometry/voxel.hpp"
+#include "eval/score/row_window.hpp"
 
 #include <Eigen/Core>
 #include <memory>
@@ -13,17 +14,15 @@
 namespace mapscore::eval {
 
 /// Finds the nearest of a set of closed lattice cubes for the points of one voxel at a time. Exact:
-/// a KD-tree over the cubes' indices gives, for the whole voxel, every cube that can be nearest to
-/// a point of it. Not thread-safe; make one where it is used.
+/// finds, for the whole voxel, every cube that can be nearest to a point of it, in the surroundings
+/// where one is near, else by a KD-tree over the cubes' indices. Not thread-safe, but copies share
+/// the tree: give each thread its own.
 class NearestCube {
  public:
-  /// `cubes` must outlive this.
+  /// `cubes` ordered by key; they must outlive this and its copies.
   NearestCube(std::span<const VoxelKey> cubes, double edge_m);
-  ~NearestCube();
-  NearestCube(const NearestCube&) = delete;
-  NearestCube& operator=(const NearestCube&) = delete;
 
-  /// Prepares `distance_m` for points of this voxel.
+  /// Prepares `distance_m` for points of this voxel. Fastest when voxels come ordered by key.
   void enter(const VoxelKey& voxel);
   /// Euclidean distance in metres from a point of the entered voxel (`offset_m` from its centre) to
   /// the nearest cube, 0 inside or on it; kUnreached when there is no cube.
@@ -38,8 +37,16 @@ class NearestCube {
   };
   struct Tree;
 
+  [[nodiscard]] static Candidate candidate(const VoxelKey& cube, const VoxelKey& voxel);
+  [[nodiscard]] bool look_around(const VoxelKey& voxel, int reach, RowWindow<VoxelKey>& around);
+  void search_tree(const VoxelKey& voxel);
+  void keep_nearest(double squared);
+
+  std::span<const VoxelKey> cubes_;
   double edge_m_;
-  std::unique_ptr<Tree> tree_;
+  std::shared_ptr<Tree> tree_;
+  RowWindow<VoxelKey> near_, farther_;
+  VoxelKey entered_;
   std::vector<Candidate> candidates_;  ///< by ascending least distance
 };
 

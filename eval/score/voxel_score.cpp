@@ -4,11 +4,12 @@
 #include "eval/score/voxel_score.hpp"
 
 #include "core/error.hpp"
-#include "eval/score/voxel_shell.hpp"
+#include "eval/score/row_window.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 namespace mapscore::eval {
 
@@ -17,48 +18,39 @@ namespace {
 /// Neighbours whose surface makes a false voxel `near`.
 constexpr int kNearVoxels = 1;
 
-bool on_another_surface(const SurfaceTruth& surface, const VoxelKey& key, ClassId class_id) {
-  const auto rows = surface.classes_at(key);
-  return std::any_of(rows.begin(), rows.end(),
-                     [class_id](const SurfaceVoxel& row) { return row.class_id != class_id; });
-}
-
-void count_predicted(const MapVoxel& voxel, const SurfaceTruth& surface, int reach,
-                     ClassCounts& counts) {
-  const ClassId class_id = voxel.best_class;
-  const auto in_surface = [&](const VoxelKey& key) { return surface.contains(key, class_id); };
-  const bool is_true = in_surface(voxel.key);
-  const int distance = is_true ? 0 : shell_distance(voxel.key, reach, in_surface);
+void count_predicted(const MapVoxel& voxel, RowWindow<SurfaceVoxel>& surface, ClassCounts& counts) {
+  const auto of_class = [&](const SurfaceVoxel& row) { return row.class_id == voxel.best_class; };
+  const auto rows = surface.at(voxel.key);
+  const bool is_true = std::any_of(rows.begin(), rows.end(), of_class);
+  const int distance = is_true ? 0 : surface.distance(voxel.key, of_class);
   ++counts.predicted;
   for (ToleranceCounts& at : counts.at_tolerance) at.true_predicted += distance <= at.voxels;
   if (is_true) {
     ++counts.true_predicted;
   } else if (distance <= kNearVoxels) {
     ++counts.false_near;
-  } else if (on_another_surface(surface, voxel.key, class_id)) {
+  } else if (!rows.empty()) {
     ++counts.false_leak;
   } else {
     ++counts.false_floating;
   }
 }
 
-void count_visible(const VisibleVoxel& truth, const MapSnapshot& map, double threshold, int reach,
+void count_visible(const VisibleVoxel& truth, RowWindow<MapVoxel>& map, double threshold,
                    ClassCounts& counts) {
-  const auto predicts_class = [&](const MapVoxel* voxel) {
-    return voxel && voxel->best_class == truth.owner && predicted(*voxel, threshold);
+  const auto predicts_class = [&](const MapVoxel& voxel) {
+    return voxel.best_class == truth.owner && predicted(voxel, threshold);
   };
-  const MapVoxel* voxel = map.find(truth.key);
-  const bool is_found = predicts_class(voxel);
-  const int distance = is_found ? 0 : shell_distance(truth.key, reach, [&](const VoxelKey& key) {
-    return predicts_class(map.find(key));
-  });
+  const auto voxel = map.at(truth.key);  // one or none
+  const bool is_found = !voxel.empty() && predicts_class(voxel.front());
+  const int distance = is_found ? 0 : map.distance(truth.key, predicts_class);
   ++counts.visible;
   for (ToleranceCounts& at : counts.at_tolerance) at.found += distance <= at.voxels;
   if (is_found) {
     ++counts.found;
-  } else if (!voxel) {
+  } else if (voxel.empty()) {
     ++counts.missed_unmapped;
-  } else if (predicted(*voxel, threshold)) {
+  } else if (predicted(voxel.front(), threshold)) {
     ++counts.missed_mislabelled;
   } else {
     ++counts.missed_unlabelled;
@@ -80,6 +72,29 @@ void check_same_lattice(const SurfaceTruth& surface, const VisibleTruth& visible
                   key.i, key.j, key.k, class_id, class_count));
 }
 
+void count_predictions(const MapSnapshot& map, double threshold, const SurfaceTruth& surface,
+                       int reach, Counts& counts) {
+  RowWindow<SurfaceVoxel> rows(surface.voxels(), std::max(reach, kNearVoxels));
+  for (const MapVoxel& voxel : map.voxels()) {
+    if (!predicted(voxel, threshold)) continue;
+    if (voxel.best_class >= counts.size()) refuse_class(voxel.key, voxel.best_class, counts.size());
+    count_predicted(voxel, rows, counts[voxel.best_class]);
+  }
+}
+
+/// V comes class by class, each sorted by key: one walk through the map for each class.
+void count_visibles(const MapSnapshot& map, double threshold, const VisibleTruth& visible,
+                    int reach, Counts& counts) {
+  for (auto rest = visible.voxels(); !rest.empty();) {
+    const ClassId owner = rest.front().owner;
+    if (owner >= counts.size()) refuse_class(rest.front().key, owner, counts.size());
+    const auto of_class = visible.of(owner);
+    RowWindow<MapVoxel> rows(map.voxels(), reach);
+    for (const VisibleVoxel& truth : of_class) count_visible(truth, rows, threshold, counts[owner]);
+    rest = rest.subspan(of_class.size());
+  }
+}
+
 }  // namespace
 
 Counts score_voxels(const MapSnapshot& map, double threshold, const SurfaceTruth& surface,
@@ -89,15 +104,8 @@ Counts score_voxels(const MapSnapshot& map, double threshold, const SurfaceTruth
   check_same_lattice(surface, visible);
   const int reach = options.tolerances.empty() ? 0 : options.tolerances.back();
   Counts counts = zero_counts(class_count, options);
-  for (const MapVoxel& voxel : map.voxels()) {
-    if (!predicted(voxel, threshold)) continue;
-    if (voxel.best_class >= class_count) refuse_class(voxel.key, voxel.best_class, class_count);
-    count_predicted(voxel, surface, std::max(reach, kNearVoxels), counts[voxel.best_class]);
-  }
-  for (const VisibleVoxel& truth : visible.voxels()) {
-    if (truth.owner >= class_count) refuse_class(truth.key, truth.owner, class_count);
-    count_visible(truth, map, threshold, reach, counts[truth.owner]);
-  }
+  count_predictions(map, threshold, surface, reach, counts);
+  count_visibles(map, threshold, visible, reach, counts);
   return counts;
 }
 

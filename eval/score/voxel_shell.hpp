@@ -21,13 +21,4 @@ template <class Predicate>
   return false;
 }
 
-/// Chebyshev distance in voxels, 1 to `reach`, from `key` to the nearest other voxel that satisfies
-/// `holds`; reach + 1 when there is none that near.
-template <class Predicate>
-[[nodiscard]] int shell_distance(const VoxelKey& key, int reach, Predicate holds) {
-  int t = 1;
-  while (t <= reach && !any_in_shell(key, t, holds)) ++t;
-  return t;
-}
-
 }  // namespace mapscore::eval

@@ -37,30 +37,13 @@ bool boundary_meets(const PreparedShape& shape, const Box& box) {
   return form_meets(shape, box) && !form_contains(shape, box);
 }
 
-int sizes_needed(ShapeKind kind) {
-  switch (kind) {
-    case ShapeKind::mesh:
-      return 0;
-    case ShapeKind::sphere:
-      return 1;
-    case ShapeKind::plane:
-    case ShapeKind::capsule:
-    case ShapeKind::cylinder:
-      return 2;
-    case ShapeKind::ellipsoid:
-    case ShapeKind::box:
-      return 3;
-  }
-  return 0;
-}
-
 void check(const Shape& shape, int index) {
   const std::string where = "shape " + std::to_string(index) + " (" + name_of(shape.kind) +
                             (shape.name.empty() ? "" : " '" + shape.name + "'") + "): ";
   if (!shape.T_world_shape.matrix().allFinite()) {
     throw Error(where + "its pose is not finite; mend the scene or the recording's truth/");
   }
-  const auto sizes = shape.size.head(sizes_needed(shape.kind));
+  const auto sizes = shape.size.head(sizes_of(shape.kind));
   if (!sizes.allFinite() || (sizes.array() <= 0).any()) {
     throw Error(where +
                 "a size is not positive and finite; give every drawn geom its sizes in metres");

@@ -4,30 +4,37 @@
 #include "eval/truth/surface_truth.hpp"
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "eval/truth/shape_tests.hpp"
+#include "eval/truth/slabs.hpp"
 #include "eval/truth/voxelise.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <future>
 #include <string>
 #include <utility>
 
 namespace mapscore::eval {
 namespace {
 
-/// A row in the order of the result. `class_touch` is class * 2 + touch_only, so that of equal
-/// pairs the one that truly meets comes first.
-struct PackedRow {
-  std::uint64_t key;
-  std::uint32_t class_touch;
-  auto operator<=>(const PackedRow&) const = default;
-  [[nodiscard]] bool same_pair(const PackedRow& other) const {
-    return key == other.key && class_touch / 2 == other.class_touch / 2;
-  }
-};
-using PackedRows = std::vector<PackedRow>;
+// A row of a slab in 62 bits, in the order of the result: i within the slab (3), j and k (21 each),
+// class (16), touch_only (1), so that of equal pairs the one that truly meets comes first.
+using SlabRow = std::uint64_t;
+using SlabRows = std::vector<SlabRow>;
+static_assert(kSlabVoxels == 8 && sizeof(ClassId) == 2);
+
+constexpr std::uint64_t kPackedOrigin = (std::uint64_t{1} << 20) << 42;  // of i = 0
+
+SlabRow row_of(const PieceVoxel& voxel, const Slab& slab, ClassId class_id) {
+  const VoxelKey in_slab{voxel.key.i - slab.first_i, voxel.key.j, voxel.key.k};
+  return (pack(in_slab) - kPackedOrigin) << 17 | SlabRow{class_id} << 1 | SlabRow{voxel.touch_only};
+}
+
+SurfaceVoxel voxel_of_row(SlabRow row, const Slab& slab) {
+  VoxelKey key = unpack((row >> 17) + kPackedOrigin);
+  key.i += slab.first_i;
+  return {key, static_cast<ClassId>(row >> 1 & 0xffff), (row & 1) == 1};
+}
 
 void check(const SurfaceOptions& options) {
   if (!(std::isfinite(options.edge_m) && options.edge_m > 0)) {
@@ -43,69 +50,66 @@ void check(const SurfaceOptions& options) {
   }
 }
 
-std::vector<PreparedShape> solids_of(const std::vector<PreparedShape>& pieces) {
-  std::vector<PreparedShape> solids;
-  std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(solids),
-               [](const PreparedShape& piece) { return piece.solid(); });
-  return solids;
-}
-
-/// Sorts and keeps each pair once.
-void make_unique(PackedRows& rows) {
+/// Sorts and keeps each pair of voxel and class once.
+void make_unique(SlabRows& rows) {
   std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end(),
-                         [](const PackedRow& a, const PackedRow& b) { return a.same_pair(b); }),
-             rows.end());
+  rows.erase(
+      std::unique(rows.begin(), rows.end(), [](SlabRow a, SlabRow b) { return a >> 1 == b >> 1; }),
+      rows.end());
 }
 
-/// Takes pieces in turn until none is left.
-PackedRows voxelise_pieces(const std::vector<PreparedShape>& pieces,
-                           const std::vector<PreparedShape>& solids, const ClassTable& table,
-                           const SurfaceOptions& options, std::atomic<std::size_t>& next) {
-  Voxeliser voxeliser(solids, options.edge_m, options.epsilon_m);
-  std::vector<PieceVoxel> voxels;
-  PackedRows rows;
-  for (std::size_t i = next++; i < pieces.size(); i = next++) {
-    voxels.clear();
-    voxeliser.voxelise(pieces[i], voxels);
-    const std::uint32_t class_id = table.class_of(pieces[i].instance());
-    for (const PieceVoxel& voxel : voxels) {
-      rows.push_back({pack(voxel.key), class_id * 2 + voxel.touch_only});
+/// Rows of every slab; threads take slabs in turn.
+std::vector<SlabRows> voxelise_slabs(const std::vector<Slab>& slabs, const ClassTable& table,
+                                     const SurfaceOptions& options) {
+  std::vector<SlabRows> rows_of_slabs(slabs.size());
+  Runs runs(slabs.size(), 1);
+  run_jobs(options.jobs, [&](int) {
+    Voxeliser voxeliser(options.edge_m, options.epsilon_m);
+    std::vector<PieceVoxel> voxels;
+    SlabRows rows;
+    for (Runs::Run run; runs.next(run);) {
+      const Slab& slab = slabs[run.first];
+      rows.clear();
+      for (const PreparedShape* piece : slab.pieces) {
+        const ClassId class_id = table.class_of(piece->instance());
+        voxels.clear();
+        voxeliser.voxelise(*piece, slab, voxels);
+        for (const PieceVoxel& voxel : voxels) rows.push_back(row_of(voxel, slab, class_id));
+      }
+      make_unique(rows);
+      rows_of_slabs[run.first].assign(rows.begin(), rows.end());
     }
-  }
-  make_unique(rows);
-  return rows;
+  });
+  return rows_of_slabs;
 }
 
-PackedRows voxelise_all(const std::vector<PreparedShape>& pieces, const ClassTable& table,
-                        const SurfaceOptions& options) {
-  const std::vector<PreparedShape> solids = solids_of(pieces);
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] { return voxelise_pieces(pieces, solids, table, options, next); };
-  std::vector<std::future<PackedRows>> helpers;
-  for (int job = 1; job < options.jobs; ++job) {
-    helpers.push_back(std::async(std::launch::async, work));
+/// Gives the slabs' memory back as it goes.
+std::vector<SurfaceVoxel> joined(std::vector<SlabRows> rows_of_slabs,
+                                 const std::vector<Slab>& slabs) {
+  std::size_t count = 0;
+  for (const SlabRows& rows : rows_of_slabs) count += rows.size();
+  std::vector<SurfaceVoxel> voxels;
+  voxels.reserve(count);
+  for (std::size_t n = 0; n < slabs.size(); ++n) {
+    for (const SlabRow row : rows_of_slabs[n]) voxels.push_back(voxel_of_row(row, slabs[n]));
+    rows_of_slabs[n] = {};
   }
-  PackedRows rows = work();
-  for (auto& helper : helpers) {
-    const PackedRows more = helper.get();
-    const auto middle = rows.insert(rows.end(), more.begin(), more.end());
-    std::inplace_merge(rows.begin(), middle, rows.end());
-  }
-  make_unique(rows);
-  return rows;
+  return voxels;
 }
 
 }  // namespace
 
 SurfaceTruth::SurfaceTruth(std::vector<SurfaceVoxel> voxels, double edge_m)
-    : voxels_(std::move(voxels)), index_(voxels_.size()), edge_m_(edge_m) {
+    : voxels_(std::move(voxels)), edge_m_(edge_m) {
+  if (!voxels_.empty()) least_i_ = voxels_.front().key.i;
   for (std::size_t row = 0; row < voxels_.size(); ++row) {
     const SurfaceVoxel& voxel = voxels_[row];
-    index_.insert(pack(voxel.key), static_cast<std::uint32_t>(row));
+    const auto layer = static_cast<std::size_t>(voxel.key.i - least_i_);
+    if (layer >= layers_.size()) layers_.resize(layer + 1, row);
     if (voxel.class_id >= counts_.size()) counts_.resize(voxel.class_id + 1u);
     ++counts_[voxel.class_id];
   }
+  layers_.push_back(voxels_.size());
 }
 
 bool SurfaceTruth::contains(const VoxelKey& key, ClassId class_id) const {
@@ -115,15 +119,20 @@ bool SurfaceTruth::contains(const VoxelKey& key, ClassId class_id) const {
 }
 
 bool SurfaceTruth::touches_any(const VoxelKey& key) const {
-  return index_.find(pack(key)) != KeyIndex::kNone;
+  return !classes_at(key).empty();
 }
 
 std::span<const SurfaceVoxel> SurfaceTruth::classes_at(const VoxelKey& key) const {
-  const std::size_t first = index_.find(pack(key));
-  if (first == KeyIndex::kNone) return {};
-  std::size_t last = first;
-  while (last < voxels_.size() && voxels_[last].key == key) ++last;
-  return std::span(voxels_).subspan(first, last - first);
+  const std::int64_t layer = std::int64_t{key.i} - least_i_;
+  if (layer < 0 || layer + 1 >= static_cast<std::int64_t>(layers_.size())) return {};
+  const std::span all(voxels_);
+  const auto at = static_cast<std::size_t>(layer);
+  const std::span rows = all.subspan(layers_[at], layers_[at + 1] - layers_[at]);
+  const auto first = std::partition_point(
+      rows.begin(), rows.end(), [&key](const SurfaceVoxel& row) { return row.key < key; });
+  const auto last =
+      std::find_if(first, rows.end(), [&key](const SurfaceVoxel& row) { return row.key != key; });
+  return {first, last};
 }
 
 std::size_t SurfaceTruth::count(ClassId class_id) const {
@@ -134,14 +143,8 @@ SurfaceTruth surface_truth(const std::vector<Shape>& shapes, const ClassTable& t
                            const Pose& T_map_world, const SurfaceOptions& options) {
   check(options);
   const std::vector<PreparedShape> pieces = prepare(shapes, T_map_world);
-  const PackedRows rows = voxelise_all(pieces, table, options);
-  std::vector<SurfaceVoxel> voxels;
-  voxels.reserve(rows.size());
-  for (const PackedRow& row : rows) {
-    voxels.push_back(
-        {unpack(row.key), static_cast<ClassId>(row.class_touch / 2), row.class_touch % 2 == 1});
-  }
-  return {std::move(voxels), options.edge_m};
+  const std::vector<Slab> slabs = slabs_of(pieces, options.edge_m, options.epsilon_m);
+  return {joined(voxelise_slabs(slabs, table, options), slabs), options.edge_m};
 }
 
 }  // namespace mapscore::eval

@@ -7,9 +7,9 @@
 #include "core/geometry/pose.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/geometry/voxel.hpp"
-#include "eval/truth/key_index.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -38,7 +38,7 @@ class SurfaceTruth {
   SurfaceTruth(std::vector<SurfaceVoxel> voxels, double edge_m);
 
   [[nodiscard]] double edge_m() const { return edge_m_; }
-  /// True when the voxel lies in S_c; expected constant time.
+  /// True when the voxel lies in S_c; time grows with the logarithm of a layer's rows.
   [[nodiscard]] bool contains(const VoxelKey& key, ClassId class_id) const;
   /// True when any class touches the voxel, background included.
   [[nodiscard]] bool touches_any(const VoxelKey& key) const;
@@ -51,7 +51,8 @@ class SurfaceTruth {
 
  private:
   std::vector<SurfaceVoxel> voxels_;
-  KeyIndex index_;
+  std::int32_t least_i_ = 0;
+  std::vector<std::size_t> layers_;  ///< first row with i >= least_i_ + n; the last is their count
   std::vector<std::size_t> counts_;
   double edge_m_ = 0;
 };

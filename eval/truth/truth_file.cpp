@@ -5,22 +5,31 @@
 
 #include "core/error.hpp"
 
+#include <array>
 #include <bit>
+#include <charconv>
 #include <fstream>
 #include <string>
 #include <system_error>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace mapscore::eval {
 namespace {
 
-/// Class as it stands in the table; ids beyond it keep their number as a name.
-SemanticClass class_at(const ClassTable& table, ClassId id) {
-  if (id < table.classes.size()) return table.classes[id];
-  SemanticClass unknown;
-  unknown.id = id;
-  unknown.name = std::to_string(id);
-  return unknown;
+/// The classes as they stand in the table; ids of the truth beyond it have their number as a name.
+std::vector<SemanticClass> classes_of(const SurfaceTruth& truth, const ClassTable& table) {
+  std::vector<SemanticClass> classes = table.classes;
+  for (const SurfaceVoxel& voxel : truth.voxels()) {
+    while (voxel.class_id >= classes.size()) {
+      SemanticClass unknown;
+      unknown.id = static_cast<ClassId>(classes.size());
+      unknown.name = std::to_string(unknown.id);
+      classes.push_back(std::move(unknown));
+    }
+  }
+  return classes;
 }
 
 /// A CSV field, quoted where it must be.
@@ -35,22 +44,65 @@ std::uint32_t samples_at(const VisibleTruth* visible, const SurfaceVoxel& voxel)
   return visible == nullptr ? 0 : visible->samples(voxel.key, voxel.class_id);
 }
 
-std::string csv_of(const SurfaceTruth& truth, const VisibleTruth* visible,
-                   const ClassTable& table) {
-  std::string text = "i,j,k,class,touch_only,samples\n";
-  const auto number = [&text](std::int64_t n, char end) {
-    text += std::to_string(n);
-    text += end;
-  };
-  for (const SurfaceVoxel& voxel : truth.voxels()) {
-    number(voxel.key.i, ',');
-    number(voxel.key.j, ',');
-    number(voxel.key.k, ',');
-    text += field(class_at(table, voxel.class_id).name) + ',';
-    number(voxel.touch_only ? 1 : 0, ',');
-    number(samples_at(visible, voxel), '\n');
+/// A file under construction beside the one that it will replace: bytes go out in pieces, so that
+/// a truth of any size takes no memory for its text. Removed unless finished.
+class FileAside {
+ public:
+  explicit FileAside(const std::filesystem::path& file) : file_(file), aside_(file) {
+    aside_ += ".partial";
+    out_.open(aside_, std::ios::binary | std::ios::trunc);
   }
-  return text;
+  ~FileAside() {
+    std::error_code ignored;
+    if (!finished_) std::filesystem::remove(aside_, ignored);
+  }
+  FileAside(const FileAside&) = delete;
+  FileAside& operator=(const FileAside&) = delete;
+
+  /// Writes what has gathered and empties it, when there is enough of it.
+  void take(std::string& bytes, std::size_t enough = 1 << 16) {
+    if (bytes.size() < enough) return;
+    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.clear();
+  }
+
+  void finish() {
+    out_.close();
+    std::error_code failure;
+    if (out_) std::filesystem::rename(aside_, file_, failure);
+    finished_ = out_ && !failure;
+    if (finished_) return;
+    throw Error(file_.string() +
+                ": cannot be written; check that its folder exists, may be written " +
+                "to and has room");
+  }
+
+ private:
+  std::filesystem::path file_, aside_;
+  std::ofstream out_;
+  bool finished_ = false;
+};
+
+void append_number(std::string& text, std::int64_t n, char end) {
+  std::array<char, 24> digits{};
+  const auto last = std::to_chars(digits.data(), digits.data() + digits.size(), n).ptr;
+  text.append(digits.data(), last);
+  text += end;
+}
+
+void write_csv(FileAside& file, const SurfaceTruth& truth, const VisibleTruth* visible,
+               const std::vector<std::string>& names) {
+  std::string text = "i,j,k,class,touch_only,samples\n";
+  for (const SurfaceVoxel& voxel : truth.voxels()) {
+    append_number(text, voxel.key.i, ',');
+    append_number(text, voxel.key.j, ',');
+    append_number(text, voxel.key.k, ',');
+    text += names.at(voxel.class_id);
+    text += voxel.touch_only ? ",1," : ",0,";
+    append_number(text, samples_at(visible, voxel), '\n');
+    file.take(text);
+  }
+  file.take(text, 0);
 }
 
 /// Appends the bytes of a number, lowest first.
@@ -65,8 +117,8 @@ void put(std::string& bytes, Number number) {
   }
 }
 
-std::string ply_of(const SurfaceTruth& truth, const VisibleTruth* visible,
-                   const ClassTable& table) {
+void write_ply(FileAside& file, const SurfaceTruth& truth, const VisibleTruth* visible,
+               const std::vector<SemanticClass>& classes) {
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                       std::to_string(truth.voxels().size()) +
                       "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
@@ -74,31 +126,15 @@ std::string ply_of(const SurfaceTruth& truth, const VisibleTruth* visible,
                       "property uchar touch_only\nproperty uint samples\nend_header\n";
   for (const SurfaceVoxel& voxel : truth.voxels()) {
     const Eigen::Vector3d centre = centre_of(voxel.key, truth.edge_m());
-    const Colour colour = class_at(table, voxel.class_id).colour;
+    const Colour& colour = classes.at(voxel.class_id).colour;
     for (const double x : centre) put(bytes, static_cast<float>(x));
     for (const std::uint8_t c : {colour.r, colour.g, colour.b}) put(bytes, c);
     put(bytes, voxel.class_id);
     put(bytes, static_cast<std::uint8_t>(voxel.touch_only));
     put(bytes, samples_at(visible, voxel));
+    file.take(bytes);
   }
-  return bytes;
-}
-
-void write_whole(const std::filesystem::path& file, const std::string& bytes) {
-  std::filesystem::path aside = file;
-  aside += ".partial";
-  std::ofstream out(aside, std::ios::binary | std::ios::trunc);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  std::error_code failure;
-  if (out) std::filesystem::rename(aside, file, failure);
-  if (!out || failure) {
-    std::error_code ignored;
-    std::filesystem::remove(aside, ignored);
-    throw Error(file.string() +
-                ": cannot be written; check that its folder exists, may be written " +
-                "to and has room");
-  }
+  file.take(bytes, 0);
 }
 
 }  // namespace
@@ -111,10 +147,20 @@ void write_truth(const std::filesystem::path& file, const SurfaceTruth& truth,
                 " m do not match; compute both at one size");
   }
   const std::string ending = file.extension().string();
-  if (ending == ".csv") return write_whole(file, csv_of(truth, visible, table));
-  if (ending == ".ply") return write_whole(file, ply_of(truth, visible, table));
-  throw Error(file.string() +
-              ": truth is written as .csv or .ply; give the file one of these endings");
+  if (ending != ".csv" && ending != ".ply") {
+    throw Error(file.string() +
+                ": truth is written as .csv or .ply; give the file one of these endings");
+  }
+  const std::vector<SemanticClass> classes = classes_of(truth, table);
+  FileAside aside(file);
+  if (ending == ".csv") {
+    std::vector<std::string> names;
+    for (const SemanticClass& c : classes) names.push_back(field(c.name));
+    write_csv(aside, truth, visible, names);
+  } else {
+    write_ply(aside, truth, visible, classes);
+  }
+  aside.finish();
 }
 
 }  // namespace mapscore::eval

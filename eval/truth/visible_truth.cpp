@@ -81,4 +81,20 @@ VisibleTruth visible_truth(const SampleCounter& samples, const SurfaceTruth& sur
   return {std::move(voxels), samples.edge_m()};
 }
 
+VisibleTruth whole_surface(const SurfaceTruth& surface) {
+  std::vector<VisibleVoxel> voxels;
+  bool owned_by_touch = false;
+  for (const SurfaceVoxel& row : surface.voxels()) {  // by key, then class
+    if (row.class_id == kBackground) continue;
+    if (voxels.empty() || voxels.back().key != row.key) {
+      voxels.push_back({row.key, row.class_id, 0});
+      owned_by_touch = row.touch_only;
+    } else if (owned_by_touch && !row.touch_only) {
+      voxels.back().owner = row.class_id;
+      owned_by_touch = false;
+    }
+  }
+  return {std::move(voxels), surface.edge_m()};
+}
+
 }  // namespace mapscore::eval

@@ -3,11 +3,8 @@
 
 #include "eval/truth/voxelise.hpp"
 
-#include "core/error.hpp"
-
-#include <cmath>
+#include <algorithm>
 #include <span>
-#include <string>
 
 namespace mapscore::eval {
 namespace {
@@ -17,7 +14,6 @@ using Eigen::Vector3d;
 /// Blocks are kept by a wider margin than voxels, so that rounding never loses a voxel.
 constexpr double kBlockMargin_m = 10 * kContact_m;
 constexpr int kFinestCut = 3;  // 2^3 = 8 boxes along an edge, 512 in all
-constexpr double kFarthestIndex = (1 << 20) - 2;
 
 enum class Fate { buried, exposed, undecided };
 
@@ -52,38 +48,44 @@ bool any_stays(const PreparedShape& piece, const Box& box,
 
 }  // namespace
 
-Voxeliser::Voxeliser(const std::vector<PreparedShape>& solids, double edge_m, double epsilon_m)
-    : solids_(solids), edge_m_(edge_m), epsilon_m_(epsilon_m) {}
+Voxeliser::Voxeliser(double edge_m, double epsilon_m) : edge_m_(edge_m), epsilon_m_(epsilon_m) {}
 
-void Voxeliser::voxelise(const PreparedShape& piece, std::vector<PieceVoxel>& voxels) {
+void Voxeliser::voxelise(const PreparedShape& piece, const Slab& slab,
+                         std::vector<PieceVoxel>& voxels) {
   piece_ = &piece;
   voxels_ = &voxels;
-  const Block block = block_around(piece.bounds());
+  VoxelBlock block = block_around(piece, edge_m_, epsilon_m_);
+  block.low.i = std::max(block.low.i, slab.first_i);
+  block.high.i = std::min(block.high.i, slab.first_i + kSlabVoxels - 1);
+  if (block.low.i > block.high.i) return;
   const Box box = box_of(block, epsilon_m_ + kBlockMargin_m);
   others_.clear();
-  for (const PreparedShape& solid : solids_) {
-    if (solid.shape() != piece.shape() && solid.bounds().intersects(box)) others_.push_back(&solid);
+  for (const PreparedShape* solid : slab.solids) {
+    if (solid->shape() != piece.shape() && solid->bounds().intersects(box)) {
+      others_.push_back(solid);
+    }
   }
   descend(block, 0);
 }
 
-void Voxeliser::descend(const Block& block, std::size_t first_other) {
-  const Box box = box_of(block, epsilon_m_ + kBlockMargin_m);
-  if (!meets_surface(*piece_, box)) return;
-  const std::size_t first = others_.size();
-  const bool buried = push_others(box, first_other, first);
+void Voxeliser::descend(const VoxelBlock& block, std::size_t first_other) {
   const Eigen::Vector3i span{block.high.i - block.low.i, block.high.j - block.low.j,
                              block.high.k - block.low.k};
   int axis = 0;
+  const bool one_voxel = span.maxCoeff(&axis) == 0;
+  const Box box = box_of(block, epsilon_m_ + kBlockMargin_m);
+  if (!one_voxel && !meets_surface(*piece_, box)) return;
+  const std::size_t first = others_.size();
+  const bool buried = push_others(box, first_other, first);
   if (buried) {
     // nothing of it stays
-  } else if (span.maxCoeff(&axis) == 0) {
-    settle(block.low, box_of(block, epsilon_m_), first);
+  } else if (one_voxel) {
+    settle(block.low, first);
   } else {
     const auto index = [axis](VoxelKey& key) -> std::int32_t& {
       return axis == 0 ? key.i : axis == 1 ? key.j : key.k;
     };
-    Block lower = block, upper = block;
+    VoxelBlock lower = block, upper = block;
     index(lower.high) = index(lower.low) + span[axis] / 2;
     index(upper.low) = index(lower.high) + 1;
     descend(lower, first);
@@ -92,8 +94,9 @@ void Voxeliser::descend(const Block& block, std::size_t first_other) {
   others_.resize(first);
 }
 
-/// Decides one voxel whose block has met the surface.
-void Voxeliser::settle(const VoxelKey& key, const Box& cube, std::size_t first_other) {
+/// Decides one voxel.
+void Voxeliser::settle(const VoxelKey& key, std::size_t first_other) {
+  const Box cube = box_of({key, key}, epsilon_m_);
   if (!meets_surface(*piece_, cube)) return;
   const std::span others(others_.data() + first_other, others_.size() - first_other);
   if (!others.empty() && fate_of(cube, others) != Fate::exposed &&
@@ -116,18 +119,7 @@ bool Voxeliser::push_others(const Box& box, std::size_t first, std::size_t last)
   return false;
 }
 
-/// All voxels whose widened closed cube could meet the bounds.
-Voxeliser::Block Voxeliser::block_around(const Box& bounds) const {
-  const Vector3d low = (bounds.min().array() - epsilon_m_) / edge_m_ - 1.5;
-  const Vector3d high = (bounds.max().array() + epsilon_m_) / edge_m_ + 0.5;
-  if (low.minCoeff() < -kFarthestIndex || high.maxCoeff() > kFarthestIndex) {
-    throw Error("shape " + std::to_string(piece_->shape()) + ": reaches beyond 2^20 voxels of " +
-                std::to_string(edge_m_) + " m from the map's origin; take larger voxels or cut it");
-  }
-  return {voxel_of(low, 1.0), voxel_of(high, 1.0)};
-}
-
-Box Voxeliser::box_of(const Block& block, double margin_m) const {
+Box Voxeliser::box_of(const VoxelBlock& block, double margin_m) const {
   const VoxelKey past{block.high.i + 1, block.high.j + 1, block.high.k + 1};
   return widened({low_corner_of(block.low, edge_m_), low_corner_of(past, edge_m_)}, margin_m);
 }

@@ -5,6 +5,7 @@
 
 #include "core/geometry/voxel.hpp"
 #include "eval/truth/shape_tests.hpp"
+#include "eval/truth/slabs.hpp"
 
 #include <vector>
 
@@ -26,33 +27,24 @@ struct PieceVoxel {
 /// the 512. Other means any other shape, also of the same body. A mesh is treated triangle by
 /// triangle: a voxel stays when it stays for one of them, which is the same thing.
 ///
-/// Holds scratch memory: one per thread. `solids` is kept by reference.
+/// Holds scratch memory: one per thread.
 class Voxeliser {
  public:
-  /// `solids`: all pieces that have an inside, the one to be voxelised among them or not.
-  Voxeliser(const std::vector<PreparedShape>& solids, double edge_m, double epsilon_m);
+  Voxeliser(double edge_m, double epsilon_m);
 
-  /// Appends the voxels of `piece` that stay, each once, in no promised order. Throws Error when
-  /// the piece reaches beyond 2^20 voxels from the origin.
-  void voxelise(const PreparedShape& piece, std::vector<PieceVoxel>& voxels);
+  /// Appends the voxels of `piece` in the slab that stay, each once, in no promised order.
+  void voxelise(const PreparedShape& piece, const Slab& slab, std::vector<PieceVoxel>& voxels);
 
  private:
-  using Solids = std::vector<const PreparedShape*>;
-  struct Block {
-    VoxelKey low, high;  ///< both included
-  };
-
-  void descend(const Block& block, std::size_t first_other);
-  void settle(const VoxelKey& key, const Box& cube, std::size_t first_other);
+  void descend(const VoxelBlock& block, std::size_t first_other);
+  void settle(const VoxelKey& key, std::size_t first_other);
   bool push_others(const Box& box, std::size_t first, std::size_t last);
-  Block block_around(const Box& bounds) const;
-  Box box_of(const Block& block, double margin_m) const;
+  Box box_of(const VoxelBlock& block, double margin_m) const;
 
-  const std::vector<PreparedShape>& solids_;
   double edge_m_, epsilon_m_;
   const PreparedShape* piece_ = nullptr;
   std::vector<PieceVoxel>* voxels_ = nullptr;
-  Solids others_;  ///< a stack: each block's candidates from its `first_other` on
+  std::vector<const PreparedShape*> others_;  ///< a stack: a block's candidates from `first_other`
 };
 
 }  // namespace mapscore::eval

@@ -40,7 +40,7 @@ struct Offscreen::Context {
   }
 };
 
-Offscreen::Offscreen(const mjModel& model) : context_(std::make_unique<Context>()) {
+Offscreen::Offscreen(const mjModel& model, bool coarse) : context_(std::make_unique<Context>()) {
   quiet_mujoco();
   constexpr int kDepthBits = 24, kStencilBits = 8, kAccumulationBits = 0;
   const std::scoped_lock lock(loader_mutex());
@@ -49,7 +49,9 @@ Offscreen::Offscreen(const mjModel& model) : context_(std::make_unique<Context>(
   if (!context_->osmesa) throw Error("OSMesa: no context; install libosmesa6");
   context_->make_current();
   mjr_defaultContext(&context_->mujoco);
-  mjr_makeContext(&model, &context_->mujoco, mjFONTSCALE_50);
+  mjModel drawn = model;  // shares what it points to; only read, and only here
+  if (coarse) drawn.vis.quality.numquads = 1;
+  mjr_makeContext(&drawn, &context_->mujoco, mjFONTSCALE_50);
   mjr_setBuffer(mjFB_OFFSCREEN, &context_->mujoco);
   if (context_->mujoco.currentBuffer != mjFB_OFFSCREEN) {
     throw Error("OpenGL: no off-screen buffer; check the Mesa installation");

@@ -25,8 +25,9 @@ struct DepthScale {
 /// of other threads may live beside it.
 class Offscreen {
  public:
-  /// Throws Error when OSMesa gives no context or MuJoCo cannot use it.
-  explicit Offscreen(const mjModel& model);
+  /// `coarse`: one quadrilateral a side of a box. Throws Error when OSMesa gives no context or
+  /// MuJoCo cannot use it.
+  explicit Offscreen(const mjModel& model, bool coarse = false);
   ~Offscreen();
   Offscreen(const Offscreen&) = delete;
   Offscreen& operator=(const Offscreen&) = delete;

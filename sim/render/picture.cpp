@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "sim/render/eye.hpp"
 #include "sim/render/scene_buffer.hpp"
+#include "sim/world/shape_bounds.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -18,6 +19,8 @@ namespace mapscore::sim {
 namespace {
 
 constexpr int kSupersampling = 2;
+/// How much of a cube's colour depends on how it is lit.
+constexpr float kLitShare = 0.4f;
 
 void check(const View& view) {
   if (view.width_px < 1 || view.height_px < 1 || view.vfov_deg <= 0 || view.vfov_deg >= 180) {
@@ -48,6 +51,13 @@ Pose pose_of(const View& view) {
   return pose;
 }
 
+/// Large buildings are looked at from far away.
+void see_as_far_as(const View& view, mjvGLCamera& eye) {
+  constexpr double kBehindTarget = 3.0;
+  const double far_m = kBehindTarget * (view.target_m - view.eye_m).norm();
+  eye.frustum_far = std::max(eye.frustum_far, static_cast<float>(far_m));
+}
+
 std::vector<bool> hidden_classes(const ClassTable& table, const std::vector<std::string>& names) {
   std::vector<bool> hidden(table.classes.size(), false);
   for (const std::string& name : names) {
@@ -61,16 +71,46 @@ std::vector<bool> hidden_classes(const ClassTable& table, const std::vector<std:
   return hidden;
 }
 
-/// Pale and plain, so that cubes stand out.
-mjvGeom ghost(mjvGeom geom) {
-  for (int channel = 0; channel < 3; ++channel) {
-    geom.rgba[channel] = 0.5f + 0.2f * geom.rgba[channel];
-  }
-  geom.matid = geom.texid = -1;
-  geom.specular = 0.0f;
-  geom.emission = 0.4f;
-  return geom;
+/// Mean colour of a texture, 0 to 1.
+Eigen::Array3f mean_colour(const mjModel& model, int texture) {
+  const int channels = model.tex_nchannel[texture];
+  const int texels = model.tex_width[texture] * model.tex_height[texture];
+  const mjtByte* texel = model.tex_data + model.tex_adr[texture];
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  for (int i = 0; i < texels; ++i, texel += channels)
+    for (int c = 0; c < 3; ++c) sum[c] += texel[channels < 3 ? 0 : c];
+  return (sum / (255.0 * std::max(texels, 1))).cast<float>();
 }
+
+/// Draws geoms pale and plain, so that cubes stand out: under plain light black things get greys
+/// from 0.57 to 0.71, white ones from 0.78 to 0.97.
+class Ghosts {
+ public:
+  explicit Ghosts(const mjModel& model) : model_(model) {
+    for (int texture = 0; texture < model.ntex; ++texture)
+      textures_.push_back(mean_colour(model, texture));
+  }
+
+  [[nodiscard]] mjvGeom of(mjvGeom geom) const {
+    Eigen::Map<Eigen::Array3f> rgb(geom.rgba);
+    rgb = 0.28f + 0.1f * (rgb * texture_of(geom)).max(0.0f).min(1.0f);
+    geom.matid = geom.texid = -1;
+    geom.specular = 0.0f;
+    geom.emission = 1.55f;
+    return geom;
+  }
+
+ private:
+  [[nodiscard]] Eigen::Array3f texture_of(const mjvGeom& geom) const {
+    const int texture =
+        geom.matid < 0 ? -1 : model_.mat_texid[mjNTEXROLE * geom.matid + mjTEXROLE_RGB];
+    return texture < 0 ? Eigen::Array3f::Ones().eval()
+                       : textures_[static_cast<std::size_t>(texture)];
+  }
+
+  const mjModel& model_;
+  std::vector<Eigen::Array3f> textures_;
+};
 
 mjvGeom box_of(const Cube& cube) {
   const double half = 0.5 * cube.edge_m;
@@ -83,16 +123,29 @@ mjvGeom box_of(const Cube& cube) {
                          static_cast<float>(cube.colour.b) / 255.0f, 1.0f};
   mjvGeom geom;
   mjv_initGeom(&geom, mjGEOM_BOX, size, position, rotation, rgba);
-  geom.specular = 0.1f;
+  for (int channel = 0; channel < 3; ++channel) geom.rgba[channel] *= kLitShare;
+  geom.emission = (1.0f - kLitShare) / kLitShare;
+  geom.specular = 0.0f;
   return geom;
+}
+
+/// See View::open_ceiling.
+bool covers_room(const Shape& shape, const View& view) {
+  constexpr double kWide_m = 1.0, kOverhead_m = 0.9;
+  const Eigen::AlignedBox3d box = bounds_of(shape);
+  return box.sizes().x() > kWide_m && box.sizes().y() > kWide_m &&
+         box.min().z() > view.target_m.z() + kOverhead_m && box.max().z() < view.eye_m.z();
 }
 
 void add_scene(const World& world, const View& view, SceneBuffer& buffer) {
   const std::vector<bool> hidden = hidden_classes(world.classes(), view.hidden_classes);
-  for (const mjvGeom& geom : world.drawn().geoms) {
+  const Ghosts ghosts(world.model());
+  for (std::size_t i = 0; i < world.drawn().geoms.size(); ++i) {
+    const mjvGeom& geom = world.drawn().geoms[i];
     const InstanceId instance = world.geom_instances()[geom.objid];
     if (hidden[world.classes().class_of(instance)]) continue;
-    buffer.add(view.ghost_scene ? ghost(geom) : geom);
+    if (view.open_ceiling && covers_room(world.shapes()[i], view)) continue;
+    buffer.add(view.ghost_scene ? ghosts.of(geom) : geom);
   }
 }
 
@@ -105,8 +158,11 @@ cv::Mat3b draw_picture(const World& world, Offscreen& offscreen, const View& vie
   SceneBuffer buffer(world.model(), world.drawn(), world.drawn().geoms.size() + cubes.size());
   add_scene(world, view, buffer);
   for (const Cube& cube : cubes) buffer.add(box_of(cube));
-  buffer.look_through(gl_camera(camera, pose_of(view)));
+  mjvGLCamera eye = gl_camera(camera, pose_of(view));
+  see_as_far_as(view, eye);
+  buffer.look_through(eye);
   buffer.show_colours(false);
+  if (view.ghost_scene) buffer.light_plainly();
   buffer.hide_sky();
   offscreen.draw(camera.width_px, camera.height_px, buffer.scene());
   cv::Mat3b large, picture;

@@ -60,10 +60,10 @@ cv::Mat1w stored_depth(const cv::Mat1f& metres, double range_min_m, double range
 }  // namespace
 
 struct Renderer::State {
-  State(const World& drawn_world, bool with_shadows)
+  State(const World& drawn_world, bool with_shadows, bool coarse)
       : world(drawn_world),
         shadows(with_shadows),
-        offscreen(drawn_world.model()),
+        offscreen(drawn_world.model(), coarse),
         buffer(drawn_world.model(), drawn_world.drawn(), drawn_world.drawn().geoms.size()) {}
 
   Pose T_world_depth(const Pose& T_world_base) const {
@@ -126,8 +126,8 @@ struct Renderer::State {
   cv::Mat1f depth_buffer;  ///< as read, row 0 at the bottom
 };
 
-Renderer::Renderer(const World& world, bool shadows)
-    : state_(std::make_unique<State>(world, shadows)) {}
+Renderer::Renderer(const World& world, bool shadows, bool coarse)
+    : state_(std::make_unique<State>(world, shadows, coarse)) {}
 Renderer::~Renderer() = default;
 
 Frame Renderer::render(int index, double stamp_s, const Pose& T_world_base) {

@@ -16,7 +16,7 @@
 
 namespace mapscore::sim {
 
-/// A coloured cube drawn into a picture.
+/// A coloured cube drawn into a picture, its lightest side in its own colour.
 struct Cube {
   Eigen::Vector3d centre_world;
   double edge_m = 0.05;
@@ -31,14 +31,19 @@ struct View {
   double vfov_deg = 45;
   int width_px = 1280, height_px = 960;
   std::vector<std::string> hidden_classes;  ///< left out of the picture, e.g. the ceiling
-  bool ghost_scene = false;                 ///< draw the scene pale, so that cubes stand out
+  bool ghost_scene = false;  ///< draw the scene pale and lit plainly, so that cubes stand out
+  /// Leave out what lies flat between the eye and the room below it: what is wider than 1 m both
+  /// ways, more than 0.9 m above the target and wholly below the eye.
+  bool open_ceiling = false;
 };
 
 /// Off-screen renderer of one world on OSMesa: one context, used by one thread (the one that made
 /// it). Renders repeat bit for bit, also between contexts of different threads.
 class Renderer {
  public:
-  Renderer(const World& world, bool shadows);
+  /// `coarse` lights boxes at their corners alone: several times as fast where they are many, as in
+  /// pictures, but not as true to nearby lights.
+  Renderer(const World& world, bool shadows, bool coarse = false);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

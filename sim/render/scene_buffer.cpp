@@ -3,15 +3,38 @@
 
 #include "sim/render/scene_buffer.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 
 namespace mapscore::sim {
+namespace {
+
+mjvLight plain_light(const Eigen::Vector3f& direction, float ambient, float diffuse) {
+  mjvLight light{};
+  light.type = mjLIGHT_DIRECTIONAL;
+  light.texid = -1;
+  light.attenuation[0] = 1.0f;
+  light.cutoff = 180.0f;
+  Eigen::Map<Eigen::Vector3f>(light.dir) = direction.normalized();
+  Eigen::Map<Eigen::Vector3f>(light.ambient).setConstant(ambient);
+  Eigen::Map<Eigen::Vector3f>(light.diffuse).setConstant(diffuse);
+  return light;
+}
+
+}  // namespace
 
 SceneBuffer::SceneBuffer(const mjModel& model, const DrawnScene& drawn, std::size_t geoms) {
   mjv_defaultScene(&scene_);
   mjv_makeScene(&model, &scene_, static_cast<int>(std::max<std::size_t>(geoms, 1)));
   std::copy(drawn.lights.begin(), drawn.lights.end(), scene_.lights);
   scene_.nlight = static_cast<int>(drawn.lights.size());
+}
+
+void SceneBuffer::light_plainly() {
+  scene_.lights[0] = plain_light({0, 0, -1}, 0.5f, 0.25f);
+  scene_.lights[0].headlight = 1;
+  scene_.lights[1] = plain_light({0.35f, 0.6f, -1.0f}, 0.0f, 0.25f);
+  scene_.nlight = 2;
 }
 
 void SceneBuffer::show_colours(bool shadows) {

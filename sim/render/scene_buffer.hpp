@@ -23,6 +23,9 @@ class SceneBuffer {
 
   /// Lit colours, with or without shadows; no reflections.
   void show_colours(bool shadows);
+  /// Lights of its own in place of the scene's: towards what is looked at, and from above. A face
+  /// that is seen gets from 0.5 to 1 of its colour.
+  void light_plainly();
   void hide_sky() { scene_.flags[mjRND_SKYBOX] = 0; }
   /// One flat colour a geom: red + 256 green + 65536 blue = segid + 1.
   void show_ids();

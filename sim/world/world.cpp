@@ -7,9 +7,11 @@
 #include "sim/world/content_hash.hpp"
 #include "sim/world/robot_cameras.hpp"
 #include "sim/world/scene_builder.hpp"
+#include "sim/world/shape_scene.hpp"
 #include "sim/world/surfaces.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace mapscore::sim {
 
@@ -145,6 +147,22 @@ World World::load(const WorldFiles& files, const CameraOverrides& cameras) {
   return world;
 }
 
+World World::of_shapes(std::vector<Shape> shapes, const ClassTable& table) {
+  quiet_mujoco();
+  auto state = std::make_shared<State>();
+  ShapeScene scene = scene_of_shapes(std::move(shapes), table);
+  set_quality(*scene.model, {});
+  state->placed.model = std::move(scene.model);
+  state->drawn = std::move(scene.drawn);
+  state->assignment.table = table;
+  state->shapes = std::move(scene.shapes);
+  for (const Shape& shape : state->shapes)
+    state->assignment.geom_instances.push_back(shape.instance);
+  World world;
+  world.state_ = std::move(state);
+  return world;
+}
+
 const ClassTable& World::classes() const {
   return state_->assignment.table;
 }
@@ -167,7 +185,8 @@ const std::vector<InstanceId>& World::geom_instances() const {
   return state_->assignment.geom_instances;
 }
 bool World::robot_geom(int geom) const {
-  return state_->robot_body[state_->placed.model->geom_bodyid[geom]];
+  const std::vector<bool>& robot = state_->robot_body;
+  return !robot.empty() && robot[state_->placed.model->geom_bodyid[geom]];
 }
 const DrawnScene& World::drawn() const {
   return state_->drawn;

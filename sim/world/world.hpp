@@ -41,6 +41,11 @@ class World {
   /// pattern is doubled or unknown, or a drawn geom is of a kind that the truth cannot hold.
   [[nodiscard]] static World load(const WorldFiles& files, const CameraOverrides& cameras);
 
+  /// A world of nothing but surfaces and the classes that their instances belong to, as a recording
+  /// holds them, to make pictures of: no robot, no cameras, no hash. Throws Error when a class or
+  /// mesh cannot be used.
+  [[nodiscard]] static World of_shapes(std::vector<Shape> shapes, const ClassTable& table);
+
   [[nodiscard]] const ClassTable& classes() const;
   [[nodiscard]] const Calibration& calibration() const;
   /// Drawn surfaces in the world frame, the robot's left out.
@@ -50,7 +55,8 @@ class World {
   /// Content hash of scene, class file and robot (file bytes and included files as compiled).
   [[nodiscard]] const std::string& hash() const;
   [[nodiscard]] const mjModel_& model() const;
-  /// Instance id of each geom of the model; 0 for background. Robot geoms: see `robot_geom`.
+  /// Instance id of each geom of the model (of each shape, where the world is made of shapes); 0
+  /// for background. Robot geoms: see `robot_geom`.
   [[nodiscard]] const std::vector<InstanceId>& geom_instances() const;
   [[nodiscard]] bool robot_geom(int geom) const;
   /// What renderers draw; see sim/world/drawn_scene.hpp.

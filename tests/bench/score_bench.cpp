@@ -6,9 +6,11 @@
 #include "eval/score/distance_score.hpp"
 #include "eval/score/prediction.hpp"
 #include "eval/score/voxel_score.hpp"
+#include "tests/bench/peak_memory.hpp"
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -107,7 +109,8 @@ void score_map_distances(benchmark::State& state) {
   const ScoreOptions options;
   for (auto _ : state) {
     Counts counts = zero_counts(kClasses, options);
-    score_distances(map, 0.25, scene.distance_of, scene.samples, options, counts);
+    score_distances(map, 0.25, scene.distance_of, scene.samples, options, counts,
+                    static_cast<int>(state.range(1)));
     benchmark::DoNotOptimize(counts);
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(scene.map.size()));
@@ -122,10 +125,44 @@ void score_map_curves(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(scene.map.size()));
 }
 
+/// All that `score` computes of a map from its voxels on: snapshot, voxels, distances, curves.
+void score_map_in_full(benchmark::State& state) {
+  const Scene scene = make_scene(static_cast<int>(state.range(0)));
+  const int jobs = static_cast<int>(state.range(1));
+  const ScoreOptions options;
+  double peak_MiB = 0.0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    const bench::PeakMemory memory;
+    state.ResumeTiming();
+    const MapSnapshot map(scene.map);
+    Counts counts = score_voxels(map, 0.25, scene.surface, scene.visible, kClasses, options);
+    score_distances(map, 0.25, scene.distance_of, scene.samples, options, counts, jobs);
+    benchmark::DoNotOptimize(counts);
+    benchmark::DoNotOptimize(curves_of(map, scene.surface, scene.visible, kClasses));
+    peak_MiB = std::max(peak_MiB, memory.peak_MiB());
+  }
+  state.counters["voxels"] = static_cast<double>(scene.map.size());
+  state.counters["peak_MiB"] = peak_MiB;
+  state.counters["bar_ms"] = 1000;
+}
+
 // 200^2: the voxels of a furnished room at 5 cm; 1000^2: a map of a million voxels.
 BENCHMARK(take_snapshot)->Arg(200)->Arg(1000)->Unit(benchmark::kMillisecond);
 BENCHMARK(score_map)->Arg(200)->Arg(1000)->Unit(benchmark::kMillisecond);
-BENCHMARK(score_map_distances)->Arg(200)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK(score_map_distances)
+    ->ArgNames({"side", "jobs"})
+    ->Args({200, 1})
+    ->Args({1000, 1})
+    ->Args({1000, 2})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK(score_map_curves)->Arg(200)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK(score_map_in_full)
+    ->ArgNames({"side", "jobs"})
+    ->Args({1000, 1})
+    ->Args({1000, 2})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST_F(BadFlags, FilesThatAreNotThere) {
   expect_refused(mapscore({"info", path("nothing")}), {"nothing", "no such file"});
   expect_refused(mapscore({"truth", path("nothing"), "-o", path("t.csv")}), {"nothing", "give"});
   expect_refused(mapscore({"score", path("no.csv"), "--truth", path("tiny")}),
-                 {"no.csv", "check the path"});
+                 {"no.csv", "check that the file is there"});
 }
 
 TEST_F(BadFlags, LeaveNothingBehind) {

@@ -59,8 +59,9 @@ TEST_F(BadRecording, MapsThatDoNotFitIt) {
     write_text(path("map.csv"), text);
     return mapscore({"score", path("map.csv"), "--truth", path("tiny")});
   };
-  expect_refused(score("i,j,k,class\n0,0,0,elephant\n"), {"map.csv:2", "'elephant'"});
-  expect_refused(score("i,j,k,class\n0,zero,0,crate\n"), {"map.csv:2", "whole numbers"});
+  expect_refused(score("i,j,k,class\n0,0,0,elephant\n"), {"map.csv", "'elephant'", "--legend"});
+  expect_refused(score("i,j,k,class\n0,zero,0,crate\n"),
+                 {"map.csv:2", "'zero'", "no whole number"});
 }
 
 }  // namespace

@@ -11,7 +11,9 @@
 #include <octomap/ColorOcTree.h>
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <string>
 
 namespace mapscore {
 namespace {
@@ -166,6 +168,30 @@ TEST_F(MapFile, RefusesEveryTruncation) {
     EXPECT_THROW((void)SemanticMap::load(folder_ / "map.ot"), Error) << kept << " bytes";
     map_.save(folder_ / "map.ot");
   }
+}
+
+/// A semantic map's file, by hand: nodes one below the other, without classes.
+std::string chain_of(int nodes) {
+  std::string bytes = "# Octomap OcTree file\nid SemanticOcTree\nsize " + std::to_string(nodes) +
+                      "\nres 0.1\ndata\n";
+  for (int n = 0; n < nodes; ++n) {
+    bytes.append(6, '\0');  // log-odds and number of classes
+    bytes.push_back(n + 1 < nodes ? '\1' : '\0');
+  }
+  return bytes;
+}
+
+TEST_F(MapFile, RefusesNodesBelowTheFinestAndLeavesThatCoverTooMuch) {
+  const auto load = [&](int nodes) {
+    std::ofstream(folder_ / "map.ot", std::ios::binary) << chain_of(nodes);
+    return SemanticMap::load(folder_ / "map.ot").voxels().size();
+  };
+  EXPECT_EQ(load(17), 1u);
+  EXPECT_EQ(load(15), 64u);
+  EXPECT_THROW((void)load(18), Error);
+  EXPECT_THROW((void)load(1'000'000), Error) << "each node would be a call";
+  EXPECT_THROW((void)load(1), Error) << "the root alone covers 2^48 voxels";
+  EXPECT_THROW((void)load(8), Error) << "2^27 voxels";
 }
 
 TEST_F(MapFile, AnEmptyMapIsSavedLoadedAndExported) {

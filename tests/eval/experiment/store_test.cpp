@@ -37,10 +37,13 @@ TrialResult result_of(std::int64_t number) {
     c.at_tolerance = {{1, next(), next()}};
     c.accuracy = DistanceTally({0.01, 0.02});
     c.accuracy.add(0.001 * static_cast<double>(next()));
+    c.curve = {next(), next(), {{900, next(), next(), next(), next()}, {7, next(), 0, 0, next()}}};
+    c.boxes = {next(), next(), next(), next(), next(), next()};
   }
   Accounting& a = result.accounting;
   for (auto* count : {&a.frames, &a.detections, &a.skipped_no_points, &a.skipped_no_seed_point,
-                      &a.skipped_seed_off_object, &a.skipped_eroded_away, &a.points, &a.map_voxels})
+                      &a.skipped_seed_off_object, &a.skipped_eroded_away, &a.points, &a.map_voxels,
+                      &a.hits_beyond_span})
     *count = next();
   return result;
 }

@@ -7,6 +7,7 @@
 #include "tests/eval/experiment/tiny_experiment.hpp"
 #include "tests/support/plate_recording.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -98,6 +99,29 @@ TEST_F(PlateTrial, ShiftedByAPixelIsAsFarOffAsThePlateAndTheWall) {
   EXPECT_EQ(plate.completeness.within(2), 16);  // 5 cm
 }
 
+TEST_F(PlateTrial, CurveHasOneStepAtTheFirstHit) {
+  const ClassCurve curve = direct({kOnePixel}).counts.at(1).curve;
+  EXPECT_EQ(curve.visible, 16);
+  EXPECT_EQ(curve.steps, (std::vector<CurveStep>{{500, 16, 12, 12, 8'000'000'000}}));
+  EXPECT_EQ(curve.squared_error_billionth, 4'000'000'000);
+  EXPECT_EQ(direct({"score.unit=frame", kOnePixel}).counts.at(1).curve, curve);
+}
+
+TEST_F(PlateTrial, BoxOfTheDetectionReachesToTheWall) {
+  const BoxCounts exact = direct({}).counts.at(1).boxes;
+  EXPECT_EQ(exact, (BoxCounts{1, 0, 1'000'000'000, 1, 1, 1}));
+  // Three columns of the plate, x = -7.5 to 2.5 cm, and one of the wall, whose pixels are w wide;
+  // both boxes are 2.5 cm wider on each side.
+  const double w = 0.05 * 1.51 / 1.01;
+  const double volume = (2.5 * w + 0.075) * (3 * w + 0.05) * 0.55, common = 0.15 * 0.2 * 0.05;
+  const BoxCounts shifted = direct({kOnePixel}).counts.at(1).boxes;
+  EXPECT_EQ(shifted.detections, 1);
+  EXPECT_NEAR(static_cast<double>(shifted.iou_sum_nano) * 1e-9,
+              common / (0.2 * 0.2 * 0.05 + volume - common), 2e-9);
+  EXPECT_EQ(shifted.at_25, 0);
+  EXPECT_EQ(direct({}, Labels::truth).counts.at(1).boxes, BoxCounts{});
+}
+
 TEST_F(PlateTrial, IsAccountedFor) {
   const Accounting accounting = direct({kOnePixel}).accounting;
   EXPECT_EQ(accounting.frames, 1);
@@ -115,6 +139,8 @@ TEST_F(PlateTrial, ErodedAwayIsSkippedAndAllIsMissed) {
   EXPECT_EQ(result.accounting.skipped_eroded_away, 1);
   EXPECT_EQ(result.counts.at(1).predicted, 0);
   EXPECT_EQ(result.counts.at(1).missed_unmapped, 16);
+  EXPECT_EQ(result.counts.at(1).boxes, (BoxCounts{1, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(result.counts.at(1).curve, (ClassCurve{16, 0, {}}));
 }
 
 TEST_F(PlateTrial, MinSamplesLeavesVoxelsOfOneSampleOutOfTheRecall) {
@@ -201,6 +227,28 @@ TEST_F(TinyTrial, FramesByThemselvesAddUpToTheirFrames) {
   const TrialResult map = result_of(fused, recording(), table());
   EXPECT_GT(result.counts.at(1).visible, map.counts.at(1).visible);
   EXPECT_EQ(result.accounting.points, map.accounting.points);
+}
+
+TEST_F(TinyTrial, CurveHoldsTheCountsAtEveryThreshold) {
+  for (const char* unit : {"map", "frame"}) {
+    std::int64_t before = 0;
+    for (const double threshold : {0.95, 0.8, 0.6, 0.25}) {
+      const Task task =
+          plan(study_of(fmt::format("score: {{unit: {}, threshold: {}}}\n"
+                                    "faults: {{misregistration: {{magnitude_m: 0.03}}}}\n",
+                                    unit, threshold)))
+              .tasks.at(0);
+      const ClassCounts crate = result_of(task, recording(), table()).counts.at(1);
+      const CurvePoint point = point_at(crate.curve, threshold);
+      EXPECT_EQ(point.predicted, crate.predicted);
+      EXPECT_EQ(point.true_predicted, crate.true_predicted);
+      EXPECT_EQ(point.found, crate.found);
+      EXPECT_EQ(crate.curve.visible, crate.visible);
+      EXPECT_GE(crate.predicted, before);
+      before = crate.predicted;
+    }
+    EXPECT_GT(before, 0);
+  }
 }
 
 TEST_F(TinyTrial, DosesOfZeroChangeNothing) {

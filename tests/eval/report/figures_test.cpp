@@ -7,6 +7,7 @@
 #include "eval/report/figures_accuracy.hpp"
 #include "eval/report/figures_causes.hpp"
 #include "eval/report/figures_gnuplot.hpp"
+#include "eval/report/figures_threshold.hpp"
 #include "tests/eval/report/synthetic_summary.hpp"
 
 #include <gmock/gmock.h>
@@ -150,9 +151,56 @@ TEST_F(FiguresTest, ClassesAreShownApart) {
               ::testing::StartsWith("0 0.864367816 "));
 }
 
+// Direct at 20 mm, one seed: of 2 * 100 predicted 4 + 8 are false; those at 0.5, the rest at 0.9.
+TEST_F(FiguresTest, PrecisionAndRecallOverTheThreshold) {
+  const StudySummary summary = one_axis(1);
+  const FigureSheet sheet = precision_recall_figure(summary, StudyLayout(summary));
+  EXPECT_EQ(sheet.panels.size(), 2u);
+  EXPECT_EQ(sheet.panels[1].title, "misregistration = 20 mm");
+  EXPECT_EQ(sheet.panels[1].elements.size(), 4u);  // two methods, a line and a mark each
+  EXPECT_THAT(block(sheet.data, "# direct; misregistration = 20 mm; over the threshold"),
+              ElementsAre("0.85 1 0.900", "0.85 0.94 0.500"));
+  EXPECT_THAT(block(sheet.data, "# direct; misregistration = 20 mm; at the working threshold"),
+              ElementsAre("0.85 0.94"));
+}
+
+TEST_F(FiguresTest, ReliabilityByBinsOfATenth) {
+  const StudySummary summary = one_axis(1);
+  const FigureSheet sheet = reliability_figure(summary, StudyLayout(summary));
+  EXPECT_EQ(sheet.panels.size(), 4u);  // diagrams, and shares of voxels below
+  EXPECT_EQ(blocks(sheet.data), 4);
+  const auto bins = block(sheet.data, "# direct; misregistration = 20 mm; reliability");
+  ASSERT_EQ(bins.size(), 10u);
+  EXPECT_EQ(bins[5], "0.5 0.6 12 0.06 0.5 0");
+  EXPECT_EQ(bins[8], "0.8 0.9 0 0 - -");
+  EXPECT_EQ(bins[9], "0.9 1.0 188 0.94 0.9 1");
+}
+
+TEST_F(FiguresTest, OfManyDosesTheLeastMiddleAndGreatestAreShownAtTheMiddleOfTheSecondAxis) {
+  const SweepAxis shift{"faults.misregistration.magnitude_m",
+                        {"0", "0.01", "0.02", "0.03", "0.04"}};
+  const StudySummary summary = synthetic_summary(synthetic_study({"direct"}, {shift, kTurn}, 1));
+  const FigureSheet sheet = precision_recall_figure(summary, StudyLayout(summary));
+  ASSERT_EQ(sheet.panels.size(), 3u);
+  EXPECT_EQ(sheet.panels[1].title, "misregistration = 20 mm");
+  EXPECT_THAT(sheet.caption, HasSubstr(" At misregistration angle = 0.5 deg."));
+  // Cell 2 * 3 + 1 = 7: cups 0.02 + 0.14 = 0.16 false, chairs 0.2.
+  EXPECT_THAT(block(sheet.data, "# direct; misregistration = 20 mm; at the working threshold"),
+              ElementsAre("0.85 0.82"));
+}
+
+TEST_F(FiguresTest, WithoutASweepAllMethodsShareAPanelOverTheThreshold) {
+  const StudySummary summary = synthetic_summary(synthetic_study({"direct", "erosion"}, {}, 1));
+  const FigureSheet sheet = precision_recall_figure(summary, StudyLayout(summary));
+  ASSERT_EQ(sheet.panels.size(), 1u);
+  EXPECT_EQ(sheet.panels[0].elements.size(), 4u);
+  // Erosion: cups 0.06 false, chairs 0.1.
+  EXPECT_THAT(block(sheet.data, "# erosion; at the working threshold"), ElementsAre("0.85 0.92"));
+}
+
 TEST_F(FiguresTest, DrawsPngAndPdfWithScriptAndDataBeside) {
   const std::vector<fs::path> files = draw_figures(one_axis(), folder_);
-  ASSERT_EQ(files.size(), 6u);
+  ASSERT_EQ(files.size(), 10u);
   for (const fs::path& file : files) {
     SCOPED_TRACE(file.string());
     const std::string bytes = text_of(file);
@@ -182,7 +230,7 @@ TEST_F(FiguresTest, SameStudySameDataAndScript) {
 TEST_F(FiguresTest, NamesWithQuotesAreDrawn) {
   StudySummary summary = one_axis(1);
   summary.study.name = R"(a "study"\n of 'quotes')";
-  EXPECT_EQ(draw_figures(summary, folder_).size(), 6u);
+  EXPECT_EQ(draw_figures(summary, folder_).size(), 10u);
 }
 
 TEST_F(FiguresTest, AFailingScriptSaysWhy) {

@@ -109,6 +109,19 @@ TEST(PictureChoice, RefusesWhatIsNotSwept) {
   }
 }
 
+TEST(JudgedMap, LiesWhereItsFrameSays) {
+  const Pose T_map_world = map_from_world({1.0, 2.0, 0.5}, 0.3);
+  const JudgedMap map = judged_map(
+      "mine", "my map", testing::map_of({{{0, 0, 0}, kCup}, {{7, 7, 7}, kCup}}), 0.5,
+      surface_of({{{0, 0, 0}, kCup}}), visible_of({{{0, 0, 0}, kCup}, {{4, 0, 0}, kWall}}),
+      synthetic_table(), T_map_world);
+  EXPECT_EQ(map.name, "mine");
+  EXPECT_EQ(map.voxels.size(), 2u);
+  EXPECT_TRUE(map.T_world_map.isApprox(T_map_world.inverse()));
+  EXPECT_TRUE(map.seen_map.isApprox(
+      Eigen::AlignedBox3d(centre_of({0, 0, 0}, kEdge_m), centre_of({4, 0, 0}, kEdge_m))));
+}
+
 TEST(Captioned, KeepsThePictureAndShowsEveryColour) {
   const cv::Mat3b picture(100, 300, cv::Vec3b(10, 20, 30));
   const cv::Mat3b sheet = captioned(
@@ -119,6 +132,47 @@ TEST(Captioned, KeepsThePictureAndShowsEveryColour) {
   EXPECT_EQ(std::count(sheet.begin(), sheet.end(), cv::Vec3b(10, 20, 30)), 100 * 300);
 }
 
+TEST(Captioned, BreaksTitlesBetweenPhrases) {
+  const cv::Mat3b picture(20, 300, cv::Vec3b(10, 20, 30));
+  const int none = captioned(picture, "", {}).rows;
+  const int one = captioned(picture, "region growing, 20 mm", {}).rows;
+  const int two = captioned(picture, "region growing, misregistration = 20 mm", {}).rows;
+  EXPECT_EQ(none, 20);
+  EXPECT_GT(one, none);
+  EXPECT_GT(two, one);
+}
+
+/// Rows of a sheet from the first to the last that is not white, in columns first..end-1.
+int inked_rows(const cv::Mat3b& sheet, int first, int end) {
+  int top = sheet.rows, bottom = -1;
+  for (int v = 0; v < sheet.rows; ++v)
+    for (int u = first; u < end; ++u)
+      if (sheet(v, u)[0] < 128) {
+        top = std::min(top, v);
+        bottom = v;
+      }
+  return bottom - top + 1;
+}
+
+TEST(InColumns, DoesNotScaleTheTextWithThePictures) {
+  const cv::Mat3b picture(960, 1280, cv::Vec3b::all(255));
+  const CaptionedColumn column{"H", {picture}, {}};
+  const cv::Mat3b sheet = in_columns({column, column, column}, 640);
+  EXPECT_EQ(sheet.cols, 3 * 640);
+  EXPECT_GE(inked_rows(sheet, 0, 640), sheet.cols / 110) << "1.5 mm on 17 cm";
+}
+
+TEST(InColumns, AlignsPicturesUnderTitlesOfAnyLength) {
+  const cv::Mat3b picture(96, 128, cv::Vec3b(10, 20, 30));
+  const cv::Mat3b sheet =
+      in_columns({{"short", {picture, picture}, {{{255, 0, 0}, "one"}}},
+                  {"a longer title, of several phrases, that need lines", {picture, picture}, {}}},
+                 128);
+  EXPECT_EQ(std::count(sheet.begin(), sheet.end(), cv::Vec3b(10, 20, 30)), 4 * 96 * 128);
+  for (int v = 0; v < sheet.rows; ++v)
+    EXPECT_EQ(sheet(v, 0) == cv::Vec3b(10, 20, 30), sheet(v, 255) == cv::Vec3b(10, 20, 30)) << v;
+}
+
 TEST(WritePicture, WritesWhatItWasGiven) {
   const auto file = std::filesystem::temp_directory_path() / "mapscore_pictures_test.png";
   cv::Mat3b picture(4, 5, cv::Vec3b(1, 2, 3));
@@ -126,6 +180,16 @@ TEST(WritePicture, WritesWhatItWasGiven) {
   EXPECT_EQ(write_picture(file, picture), file);
   EXPECT_EQ(cv::norm(cv::imread(file.string()), picture, cv::NORM_INF), 0.0);
   std::filesystem::remove(file);
+}
+
+TEST(WritePicture, LeavesNothingBehindWhereItCannot) {
+  const auto folder = std::filesystem::temp_directory_path() / "mapscore_pictures_folder_test";
+  std::filesystem::create_directories(folder / "taken.png" / "by_a_folder");
+  const cv::Mat3b picture(4, 5, cv::Vec3b(1, 2, 3));
+  EXPECT_THROW(write_picture(folder / "taken.png", picture), Error);
+  EXPECT_THROW(write_picture(folder / "missing" / "picture.png", picture), Error);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

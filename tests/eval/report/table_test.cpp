@@ -22,15 +22,16 @@ StudySummary summary_of(int seeds) {
 
 TEST(ScoreTable, HasARowForEveryMethodAtEveryCell) {
   const Table table = score_table(summary_of(2), "cup");
-  EXPECT_THAT(table.columns,
-              ElementsAre("magnitude_m", "method", "precision", "recall", "F1", "IoU", "F1 spread",
-                          "registration F1", "lattice precision", "lattice recall"));
+  EXPECT_THAT(table.columns, ElementsAre("magnitude_m", "method", "precision", "recall", "F1",
+                                         "IoU", "AP", "F1 best", "threshold", "F1 spread",
+                                         "registration F1", "lattice precision", "lattice recall"));
   ASSERT_THAT(table.rows, SizeIs(4));
   // Cups at cell 1 of direct: 100 predicted a seed, 4 and 5 false; 200 visible a seed, 20 missed.
   // P = 191/200, R = 0.9, F = 2PR/(P+R), IoU = 360/(400 + 9); at dose zero P = 0.98, lattice P = 1.
-  // F of the seeds: P = 0.96 and 0.95.
-  EXPECT_THAT(table.rows[2], ElementsAre("0.01", "direct", "0.955", "0.900", "0.927", "0.880",
-                                         "0.924..0.929", "0.938", "1.000", "0.900"));
+  // F of the seeds: P = 0.96 and 0.95. At 0.9 all is right: AP = R, F = 2R/(1+R).
+  EXPECT_THAT(table.rows[2],
+              ElementsAre("0.01", "direct", "0.955", "0.900", "0.927", "0.880", "0.900", "0.947",
+                          "0.900", "0.924..0.929", "0.938", "1.000", "0.900"));
 }
 
 TEST(ScoreTable, SaysWhatItStandsOn) {

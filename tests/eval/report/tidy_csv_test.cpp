@@ -41,6 +41,8 @@ constexpr const char* kShiftedPlate[] = {"predicted,16",
                                          "missed_unmapped,4",
                                          "true_predicted_t1,12",
                                          "found_t1,16",
+                                         "boxes,1",
+                                         "boxes_unseen,0",
                                          "precision,0.75",
                                          "recall,0.75",
                                          "f1,0.75",
@@ -63,7 +65,16 @@ constexpr const char* kShiftedPlate[] = {"predicted,16",
                                          "accuracy_mean_m,0.123136104",
                                          "accuracy_p95_m,0.493",
                                          "completeness_mean_m,0.00625",
-                                         "completeness_p95_m,0.025"};
+                                         "completeness_p95_m,0.025",
+                                         "ap,0.5625",
+                                         "brier,0.25",
+                                         "ece,0.25",
+                                         "box_iou,0.037497588",
+                                         "box_25,0",
+                                         "box_50,0",
+                                         "box_75,0",
+                                         "f1_best,-",
+                                         "threshold_best,-"};
 
 TEST_F(TidyCsv, OfThePlateIsWhatIsCountedByHand) {
   sweep();
@@ -75,6 +86,13 @@ TEST_F(TidyCsv, OfThePlateIsWhatIsCountedByHand) {
   expect_lines("registration_ceiling,direct,0,\"[0.05, 0, 0]\",plate,f1,1\n");
   expect_lines("lattice_ceiling,direct,0,\"[0.05, 0, 0]\",pooled,recall,1\n");
   expect_lines("trial,direct,0,\"[0.05, 0, 0]\",all,points,16\n");
+}
+
+TEST_F(TidyCsv, MacroNamesItsRecallAndIou) {
+  sweep();
+  expect_lines(
+      "trial,direct,0,\"[0.05, 0, 0]\",macro,mpa,0.75\n"
+      "trial,direct,0,\"[0.05, 0, 0]\",macro,miou,0.6\n");
 }
 
 TEST_F(TidyCsv, EveryLineHasTheColumnsOfTheHeader) {

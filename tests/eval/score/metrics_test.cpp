@@ -77,6 +77,10 @@ TEST(Metrics, NamesCarryToleranceAndDistance) {
   counts.accuracy.add(0.05);
   counts.completeness.add(0.2, 3);
   counts.completeness.add(0.001);
+  counts.curve.visible = 2;
+  counts.curve.steps = {{800, 1, 1, 1, 800000000}, {300, 1, 0, 0, 300000000}};
+  counts.curve.squared_error_billionth = 40000000 + 90000000;
+  counts.boxes = {4, 7, 2600000000, 3, 3, 2};
   const std::vector<Metric> expected{{"precision", 0.5},
                                      {"recall", 0.5},
                                      {"f1", 0.5},
@@ -93,7 +97,14 @@ TEST(Metrics, NamesCarryToleranceAndDistance) {
                                      {"accuracy_mean_m", 0.025},
                                      {"accuracy_p95_m", 0.05},
                                      {"completeness_mean_m", 0.15025},
-                                     {"completeness_p95_m", 0.2}};
+                                     {"completeness_p95_m", 0.2},
+                                     {"ap", 0.5},
+                                     {"brier", 0.065},
+                                     {"ece", 0.25},
+                                     {"box_iou", 0.65},
+                                     {"box_25", 0.75},
+                                     {"box_50", 0.75},
+                                     {"box_75", 0.5}};
   const std::vector<Metric> metrics = metrics_of(counts);
   ASSERT_EQ(metrics.size(), expected.size());
   for (std::size_t m = 0; m < metrics.size(); ++m) {
@@ -118,6 +129,8 @@ TEST(Metrics, PooledAndMacroTakeDetectedClassesOnly) {
   EXPECT_DOUBLE_EQ(*value_of(macro, "precision"), 0.5);  // undefined for class 2
   EXPECT_DOUBLE_EQ(*value_of(macro, "recall"), 0.25);
   EXPECT_DOUBLE_EQ(*value_of(macro, "f1"), 0.25);
+  EXPECT_EQ(value_of(macro, "mpa"), value_of(macro, "recall"));
+  EXPECT_EQ(value_of(macro, "miou"), value_of(macro, "iou"));
   EXPECT_TRUE(macro_metrics(counts, table_of({false, false, false, true, false})).empty());
   EXPECT_THROW(static_cast<void>(macro_metrics(counts, table_of({false}))), Error);
   EXPECT_THROW(static_cast<void>(pool_detected(counts, table_of({false}))), Error);
@@ -139,20 +152,24 @@ TEST(Metrics, PoolingOverFramesIsTheSumOfCounts) {
   EXPECT_EQ(total[1].at_tolerance[0].found, found_within);
 }
 
+/// Every count a multiple of `n`, no two alike.
+ClassCounts counted_times(std::int64_t n) {
+  ClassCounts counts{n,     2 * n,  3 * n, 4 * n, 5 * n, 6 * n, 7 * n, 8 * n,
+                     9 * n, 10 * n, {},    {},    {},    {},    {}};
+  counts.at_tolerance = {{1, 11 * n, 12 * n}};
+  counts.accuracy = DistanceTally({0.01});
+  counts.accuracy.add(0.013, 13 * n);
+  counts.completeness = DistanceTally({0.01});
+  counts.completeness.add(0.001, 14 * n);
+  counts.curve = {15 * n, 16 * n, {{500, 17 * n, 18 * n, 19 * n, 20 * n}}};
+  counts.boxes = {21 * n, 22 * n, 23 * n, 24 * n, 25 * n, 26 * n};
+  return counts;
+}
+
 TEST(Metrics, PoolingAddsEveryCount) {
-  ClassCounts once{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, {{1, 11, 12}}, {}, {}};
-  once.accuracy = DistanceTally({0.01});
-  once.accuracy.add(0.013, 13);
-  once.completeness = DistanceTally({0.01});
-  once.completeness.add(0.001, 14);
-  ClassCounts twice{2, 4, 6, 8, 10, 12, 14, 16, 18, 20, {{1, 22, 24}}, {}, {}};
-  twice.accuracy = DistanceTally({0.01});
-  twice.accuracy.add(0.013, 26);
-  twice.completeness = DistanceTally({0.01});
-  twice.completeness.add(0.001, 28);
-  ClassCounts pooled = once;
-  pooled += once;
-  EXPECT_EQ(pooled, twice);
+  ClassCounts pooled = counted_times(1);
+  pooled += counted_times(2);
+  EXPECT_EQ(pooled, counted_times(3));
 }
 
 TEST(Metrics, CountsOfDifferentOptionsAreNotPooled) {

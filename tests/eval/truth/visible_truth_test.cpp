@@ -9,7 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <utility>
+#include <vector>
 
 namespace mapscore::eval {
 namespace {
@@ -215,6 +218,82 @@ TEST(VisibleTruth, RefusesMixedSizesAndNoSamples) {
   EXPECT_THROW((void)visible_truth(counter, SurfaceTruth({}, 0.05), 1), Error);
   EXPECT_THROW((void)visible_truth(counter, hand_surface(), 0), Error);
   EXPECT_TRUE(visible_truth(counter, hand_surface(), 1).voxels().empty());
+}
+
+using PlainCounts = std::map<VoxelKey, std::map<ClassId, std::uint32_t>>;
+
+void count_plainly(int n, const Calibration& calibration, const Pose& T_map_base, double edge_m,
+                   PlainCounts& counts) {
+  const Frame frame = random_frame(n);
+  for (int v = 0; v < 48; ++v) {
+    for (int u = 0; u < 64; ++u) {
+      const double z = frame.depth(v, u) / 5000.0;
+      if (frame.depth(v, u) == 0 || z < calibration.range_min_m || z > calibration.range_max_m) {
+        continue;
+      }
+      const Eigen::Vector3d p =
+          T_map_base * calibration.T_base_depth * calibration.depth.back_project(u, v, z);
+      const ClassId class_id = test::four_classes().class_of(frame.depth_label(v, u));
+      ++counts[voxel_of(p, edge_m)][class_id];
+    }
+  }
+}
+
+/// V by the words of its definition.
+std::map<VoxelKey, std::pair<ClassId, std::uint32_t>> plain_truth(const PlainCounts& counts,
+                                                                  const SurfaceTruth& surface,
+                                                                  std::uint32_t min_samples) {
+  std::map<VoxelKey, std::pair<ClassId, std::uint32_t>> truth;
+  for (const auto& [key, by_class] : counts) {
+    std::uint32_t total = 0, most = 0;
+    ClassId owner = kBackground;
+    for (const auto& [class_id, samples] : by_class) {
+      total += samples;
+      if (samples > most) owner = class_id;
+      most = std::max(most, samples);
+    }
+    if (total < min_samples || owner == kBackground || !surface.contains(key, owner)) continue;
+    truth[key] = {owner, total};
+  }
+  return truth;
+}
+
+TEST(VisibleTruth, OfAnySubsetEqualsAPlainRecountAtOddLattices) {
+  const Calibration calibration = wide_camera();
+  const ClassTable table = test::four_classes();
+  const struct {
+    double edge_m;
+    Eigen::Vector3d origin_m;
+    double yaw_rad;
+  } lattices[] = {
+      {0.0437, {0.0137, -3.77, 12.3}, 0.7}, {0.1, {0, 0, 0}, 0}, {0.1531, {-7, 2, 1e-3}, -3}};
+  std::size_t compared = 0;
+  for (const auto& lattice : lattices) {
+    const Pose T_map_world = map_from_world(lattice.origin_m, lattice.yaw_rad);
+    for (const std::vector<int>& subset : {std::vector{1}, {1, 3}, {0, 1, 2, 3, 4}}) {
+      SampleCounter counter(lattice.edge_m);
+      PlainCounts plain;
+      std::vector<SurfaceVoxel> rows;
+      for (const int n : subset) {
+        counter.add(random_frame(n), calibration, table, T_map_world * some_pose(n));
+        count_plainly(n, calibration, T_map_world * some_pose(n), lattice.edge_m, plain);
+      }
+      for (const auto& [key, by_class] : plain) {
+        rows.push_back({key, static_cast<ClassId>(1 + ((key.i + key.j) & 1)), false});  // by turns
+      }
+      const SurfaceTruth surface(std::move(rows), lattice.edge_m);
+      for (const int min_samples : {1, 2, 4}) {
+        const auto expected = plain_truth(plain, surface, static_cast<std::uint32_t>(min_samples));
+        const VisibleTruth truth = visible_truth(counter, surface, min_samples);
+        ASSERT_EQ(truth.voxels().size(), expected.size());
+        compared += expected.size();
+        for (const VisibleVoxel& voxel : truth.voxels()) {
+          EXPECT_EQ(std::pair(voxel.owner, voxel.samples), expected.at(voxel.key));
+        }
+      }
+    }
+  }
+  EXPECT_GT(compared, 400u);
 }
 
 }  // namespace

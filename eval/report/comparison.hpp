@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/report/summary.hpp"
+#include "eval/report/table.hpp"
+#include "eval/score/paired.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// What two methods of a study are compared by.
+struct ComparisonQuestion {
+  std::string a, b;                        ///< methods
+  std::string group{kPooled};              ///< one of StudySummary::groups()
+  std::vector<std::string> metrics{"f1"};  ///< figures of metrics_of_group, f1_best, threshold_best
+};
+
+/// One figure at one cell of the grid, seed by seed.
+struct ComparisonRow {
+  Cell cell;
+  std::string metric;
+  PairedComparison paired;
+  std::optional<double> p_holm;  ///< adjusted for all rows
+};
+
+/// Rows by cell, then metric. Throws Error, listing what there is, for an unknown method, group or
+/// metric; and when a metric is given twice, or a method is compared with itself.
+[[nodiscard]] std::vector<ComparisonRow> compare_methods(const StudySummary& summary,
+                                                         const ComparisonQuestion& question);
+
+/// The same for people: both means, the difference a - b, its interval (or range), p, p (Holm) and
+/// pairs. Errors as above.
+[[nodiscard]] Table comparison_table(const StudySummary& summary,
+                                     const ComparisonQuestion& question);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/score/box_score.hpp"
+
+#include "core/error.hpp"
+#include "core/geometry/depth_rays.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr std::int64_t kNano = 1'000'000'000;
+
+double volume(const Eigen::AlignedBox3d& box) {
+  return box.isEmpty() ? 0.0 : box.volume();
+}
+
+Eigen::AlignedBox3d widened(const Eigen::AlignedBox3d& box, double widen_m) {
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(widen_m);
+  return {box.min() - margin, box.max() + margin};
+}
+
+void check(const Frame& frame, const CameraModel& camera) {
+  const cv::Size size(camera.width_px, camera.height_px);
+  if (frame.depth.size() == size && frame.depth_label.size() == size) return;
+  throw Error(
+      fmt::format("frame {}: depth and depth_label must have the depth camera's size, {} x {}; "
+                  "check recording.yaml and that both images were read",
+                  frame.index, size.width, size.height));
+}
+
+}  // namespace
+
+double box_iou(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double widen_m) {
+  if (a.isEmpty() || b.isEmpty()) return 0.0;
+  const Eigen::AlignedBox3d wide_a = widened(a, widen_m), wide_b = widened(b, widen_m);
+  const double common = volume(wide_a.intersection(wide_b));
+  const double both = volume(wide_a) + volume(wide_b) - common;
+  return both > 0.0 ? common / both : 0.0;
+}
+
+std::vector<Eigen::AlignedBox3d> truth_boxes(const Frame& frame,
+                                             const Calibration& true_calibration,
+                                             std::size_t instance_count) {
+  check(frame, true_calibration.depth);
+  const DepthRays rays(true_calibration.depth);
+  std::vector<Eigen::AlignedBox3d> boxes(instance_count);
+  for (int v = 0; v < frame.depth.rows; ++v) {
+    const std::uint16_t* depth = frame.depth[v];
+    const std::uint16_t* label = frame.depth_label[v];
+    for (int u = 0; u < frame.depth.cols; ++u) {
+      if (depth[u] == 0 || label[u] == 0 || label[u] >= instance_count) continue;
+      const double z = depth[u] / kDepthUnitsPerMetre;
+      if (z < true_calibration.range_min_m || z > true_calibration.range_max_m) continue;
+      boxes[label[u]].extend(rays.point(u, v, z));
+    }
+  }
+  return boxes;
+}
+
+void BoxCounts::add(const Eigen::AlignedBox3d& box, const Eigen::AlignedBox3d& truth,
+                    double widen_m) {
+  if (truth.isEmpty()) {
+    ++unseen;
+    return;
+  }
+  const std::int64_t iou = std::llround(box_iou(box, truth, widen_m) * static_cast<double>(kNano));
+  ++detections;
+  iou_sum_nano += iou;
+  at_25 += 4 * iou >= kNano;
+  at_50 += 2 * iou >= kNano;
+  at_75 += 4 * iou >= 3 * kNano;
+}
+
+BoxCounts& BoxCounts::operator+=(const BoxCounts& other) {
+  detections += other.detections;
+  unseen += other.unseen;
+  iou_sum_nano += other.iou_sum_nano;
+  at_25 += other.at_25;
+  at_50 += other.at_50;
+  at_75 += other.at_75;
+  return *this;
+}
+
+std::vector<Metric> box_metrics(const BoxCounts& counts) {
+  return {{"box_iou", ratio(counts.iou_sum_nano, counts.detections * kNano)},
+          {"box_25", ratio(counts.at_25, counts.detections)},
+          {"box_50", ratio(counts.at_50, counts.detections)},
+          {"box_75", ratio(counts.at_75, counts.detections)}};
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/voxel.hpp"
+#include "eval/truth/shape_tests.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// A box of voxels, both corners included.
+struct VoxelBlock {
+  VoxelKey low, high;
+};
+
+/// All voxels whose closed cube, widened by `epsilon_m`, could meet the piece. Throws Error when it
+/// reaches beyond 2^20 voxels from the origin.
+[[nodiscard]] VoxelBlock block_around(const PreparedShape& piece, double edge_m, double epsilon_m);
+
+/// All voxels with first_i <= i < first_i + kSlabVoxels, and what could meet one of them. Rows of a
+/// truth are sorted by i first: slabs that are each sorted and follow each other are sorted as a
+/// whole, so that no more than one slab a thread is ever held in another form than the final one.
+struct Slab {
+  std::int32_t first_i = 0;
+  std::vector<const PreparedShape*> pieces;  ///< in their order
+  std::vector<const PreparedShape*> solids;  ///< those of them that have an inside
+};
+
+/// Thin enough to keep threads even and the slab in the processor's cache.
+inline constexpr std::int32_t kSlabVoxels = 8;
+
+/// The slabs that hold something, by rising i. Keeps pointers to `pieces`. Throws as block_around.
+[[nodiscard]] std::vector<Slab> slabs_of(const std::vector<PreparedShape>& pieces, double edge_m,
+                                         double epsilon_m);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/recording/recording.hpp"
+#include "tests/end_to_end/program.hpp"
+#include "tests/end_to_end/tiny_study.hpp"
+
+#include <octomap/ColorOcTree.h>
+#include <octomap/OcTree.h>
+
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+// Maps that other programs wrote, scored by the built program.
+
+namespace mapscore::testing {
+namespace {
+
+struct SeenPoint {
+  Eigen::Vector3d p_world;
+  ClassId class_id;
+};
+
+class ScoreMap : public TinyStudy {
+ protected:
+  /// Every depth sample of the tiny recording, frame by frame.
+  [[nodiscard]] std::vector<std::vector<SeenPoint>> seen() const {
+    const auto recording = eval::Recording::open(folder() / "tiny");
+    const Calibration& calibration = recording.info().calibration;
+    std::vector<std::vector<SeenPoint>> frames;
+    for (int n = 0; n < recording.frame_count(); ++n) {
+      const Frame frame = recording.read(n, {.depth = true, .depth_label = true});
+      const Pose T_world_depth = frame.T_world_base * calibration.T_base_depth;
+      auto& points = frames.emplace_back();
+      for (int v = 0; v < frame.depth.rows; ++v)
+        for (int u = 0; u < frame.depth.cols; ++u)
+          if (frame.depth(v, u) != 0)
+            points.push_back({T_world_depth * calibration.depth.back_project(
+                                                  u, v, frame.depth(v, u) / kDepthUnitsPerMetre),
+                              recording.info().table.class_of(frame.depth_label(v, u))});
+    }
+    return frames;
+  }
+
+  [[nodiscard]] Outcome score(const std::string& map, std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"score", path(map), "--truth", path("tiny")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return mapscore(arguments);
+  }
+
+  /// The value of one figure of `score --tidy`.
+  [[nodiscard]] std::string figure(const std::string& map, const std::string& class_and_metric,
+                                   std::vector<std::string> more = {}) const {
+    more.emplace_back("--tidy");
+    const Outcome outcome = score(map, more);
+    expect_done(outcome);
+    const std::size_t at = outcome.out.find("\n" + class_and_metric + ",");
+    if (at == std::string::npos) return "no such figure in: " + outcome.out;
+    const std::size_t value = at + class_and_metric.size() + 2;
+    return outcome.out.substr(value, outcome.out.find('\n', value) - value);
+  }
+};
+
+octomap::point3d to_octomap(const Eigen::Vector3d& p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
+TEST_F(ScoreMap, OfPlainOctoMapCalls) {
+  octomap::OcTree tree(0.05);
+  for (const auto& frame : seen())
+    for (const SeenPoint& point : frame) tree.updateNode(to_octomap(point.p_world), true);
+  tree.updateInnerOccupancy();
+  tree.prune();
+  ASSERT_TRUE(tree.write(path("map.ot")));
+  ASSERT_TRUE(tree.writeBinary(path("map.bt")));
+  for (const char* map : {"map.ot", "map.bt"}) {
+    EXPECT_EQ(figure(map, "surface,precision"), "1") << map;
+    EXPECT_EQ(figure(map, "surface,recall"), "1") << map;
+  }
+}
+
+TEST_F(ScoreMap, WithFreeSpaceCarvedByOctoMap) {
+  octomap::OcTree tree(0.05);
+  const auto recording = eval::Recording::open(folder() / "tiny");
+  int n = 0;
+  for (const auto& frame : seen()) {
+    octomap::Pointcloud cloud;
+    for (const SeenPoint& point : frame) cloud.push_back(to_octomap(point.p_world));
+    const Pose T_world_depth =
+        recording.T_world_base(n++) * recording.info().calibration.T_base_depth;
+    tree.insertPointCloud(cloud, to_octomap(T_world_depth.translation()));
+  }
+  tree.prune();
+  ASSERT_TRUE(tree.writeBinary(path("map.bt")));
+  EXPECT_GT(std::stod(figure("map.bt", "all,free_recall")), 0.9);
+  EXPECT_GT(std::stod(figure("map.bt", "all,free_precision")), 0.9);
+  EXPECT_GT(std::stod(figure("map.bt", "all,occupied_recall")), 0.9);
+}
+
+TEST_F(ScoreMap, OfAColorOcTreeInClassColours) {
+  octomap::ColorOcTree tree(0.05);
+  const auto table = eval::Recording::open(folder() / "tiny").info().table;
+  for (const auto& frame : seen()) {
+    for (const SeenPoint& point : frame) {
+      const Colour colour = table.classes.at(point.class_id).colour;
+      tree.updateNode(to_octomap(point.p_world), true);
+      tree.setNodeColor(point.p_world.x(), point.p_world.y(), point.p_world.z(), colour.r, colour.g,
+                        colour.b);
+    }
+  }
+  ASSERT_TRUE(tree.write(path("map.ot")));
+  EXPECT_GT(std::stod(figure("map.ot", "crate,f1")), 0.95);
+
+  write_text(path("legend.yaml"), "colours: {\"123456\": crate}\n");
+  const Outcome none = score("map.ot", {"--legend", path("legend.yaml")});
+  expect_refused(none, {"map.ot", "--legend", "--geometry"});
+  EXPECT_EQ(figure("map.ot", "surface,recall", {"--geometry"}), "1");
+}
+
+/// What pcl::io::savePCDFileBinary writes of an organised cloud of PointXYZL; a pixel without depth
+/// is NaN, as RGB-D drivers have it.
+TEST_F(ScoreMap, OfAnOrganisedPcd) {
+  const auto points = seen().front();
+  const std::size_t holes = 7;
+  std::ostringstream file;
+  file << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z label\n"
+          "SIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH "
+       << points.size() + holes << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS "
+       << points.size() + holes << "\nDATA binary\n";
+  const auto put = [&](const void* bytes) { file.write(static_cast<const char*>(bytes), 4); };
+  const auto put_point = [&](const Eigen::Vector3f& p, std::uint32_t label) {
+    for (int axis = 0; axis < 3; ++axis) put(&p[axis]);
+    put(&label);
+  };
+  for (const SeenPoint& point : points) put_point(point.p_world.cast<float>(), point.class_id);
+  for (std::size_t n = 0; n < holes; ++n)
+    put_point(Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()), 0);
+  write_text(path("map.pcd"), file.str());
+
+  expect_refused(score("map.pcd"), {"map.pcd", "7", "--skip_nan"});
+  EXPECT_EQ(figure("map.pcd", "crate,recall", {"--skip_nan", "--frames", "0"}), "1");
+}
+
+TEST_F(ScoreMap, RefusesWhatDoesNotFit) {
+  octomap::OcTree coarse(0.1);
+  coarse.updateNode(to_octomap(seen().front().front().p_world), true);
+  ASSERT_TRUE(coarse.write(path("coarse.ot")));
+  expect_refused(score("coarse.ot"), {"coarse.ot", "0.1", "--voxel_m 0.1", "--resample"});
+  expect_done(score("coarse.ot", {"--voxel_m", "0.1"}));
+  expect_done(score("coarse.ot", {"--resample"}));
+
+  write_text(path("map.csv"), "i,j,k,class\n2000,0,0,crate\n");
+  expect_refused(score("map.csv"), {"map.csv", "another frame", "--transform", "--trust_frame"});
+  expect_done(score("map.csv", {"--trust_frame"}));
+
+  write_text(path("legend.yaml"), "colours: {}\n");
+  expect_refused(score("map.csv", {"--legend", path("legend.yaml")}), {"legend.yaml", "no class"});
+  write_text(path("empty.csv"), "i,j,k,class\n");
+  expect_refused(score("empty.csv"), {"empty.csv", "empty"});
+  write_text(path("cut.ot"), bytes_of(path("coarse.ot")).substr(0, 120));
+  expect_refused(score("cut.ot"), {"cut.ot"});
+  expect_refused(score("coarse.ot", {"--resample", "--transform", "1 2 3"}), {"--transform"});
+  expect_refused(score("coarse.ot", {"--resample", "--frames", "9"}), {"9", "4 frames"});
+  expect_refused(score("map.txt"), {"map.txt", ".ply"});
+}
+
+TEST_F(ScoreMap, LabelImagesAgainstThemselves) {
+  // The tiny recording's instance ids equal its class ids.
+  const Outcome outcome =
+      mapscore({"score", path("tiny/label"), "--truth", path("tiny"), "--tidy"});
+  expect_done(outcome);
+  EXPECT_NE(outcome.out.find("all,miou,1\n"), std::string::npos) << outcome.out;
+}
+
+}  // namespace
+}  // namespace mapscore::testing

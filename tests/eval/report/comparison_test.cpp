@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/comparison.hpp"
+
+#include "tests/eval/recording/expect_error.hpp"
+#include "tests/eval/report/swept_plate.hpp"
+#include "tests/eval/report/synthetic_summary.hpp"
+
+#include <gmock/gmock.h>
+
+namespace mapscore::eval {
+namespace {
+
+using mapscore::testing::expect_error;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+StudySummary summary_of(int seeds) {
+  return testing::synthetic_summary(testing::synthetic_study(
+      {"direct", "erosion"}, {{"faults.misregistration.magnitude_m", {"0", "0.01"}}}, seeds));
+}
+
+std::string caption_of(const Table& table) {
+  std::string text;
+  for (const std::string& line : table.caption) text += line + '\n';
+  return text;
+}
+
+TEST(Comparison, HasARowForEachCellAndMetric) {
+  // Cups: 100 predicted, of which 2 (1 + 2 m + cell) + seed are false, so direct's precision is
+  // 0.04 above erosion's at each seed; recall is the same.
+  const auto rows =
+      compare_methods(summary_of(10), {"direct", "erosion", "cup", {"precision", "recall"}});
+  ASSERT_THAT(rows, SizeIs(4));
+  EXPECT_EQ(rows[2].cell.index, 1);
+  EXPECT_EQ(rows[2].metric, "precision");
+  const PairedComparison& precision = rows[2].paired;
+  EXPECT_EQ(precision.difference.kind, SpreadKind::interval);
+  EXPECT_EQ(precision.difference.seeds, 10);
+  EXPECT_NEAR(*precision.mean_a, 0.96 - 0.045, 1e-12);
+  EXPECT_NEAR(*precision.mean_b, 0.92 - 0.045, 1e-12);
+  EXPECT_NEAR(*precision.difference.mean, 0.04, 1e-12);
+  EXPECT_NEAR(*precision.difference.low, 0.04, 1e-12);
+  EXPECT_NEAR(*precision.difference.high, 0.04, 1e-12);
+  EXPECT_EQ(precision.p, 2.0 / 1024.0);
+  EXPECT_DOUBLE_EQ(*rows[2].p_holm, 4 * 2.0 / 1024.0);  // as the least of four; it is the second
+  EXPECT_EQ(rows[3].metric, "recall");
+  EXPECT_EQ(rows[3].paired.difference.mean, 0.0);
+  EXPECT_EQ(rows[3].paired.p, 1.0);
+  EXPECT_EQ(rows[3].p_holm, 1.0);
+}
+
+TEST(Comparison, PairsBySeedAndNotByPosition) {
+  StudySummary summary = summary_of(10);
+  ResultLine& erosion = summary.trials.at(1);
+  ASSERT_EQ(erosion.method, "erosion");
+  std::reverse(erosion.seeds.begin(), erosion.seeds.end());
+  std::reverse(erosion.results.begin(), erosion.results.end());
+  erosion.seeds.pop_back();  // seed 0
+  erosion.results.pop_back();
+  const auto rows = compare_methods(summary, {"direct", "erosion", "cup", {"precision"}});
+  EXPECT_EQ(rows[0].paired.difference.seeds, 9);
+  EXPECT_EQ(rows[0].paired.difference.undefined, 1);
+  EXPECT_NEAR(*rows[0].paired.difference.low, 0.04, 1e-12);
+  EXPECT_NEAR(*rows[0].paired.difference.high, 0.04, 1e-12);
+}
+
+TEST(ComparisonTable, ShowsBothMeansTheIntervalAndP) {
+  const Table table =
+      comparison_table(summary_of(10), {"erosion", "direct", "cup", {"precision", "recall"}});
+  EXPECT_THAT(table.columns,
+              ElementsAre("magnitude_m", "metric", "mean erosion", "mean direct", "difference",
+                          "low", "high", "spread", "p", "p (Holm)", "pairs"));
+  ASSERT_THAT(table.rows, SizeIs(4));
+  EXPECT_THAT(table.rows[0], ElementsAre("0", "precision", "0.8950", "0.9350", "-0.0400", "-0.0400",
+                                         "-0.0400", "95% interval", "0.0020", "0.0078", "10"));
+  EXPECT_THAT(table.rows[3], ElementsAre("0.01", "recall", "0.9000", "0.9000", "0.0000", "0.0000",
+                                         "0.0000", "95% interval", "1.0000", "1.0000", "10"));
+  EXPECT_THAT(caption_of(table),
+              AllOf(HasSubstr("synthetic: erosion - direct, cup classes; detected: cup, chair\n"),
+                    HasSubstr("10 seeds, paired seed by seed"),
+                    HasSubstr("95 % interval of the mean difference"),
+                    HasSubstr("not corrected for 4 rows; p (Holm) is"),
+                    HasSubstr("least p possible with 10 pairs: 0.0020; p (Holm): 0.0078")));
+}
+
+TEST(ComparisonTable, WithFewSeedsShowsTheRangeAndWhatPCanReach) {
+  const Table table = comparison_table(summary_of(4), {"direct", "erosion"});
+  ASSERT_THAT(table.rows, SizeIs(2));
+  EXPECT_EQ(table.rows[0][1], "f1");
+  EXPECT_EQ(table.rows[0][7], "range");
+  EXPECT_EQ(table.rows[0][8], "0.1250");
+  EXPECT_EQ(table.rows[0][9], "0.2500");
+  EXPECT_EQ(table.rows[0][10], "4");
+  EXPECT_THAT(caption_of(table),
+              AllOf(HasSubstr("no interval (fewer than 10 seeds)"), Not(HasSubstr("95 %")),
+                    HasSubstr("least p possible with 4 pairs: 0.1250; p (Holm): 0.2500")));
+}
+
+TEST(ComparisonTable, PrintsUndefinedFiguresAsDashes) {
+  StudySummary summary = summary_of(2);
+  for (ResultLine& line : summary.trials)
+    for (TrialResult& result : line.results) result.counts.at(1) = ClassCounts{};
+  const Table table = comparison_table(summary, {"direct", "erosion", "cup"});
+  EXPECT_THAT(table.rows[0], ElementsAre("0", "f1", "-", "-", "-", "-", "-", "-", "-", "-", "0"));
+}
+
+TEST(Comparison, ListsWhatThereIs) {
+  const StudySummary summary = summary_of(2);
+  const auto error = [&](const std::string& part, const ComparisonQuestion& question) {
+    expect_error(part, [&] { (void)comparison_table(summary, question); });
+  };
+  error("no method 'guess' in this study; there are: direct, erosion", {"direct", "guess"});
+  error("'direct' with itself; give two of: direct, erosion", {"direct", "direct"});
+  error("no group 'wall' in this study; there are: pooled, macro, cup, chair",
+        {"direct", "erosion", "wall"});
+  error("no metric 'F1' in this study; there are: precision, recall, f1, iou",
+        {"direct", "erosion", "pooled", {"F1"}});
+  error("metric 'f1' is given twice", {"direct", "erosion", "pooled", {"f1", "iou", "f1"}});
+  error("no metric; f1 is one", {"direct", "erosion", "pooled", {}});
+}
+
+TEST(Comparison, TakesEveryListedMetricInEveryGroup) {
+  const StudySummary summary = summary_of(2);
+  std::vector<std::string> metrics{kBestF1, kBestThreshold};
+  for (const Metric& metric : metrics_of_group(summary.trials[0].pooled, summary.table, kPooled))
+    if (metric.name != kBestF1 && metric.name != kBestThreshold) metrics.push_back(metric.name);
+  for (const std::string& group : summary.groups()) {
+    EXPECT_THAT(compare_methods(summary, {"direct", "erosion", group, metrics}),
+                SizeIs(2 * metrics.size()))
+        << group;
+  }
+}
+
+using ComparisonOfAStore = testing::SweptPlate;
+
+TEST_F(ComparisonOfAStore, StudyOfOneMethodHasNothingToCompare) {
+  sweep();
+  const StudySummary summary = summarise_store(results());
+  const std::string method = summary.trials.at(0).method;
+  expect_error("with itself", [&] { (void)compare_methods(summary, {method, method}); });
+}
+
+}  // namespace
+}  // namespace mapscore::eval
