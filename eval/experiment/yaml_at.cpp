@@ -4,6 +4,7 @@
 #include "eval/experiment/yaml_at.hpp"
 
 #include "core/error.hpp"
+#include "eval/recording/one_line.hpp"
 
 #include <fmt/format.h>
 #include <yaml-cpp/anchor.h>
@@ -102,8 +103,8 @@ YAML::Node load_one(const std::string& text, const std::string& source, bool lin
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     const int line = lines ? line_of(error.mark) : 0;
-    throw Error(
-        fmt::format("{}not YAML: {}; mend the syntax near here", located(source, line), error.msg));
+    throw Error(fmt::format("{}not YAML: {}; mend the syntax near here", located(source, line),
+                            one_line(error.msg)));
   }
 }
 
