@@ -124,7 +124,7 @@ std::vector<std::string> caption_of(const StudySummary& summary, const Compariso
       spread_note(study.seeds),
       fmt::format(
           "p: two-sided sign-flip permutation of the mean difference, {}; not corrected for "
-          "{} row{}; p (Holm) is",
+          "{} row{}; p (Holm): corrected",
           study.seeds <= kExactSignFlips ? "exact" : "by random sign patterns", rows,
           rows == 1 ? "" : "s"),
       fmt::format("least p possible with {} pair{}: {}; p (Holm): {}", study.seeds,

@@ -31,6 +31,16 @@ bool separates(const Vector3d& axis, const OrientedBox& form, const Vector3d& of
   return std::abs(axis.dot(offset)) > form_radius + axis.cwiseAbs().dot(box_half);
 }
 
+/// True when one of the form's axes is one of the map's. Both bodies are then prisms along it, and
+/// what lies apart does so along it or, seen along it, along a side of a rectangle: the crosses of
+/// edges are these same axes again.
+bool upright(const OrientedBox& form) {
+  for (int j = 0; j < 3; ++j) {
+    if ((form.R.col(j).array() == 0).count() == 2) return true;
+  }
+  return false;
+}
+
 /// `corners` relative to the centre of the box.
 bool separates(const Vector3d& axis, const Triangle& corners, const Vector3d& box_half) {
   const Vector3d at{axis.dot(corners[0]), axis.dot(corners[1]), axis.dot(corners[2])};
@@ -47,6 +57,7 @@ bool meets(const OrientedBox& form, const Box& box) {
     if (separates(Vector3d::Unit(i), form, offset, half)) return false;
     if (separates(form.R.col(i), form, offset, half)) return false;
   }
+  if (upright(form)) return true;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       if (separates(unit_cross(i, form.R.col(j)), form, offset, half)) return false;

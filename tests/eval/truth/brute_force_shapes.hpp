@@ -93,27 +93,33 @@ inline Shape laid_down(Shape shape) {
 }
 
 /// Decimal sizes and places, upright: faces, tips and rims fall onto the lattices of 1 to 10 cm
-/// (the first of each kind), within voxels (the second), or half way.
+/// (the first of each kind), within voxels (the second), half way, or 1.5e-9 m short of the
+/// lattice.
 inline std::vector<Shape> upright_shapes(ShapeKind kind) {
+  constexpr double kShort = 1.5e-9;
   switch (kind) {
     case ShapeKind::box:
       return {placed(kind, {0.1, 0.05, 0.15}, {0.3, -0.15, 0.25}),
               placed(kind, {0.083, 0.047, 0.131}, {0.3004, -0.1507, 0.2481}),
-              placed(kind, {0.1, 0.05, 0.15}, {0.3, -0.125, 0.2503})};
+              placed(kind, {0.1, 0.05, 0.15}, {0.3, -0.125, 0.2503}),
+              placed(kind, {0.1 - kShort, 0.05 - kShort, 0.15 - kShort}, {0.3, -0.15, 0.25})};
     case ShapeKind::plane:
       return {placed(kind, {0.2, 0.1, 0}, {0.1, 0.3, 0}),
               placed(kind, {0.2, 0.1, 0}, {0.1, 0.3, 1e-9}),
               placed(kind, {0.187, 0.113, 0}, {0.1017, 0.2994, -0.3003})};
     case ShapeKind::sphere:
       return {placed(kind, {0.1, 0, 0}, {0.2, -0.1, 0.3}),
-              placed(kind, {0.123, 0, 0}, {0.2104, -0.1007, 0.3})};
+              placed(kind, {0.123, 0, 0}, {0.2104, -0.1007, 0.3}),
+              placed(kind, {0.1 - kShort, 0, 0}, {0.2, -0.1, 0.3})};
     case ShapeKind::ellipsoid:
       return {placed(kind, {0.1, 0.2, 0.05}, {0.2, -0.1, 0.35}),
-              placed(kind, {0.087, 0.212, 0.041}, {0.2031, -0.1, 0.3533})};
+              placed(kind, {0.087, 0.212, 0.041}, {0.2031, -0.1, 0.3533}),
+              placed(kind, {0.1 - kShort, 0.2 - kShort, 0.05 - kShort}, {0.2, -0.1, 0.35})};
     case ShapeKind::cylinder:
     case ShapeKind::capsule:
       return {placed(kind, {0.1, 0.15, 0}, {0.2, -0.1, 0.25}),
-              placed(kind, {0.083, 0.142, 0}, {0.2011, -0.1, 0.2507})};
+              placed(kind, {0.083, 0.142, 0}, {0.2011, -0.1, 0.2507}),
+              placed(kind, {0.1 - kShort, 0.15 - kShort, 0}, {0.2, -0.1, 0.25})};
     case ShapeKind::mesh:
       return {placed(kind, {0, 0, 0}, {0.3, -0.15, 0.25}, box_mesh({0.1, 0.05, 0.15})),
               placed(kind, {0, 0, 0}, {0.1, 0.2, -0.3}, strip(6, 0.05, 0.05)),

@@ -20,7 +20,8 @@ struct ConvexSet {
   ShapeKind kind = ShapeKind::box;
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
   Pose T_map_set = Pose::Identity();
-  Triangle triangle{};  ///< mesh only, in the map frame
+  /// Mesh only, in the map frame.
+  Triangle triangle{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 
   [[nodiscard]] bool solid() const { return kind != ShapeKind::plane && kind != ShapeKind::mesh; }
 };
@@ -34,7 +35,13 @@ inline std::vector<ConvexSet> convex_sets_of(const Shape& shape, const Pose& T_m
                     Pose::Identity(),
                     {T_map_shape * t[0], T_map_shape * t[1], T_map_shape * t[2]}});
   }
-  if (sets.empty()) sets.push_back({shape.kind, shape.size, T_map_shape, {}});
+  if (sets.empty()) {
+    ConvexSet set;
+    set.kind = shape.kind;
+    set.size = shape.size;
+    set.T_map_set = T_map_shape;
+    sets.push_back(set);
+  }
   return sets;
 }
 
@@ -45,11 +52,13 @@ inline Eigen::Vector3d nearest_on_segment(const Eigen::Vector3d& a, const Eigen:
   return a + std::clamp(t, 0.0, 1.0) * (b - a);
 }
 
-/// The foot on the triangle's plane where it falls within, else the nearest point of an edge.
+/// The foot on the triangle's plane where it falls within, else the nearest point of an edge; also
+/// of a triangle without area.
 inline Eigen::Vector3d nearest_in_triangle(const Triangle& t, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+  const Eigen::Vector3d across = (t[1] - t[0]).cross(t[2] - t[0]);
+  const Eigen::Vector3d normal = across.normalized();
   const Eigen::Vector3d foot = p - normal.dot(p - t[0]) * normal;
-  bool within = true;
+  bool within = across.norm() > 1e-16;  // m^2
   Eigen::Vector3d nearest = t[0];
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d &a = t[i], &b = t[(i + 1) % 3];

@@ -56,9 +56,14 @@ constexpr std::array kCases{
     Case{-0.000501, 0.0005, kMeets, kNone},
 };
 
-/// A floor at z, or a box of a metre with its top there; both far wider than the column looked at.
+/// A floor at z, as a plane or as two triangles, or a box of a metre with its top there; all far
+/// wider than the column looked at.
 Shape floor_at(double z) {
   return test::placed(ShapeKind::plane, {0.5, 0.5, 0}, {0, 0, z});
+}
+Shape triangles_at(double z) {
+  const Eigen::Vector3d a(-0.5, -0.5, 0), b(0.5, -0.5, 0), c(0.5, 0.5, 0), d(-0.5, 0.5, 0);
+  return test::placed(ShapeKind::mesh, {0, 0, 0}, {0, 0, z}, {{a, b, c}, {a, c, d}});
 }
 Shape box_below(double z) {
   return test::placed(ShapeKind::box, {0.5, 0.5, 0.5}, {0, 0, z - 0.5});
@@ -79,7 +84,7 @@ void expect_layers(const SurfaceTruth& truth, int plane, const Case& c) {
 }
 
 using MakeShape = Shape (*)(double);
-constexpr std::array<MakeShape, 2> kMakers{floor_at, box_below};
+constexpr std::array<MakeShape, 3> kMakers{floor_at, triangles_at, box_below};
 
 TEST(LatticeFloor, LayersBesideThePlane) {
   for (const MakeShape make : kMakers) {

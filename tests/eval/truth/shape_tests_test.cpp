@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "tests/eval/truth/surface_patches.hpp"
+#include "tests/eval/truth/surface_witness.hpp"
 
 #include <gtest/gtest.h>
 
@@ -134,6 +135,34 @@ TEST(ShapeTests, AgreeWithSampledSurfacesAtRandomPoses) {
       EXPECT_GT(held, 0);
     }
   }
+}
+
+// Boxes and planes turned about one axis of the map take a shorter way through the separating axes.
+TEST(ShapeTests, FormsTurnedAboutOneAxisAgreeWithASearch) {
+  RandomStream random(11, "upright");
+  int met = 0, missed = 0;
+  for (int round = 0; round < 3000; ++round) {
+    Shape shape = shape_at(round % 4 == 0 ? ShapeKind::plane : ShapeKind::box,
+                           {0.02 + 0.3 * random.uniform(), 0.02 + 0.3 * random.uniform(),
+                            0.02 + 0.3 * random.uniform()},
+                           {0.3 * random.normal(), 0.3 * random.normal(), 0.3 * random.normal()});
+    shape.T_world_shape.linear() =
+        Eigen::AngleAxisd(6 * random.uniform(), Vector3d::Unit(round % 3)).toRotationMatrix();
+    const Box box = cube(-0.1, -0.15, -0.05, 0.05 + 0.2 * random.uniform());
+    const auto set = test::convex_sets_of(shape, Pose::Identity()).front();
+    const double found = test::near_pair(set, box).distance;
+    const bool meets =
+        std::visit([&](const auto& form) { return mapscore::eval::meets(form, box); },
+                   only_piece(shape).form());
+    ++(meets ? met : missed);
+    if (meets) {
+      EXPECT_LT(found, 1e-9) << "round " << round;
+    } else {
+      EXPECT_GT(found, 0) << "round " << round;
+    }
+  }
+  EXPECT_GT(met, 300);
+  EXPECT_GT(missed, 300);
 }
 
 // A box is moved to touch the surface from outside and from inside at a known gap; extreme

@@ -10,8 +10,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace mapscore::eval {
 namespace {
@@ -192,6 +195,46 @@ TEST(SurfaceTruth, MovesWithTheSceneByWholeVoxels) {
     row.key = {row.key.i + 7, row.key.j - 130, row.key.k - 3};
   }
   EXPECT_EQ(rows, moved);
+}
+
+TEST(SurfaceTruth, FindsItsRowsAndNothingElse) {
+  // Layers of i far apart, below and above 0, and lists of one and of several classes.
+  RandomStream random(17, "rows");
+  std::vector<SurfaceVoxel> rows;
+  for (const int i : {-1000, -999, -9, -8, -1, 0, 1, 7, 8, 700}) {
+    for (int n = 0; n < 20; ++n) {
+      const VoxelKey key{i, static_cast<int>(9 * random.uniform()) - 4,
+                         static_cast<int>(9 * random.uniform()) - 4};
+      for (ClassId c = 0; c < 3; ++c) {
+        if (random.uniform() < 0.5) rows.push_back({key, c, random.uniform() < 0.5});
+      }
+    }
+  }
+  const auto before = [](const SurfaceVoxel& a, const SurfaceVoxel& b) {
+    return std::pair(a.key, a.class_id) < std::pair(b.key, b.class_id);
+  };
+  std::stable_sort(rows.begin(), rows.end(), before);
+  rows.erase(std::unique(rows.begin(), rows.end(),
+                         [&](const auto& a, const auto& b) { return !before(a, b); }),
+             rows.end());
+  const SurfaceTruth truth(rows, 0.05);
+  for (const int i : {-2147483647, -1001, -1000, -999, -998, -9, -8, -7, -1, 0, 1, 2, 7, 8, 9, 699,
+                      700, 701, 2147483647}) {
+    for (int j = -5; j <= 5; ++j) {
+      for (int k = -5; k <= 5; ++k) {
+        std::vector<SurfaceVoxel> here;
+        std::copy_if(rows.begin(), rows.end(), std::back_inserter(here),
+                     [&](const SurfaceVoxel& row) {
+                       return row.key == VoxelKey{i, j, k};
+                     });
+        const auto found = truth.classes_at({i, j, k});
+        ASSERT_TRUE(std::equal(found.begin(), found.end(), here.begin(), here.end()));
+        ASSERT_EQ(truth.touches_any({i, j, k}), !here.empty());
+      }
+    }
+  }
+  EXPECT_FALSE(SurfaceTruth().touches_any({0, 0, 0}));
+  EXPECT_FALSE(SurfaceTruth({}, 0.05).touches_any({0, 0, 0}));
 }
 
 TEST(SurfaceTruth, RefusesOptionsThatMakeNoSense) {

@@ -107,8 +107,10 @@ inline NearPair near_pair(const ConvexSet& set, const ClosedBox& box) {
   for (int step = 0; step < 400; ++step) {
     const Eigen::Vector3d q = nearest_point(set, p);
     const double next = (q - p).norm();
-    if (next <= kFoundEnough_m || distance - next < 1e-14) return {p, next};
+    const bool stalled = distance - next < 1e-14;  // arrived, or creeping
+    if (next <= kFoundEnough_m || (stalled && next <= 1e-9)) return {p, next};
     if (proven_distance(p, q, box) > kFarEnough_m) return {p, next};
+    if (stalled) break;
     distance = next;
     p = q.cwiseMax(box.min()).cwiseMin(box.max());
   }
