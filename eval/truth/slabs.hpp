@@ -22,7 +22,7 @@ struct VoxelBlock {
 
 /// All voxels with first_i <= i < first_i + kSlabVoxels, and what could meet one of them. Rows of a
 /// truth are sorted by i first: slabs that are each sorted and follow each other are sorted as a
-/// whole, so that no more than one slab a thread is ever held in another form than the final one.
+/// whole, so that each can be packed as soon as it is done and all are joined in one pass.
 struct Slab {
   std::int32_t first_i = 0;
   std::vector<const PreparedShape*> pieces;  ///< in their order

@@ -11,8 +11,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>  // says whether this is glibc
 #include <string>
 #include <utility>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace mapscore::eval {
 namespace {
@@ -22,6 +27,8 @@ namespace {
 using SlabRow = std::uint64_t;
 using SlabRows = std::vector<SlabRow>;
 static_assert(kSlabVoxels == 8 && sizeof(ClassId) == 2);
+
+constexpr std::size_t kRowsToRelease = std::size_t{1} << 21;  // 16 MiB
 
 constexpr std::uint64_t kPackedOrigin = (std::uint64_t{1} << 20) << 42;  // of i = 0
 
@@ -83,16 +90,28 @@ std::vector<SlabRows> voxelise_slabs(const std::vector<Slab>& slabs, const Class
   return rows_of_slabs;
 }
 
-/// Gives the slabs' memory back as it goes.
+/// Hands freed memory back to the system; the C library alone would keep it for its threads.
+void release_freed() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+/// Gives the slabs' memory back as it goes, so that the peak is the result's own size.
 std::vector<SurfaceVoxel> joined(std::vector<SlabRows> rows_of_slabs,
                                  const std::vector<Slab>& slabs) {
   std::size_t count = 0;
   for (const SlabRows& rows : rows_of_slabs) count += rows.size();
   std::vector<SurfaceVoxel> voxels;
   voxels.reserve(count);
+  std::size_t freed = 0;
   for (std::size_t n = 0; n < slabs.size(); ++n) {
     for (const SlabRow row : rows_of_slabs[n]) voxels.push_back(voxel_of_row(row, slabs[n]));
-    rows_of_slabs[n] = {};
+    freed += rows_of_slabs[n].size();
+    rows_of_slabs[n] = SlabRows();  // `= {}` would keep the memory
+    if (freed < kRowsToRelease) continue;
+    release_freed();
+    freed = 0;
   }
   return voxels;
 }

@@ -19,7 +19,7 @@ namespace mapscore::eval::test {
 using ClosedBox = Eigen::AlignedBox3d;
 
 inline constexpr double kFoundEnough_m = 5e-11;  ///< near enough to stop searching
-inline constexpr double kFarEnough_m = 1e-8;     ///< proven distance at which to stop searching
+inline constexpr double kFarEnough_m = 1.2e-9;   ///< proven distance at which to stop searching
 
 /// Distance at which a segment that starts inside a solid and ends outside crosses the boundary, by
 /// halving: 0 up to the rounding of the last two points.
@@ -102,7 +102,9 @@ inline double proven_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& q
 /// they creep (near tangents), golden sections. A pair found far apart may be farther apart than
 /// the nearest one, but the box is then proven to be farther than `kFarEnough_m`.
 inline NearPair near_pair(const ConvexSet& set, const ClosedBox& box) {
-  Eigen::Vector3d p = box.center();
+  // From the box's point nearest to the middle of the set: where tangents of upright shapes are.
+  const Eigen::Vector3d middle = set.T_map_set.translation();
+  Eigen::Vector3d p = middle.cwiseMax(box.min()).cwiseMin(box.max());
   double distance = std::numeric_limits<double>::infinity();
   for (int step = 0; step < 400; ++step) {
     const Eigen::Vector3d q = nearest_point(set, p);
