@@ -15,11 +15,14 @@
 #include "eval/report/pictures.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/report/table.hpp"
+#include "eval/report/tidy_csv.hpp"
+#include "eval/report/whole_file.hpp"
 
 #include <fmt/format.h>
 
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 namespace mapscore::eval {
 namespace {
@@ -66,6 +69,16 @@ void print_pictures(const Pictures& pictures) {
   if (!pictures.skipped.empty()) std::cerr << "mapscore: no pictures: " << pictures.skipped << '\n';
 }
 
+/// Writes the figures of each frame where each was scored by itself, and prints the path.
+void write_frames(const TrialRun& trial, const ClassTable& table,
+                  const std::filesystem::path& file) {
+  if (trial.frames().empty()) return;
+  std::ostringstream csv;
+  write_frames_csv(trial.frames(), table, csv);
+  write_whole_file(file, csv.str());
+  std::cout << file.string() << '\n';
+}
+
 void run(const RunFlags& flags) {
   const std::optional<sim::View> view = flags.view.view();
   const Study study = flags.study.load();
@@ -82,6 +95,7 @@ void run(const RunFlags& flags) {
                     flags.work.memory_bytes);
   TruthCache truths(recording, table, frames, 1);
   TrialRun trial(task, recording, table, truths);
+  trial.keep_frames();
   Progress progress("run", "frames", flags.work.quiet);
   for (int frame = 0; frame < recording.frame_count(); ++frame) {
     trial.advance(*frames.get(frame));
@@ -104,6 +118,7 @@ void run(const RunFlags& flags) {
                    (folder / "map.ot").string(), recording.folder().string(), frame.edge_m,
                    frame.origin_m.x(), frame.origin_m.y(), frame.origin_m.z(),
                    task.config.map_yaw_deg, trial.threshold());
+  write_frames(trial, table, folder / "frames.csv");
   print_pictures(draw_pictures(
       study, table, recording,
       {spec.cell.doses, spec.method, spec.seed_index, flags.work.memory_bytes, view}, folder));

@@ -42,12 +42,13 @@ struct Range {
 }
 
 /// What there is to know of one key besides its type and its default. `range` bounds each number of
-/// it.
+/// it. Where the leaf's text is `unkeyed`, a trial's key is made without it (see to_key_yaml).
 struct Field {
   std::string_view key;
   std::string_view meaning;
   Range range = {};
   bool required = false;
+  std::string_view unkeyed = {};
 };
 
 /// Words of an enum in the order of its values 0, 1, ...; specialised beside the field lists.

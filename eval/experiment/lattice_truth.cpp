@@ -5,6 +5,7 @@
 
 #include "core/parallel.hpp"
 #include "eval/score/curve.hpp"
+#include "eval/score/reduced_tables.hpp"
 #include "eval/score/voxel_score.hpp"
 
 #include <algorithm>
@@ -159,29 +160,41 @@ TruthCache::TruthCache(const Recording& recording, const ClassTable& table, Fram
                        std::size_t capacity)
     : recording_(recording),
       table_(table),
+      instance_table_(instance_table(table)),
       frames_(frames),
       capacity_(capacity),
       boxes_(recording) {}
 
 std::shared_ptr<const LatticeTruth> TruthCache::get(const MapFrame& map_frame,
                                                     const TruthOptions& options) {
+  return get(entries_, table_, map_frame, options);
+}
+
+std::shared_ptr<const LatticeTruth> TruthCache::of_instances(const MapFrame& map_frame,
+                                                             TruthOptions options) {
+  options.distances = false;
+  return get(instance_entries_, instance_table_, map_frame, options);
+}
+
+TruthCache::Truth TruthCache::get(Entries& entries, const ClassTable& table,
+                                  const MapFrame& map_frame, const TruthOptions& options) {
   std::promise<Truth> promise;
   std::shared_future<Truth> truth = promise.get_future().share();
   {
     std::unique_lock lock(mutex_);
-    for (const Entry& entry : entries_) {
+    for (const Entry& entry : entries) {
       if (!(entry.map_frame == map_frame && entry.options == options)) continue;
       truth = entry.truth;
       lock.unlock();
       return truth.get();
     }
-    entries_.push_front({map_frame, options, truth});
-    if (entries_.size() > capacity_) entries_.pop_back();
+    entries.push_front({map_frame, options, truth});
+    if (entries.size() > capacity_) entries.pop_back();
   }
   try {
     constexpr int kOneJob = 1;  // the threads that ask are the parallelism
     promise.set_value(std::make_shared<const LatticeTruth>(
-        make_lattice_truth(recording_, table_, frames_, map_frame, options, kOneJob)));
+        make_lattice_truth(recording_, table, frames_, map_frame, options, kOneJob)));
   } catch (...) {
     promise.set_exception(std::current_exception());
   }

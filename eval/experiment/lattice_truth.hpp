@@ -80,9 +80,9 @@ struct LatticeTruth {
                                               FrameCache& frames, const MapFrame& map_frame,
                                               const TruthOptions& options, int jobs);
 
-/// Truths of the lattices in use, each made once; the oldest goes when more than `capacity` are
-/// held. Safe to use from several threads: whoever asks for a truth that is being made waits for
-/// it.
+/// Truths of the lattices in use, each made once; the oldest goes when more than `capacity` of a
+/// kind are held. Safe to use from several threads: whoever asks for a truth that is being made
+/// waits for it.
 class TruthCache {
  public:
   TruthCache(const Recording& recording, const ClassTable& table, FrameCache& frames,
@@ -90,6 +90,9 @@ class TruthCache {
 
   [[nodiscard]] std::shared_ptr<const LatticeTruth> get(const MapFrame& map_frame,
                                                         const TruthOptions& options);
+  /// As get, with every instance a class of its own (see instance_table) and without distances.
+  [[nodiscard]] std::shared_ptr<const LatticeTruth> of_instances(const MapFrame& map_frame,
+                                                                 TruthOptions options);
   /// What every trial compares its detections' boxes with; on no lattice.
   [[nodiscard]] FrameBoxes& boxes() { return boxes_; }
 
@@ -100,13 +103,18 @@ class TruthCache {
     TruthOptions options;
     std::shared_future<Truth> truth;
   };
+  using Entries = std::list<Entry>;  ///< most recently made first
+
+  [[nodiscard]] Truth get(Entries& entries, const ClassTable& table, const MapFrame& map_frame,
+                          const TruthOptions& options);
 
   const Recording& recording_;
   const ClassTable& table_;
+  ClassTable instance_table_;
   FrameCache& frames_;
   std::size_t capacity_;
   std::mutex mutex_;
-  std::list<Entry> entries_;  ///< most recently made first
+  Entries entries_, instance_entries_;
   FrameBoxes boxes_;
 };
 

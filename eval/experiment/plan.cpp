@@ -59,7 +59,7 @@ Task make_task(Study config, int seed_index, Labels labels, const std::string& r
   task.description =
       fmt::format("scoring_version: {}\nrecording: {}\nlabels: {}\nseed_index: {}\n{}",
                   kScoringVersion, recording_hash, labels == Labels::truth ? "truth" : "detected",
-                  seed_index, to_yaml(determining(config)));
+                  seed_index, to_key_yaml(determining(config)));
   task.key = content_hash(task.description);
   task.config = std::move(config);
   task.seed_index = seed_index;

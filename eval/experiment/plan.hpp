@@ -13,7 +13,7 @@ namespace mapscore::eval {
 
 /// Version of everything between a frame and its counts; part of every key, so that results of
 /// different definitions never stand side by side. Raise it when a definition changes.
-inline constexpr int kScoringVersion = 2;
+inline constexpr int kScoringVersion = 3;
 
 /// Which labels a task maps.
 enum class Labels {

@@ -15,7 +15,7 @@ namespace mapscore::eval {
 template <class Owner>
 using CountField = std::pair<const char*, std::int64_t Owner::*>;
 
-inline constexpr std::array<CountField<ClassCounts>, 10> kClassCountFields{{
+inline constexpr std::array<CountField<ClassCounts>, 12> kClassCountFields{{
     {"predicted", &ClassCounts::predicted},
     {"true_predicted", &ClassCounts::true_predicted},
     {"visible", &ClassCounts::visible},
@@ -26,6 +26,16 @@ inline constexpr std::array<CountField<ClassCounts>, 10> kClassCountFields{{
     {"missed_mislabelled", &ClassCounts::missed_mislabelled},
     {"missed_unlabelled", &ClassCounts::missed_unlabelled},
     {"missed_unmapped", &ClassCounts::missed_unmapped},
+    {"visible_4", &ClassCounts::visible_4},
+    {"found_4", &ClassCounts::found_4},
+}};
+
+inline constexpr std::array<CountField<InstanceCounts>, 5> kInstanceCountFields{{
+    {"instances_true_positive", &InstanceCounts::true_positive},
+    {"instances_false_positive", &InstanceCounts::false_positive},
+    {"instances_false_negative", &InstanceCounts::false_negative},
+    {"instances_iou_sum_billionth", &InstanceCounts::iou_sum_nano},
+    {"instances_void", &InstanceCounts::void_predicted},
 }};
 
 inline constexpr std::array<CountField<BoxCounts>, 6> kBoxCountFields{{

@@ -59,6 +59,32 @@ ClassCurve curve_from_json(const json& object) {
   return curve;
 }
 
+/// Steps as [score, predicted, true_predicted...], a true_predicted for each least IoU.
+json instances_to_json(const InstanceCounts& instances) {
+  json object = fields_to_json(instances, kInstanceCountFields);
+  object["steps"] = json::array();
+  for (const InstanceStep& step : instances.steps) {
+    json row{step.score, step.predicted};
+    for (const std::int64_t count : step.true_predicted) row.push_back(count);
+    object["steps"].push_back(std::move(row));
+  }
+  return object;
+}
+
+InstanceCounts instances_from_json(const json& object) {
+  InstanceCounts instances;
+  fields_from_json(object, instances, kInstanceCountFields);
+  for (const json& row : object.at("steps")) {
+    InstanceStep step;
+    step.score = row.at(0);
+    step.predicted = row.at(1);
+    for (std::size_t t = 0; t < step.true_predicted.size(); ++t)
+      step.true_predicted[t] = row.at(2 + t);
+    instances.steps.push_back(step);
+  }
+  return instances;
+}
+
 json counts_to_json(const ClassCounts& counts) {
   json object = fields_to_json(counts, kClassCountFields);
   object["at_tolerance"] = json::array();
@@ -68,6 +94,7 @@ json counts_to_json(const ClassCounts& counts) {
   object["completeness"] = tally_to_json(counts.completeness);
   object["curve"] = curve_to_json(counts.curve);
   object["boxes"] = fields_to_json(counts.boxes, kBoxCountFields);
+  if (counts.instances) object["instances"] = instances_to_json(*counts.instances);
   return object;
 }
 
@@ -80,6 +107,7 @@ ClassCounts counts_from_json(const json& object) {
   counts.completeness = tally_from_json(object.at("completeness"));
   counts.curve = curve_from_json(object.at("curve"));
   fields_from_json(object.at("boxes"), counts.boxes, kBoxCountFields);
+  if (object.contains("instances")) counts.instances = instances_from_json(object.at("instances"));
   return counts;
 }
 

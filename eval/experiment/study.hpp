@@ -142,6 +142,7 @@ struct ScoreSettings {
   double epsilon_m = 0.0005;
   std::vector<int> tolerances{0, 1};
   std::vector<double> distances_m{0.01, 0.02, 0.05, 0.1};
+  bool instances = false;
 
   bool operator==(const ScoreSettings&) const = default;
 };
@@ -214,6 +215,10 @@ void check(const Study& study);
 /// same study gives the same bytes; parsing them gives an equal study. Holds no path that the study
 /// did not hold.
 [[nodiscard]] std::string to_yaml(const Study& study);
+
+/// As to_yaml, for a trial's key: without the leaves that came after the first keys and stand at
+/// what was always done.
+[[nodiscard]] std::string to_key_yaml(const Study& study);
 
 /// Table of all keys in Markdown: type, unit, default, range, meaning. docs/study_reference.md is
 /// this text.

@@ -167,6 +167,10 @@ void fields(auto&& visit, Of<ScoreSettings> auto& s) {
   visit(Field{"tolerances", "tolerances of the match, in voxels; 0 is always counted", {0, 5}},
         s.tolerances);
   visit(Field{"distances_m", "distances of the F-score", above(0, 10)}, s.distances_m);
+  visit(Field{.key = "instances",
+              .meaning = "score instances too, the connected pieces of each class: PQ and AP",
+              .unkeyed = "false"},
+        s.instances);
 }
 
 void fields(auto&& visit, Of<Study> auto& s) {

@@ -7,6 +7,7 @@
 #include "core/mapping/pose_belief.hpp"
 #include "eval/experiment/doses.hpp"
 #include "eval/experiment/map_frame.hpp"
+#include "eval/score/instance_score.hpp"
 
 #include <limits>
 #include <utility>
@@ -76,26 +77,40 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       boxes_(truths.boxes()),
       truth_(truths.get(map_frame(task.config, task.seed_index), truth_options(task.config))),
       map_(task.config.voxel_m) {
-  result_.counts = zero_counts(table.classes.size(), score_options_);
+  if (task.config.score.instances)
+    instance_truth_ =
+        truths.of_instances(map_frame(task.config, task.seed_index), truth_options(task.config));
+  result_.counts = no_counts();
+}
+
+Counts TrialRun::no_counts() const {
+  Counts counts = zero_counts(table_.classes.size(), score_options_);
+  for (ClassCounts& of_class : counts)
+    if (instance_truth_) of_class.instances.emplace();
+  return counts;
 }
 
 void TrialRun::advance(const Frame& frame) {
   const bool by_itself = task_.config.score.unit == ScoreUnit::frame;
   if (by_itself) map_ = SemanticMap(map_.edge_m());
+  Counts counts = no_counts();
   const Observation observation =
-      task_.labels == Labels::truth ? observe_truth(frame) : observe(frame);
+      task_.labels == Labels::truth ? observe_truth(frame) : observe(frame, counts);
   const auto hits = place(observation, sensor_poses(frame.index), map_.edge_m());
   map_.blend(hits, blend_.N, blend_.K);
   ++result_.accounting.frames;
-  if (by_itself) score(truth_->view(frame.index));
+  if (by_itself) score(frame.index, counts);
+  pool_into(result_.counts, counts);
+  if (by_itself && keeps_frames_)
+    frames_.push_back({frame.index, frame.stamp_s, std::move(counts)});
 }
 
 TrialResult TrialRun::finish() {
-  if (task_.config.score.unit == ScoreUnit::map) score(truth_->view(0));
+  if (task_.config.score.unit == ScoreUnit::map) score(0, result_.counts);
   return std::move(result_);
 }
 
-Observation TrialRun::observe(const Frame& frame) {
+Observation TrialRun::observe(const Frame& frame, Counts& counts) {
   const std::vector<Detection> detections = detections_of(frame.label, table_);
   const RegisteredCloud cloud = register_depth(
       frame.depth, believed_, pixels_wanted(detections, frame.label.cols, frame.label.rows));
@@ -104,8 +119,7 @@ Observation TrialRun::observe(const Frame& frame) {
   for (const Detection& detection : detections) {
     Segment found = segment(detection, cloud, map_.edge_m(), segmentation_, place_voxels_);
     account(found);
-    result_.counts[found.class_id].boxes.add(found.box, true_boxes.at(found.instance),
-                                             0.5 * map_.edge_m());
+    counts[found.class_id].boxes.add(found.box, true_boxes.at(found.instance), 0.5 * map_.edge_m());
     observation.push_back({found.class_id, found.score,
                            std::move(place_voxels_ ? found.voxel_centres : found.points)});
   }
@@ -159,12 +173,19 @@ std::vector<Pose> TrialRun::sensor_poses(int frame) const {
   return poses;
 }
 
-void TrialRun::score(const ViewTruth& view) {
+void TrialRun::score(int frame, Counts& counts) {
   const MapSnapshot snapshot(map_.voxels());
   result_.accounting.hits_beyond_span += static_cast<std::int64_t>(map_.hits_beyond_span());
   result_.accounting.map_voxels += static_cast<std::int64_t>(snapshot.voxels().size());
-  pool_into(result_.counts,
-            truth_->score(snapshot, threshold_, view, table_.classes.size(), score_options_));
+  Counts scored = truth_->score(snapshot, threshold_, truth_->view(frame), table_.classes.size(),
+                                score_options_);
+  if (instance_truth_) {
+    const std::vector<InstanceCounts> instances =
+        score_instances(pieces_of(snapshot, threshold_), instance_truth_->surface,
+                        instance_truth_->view(frame).visible, table_);
+    for (std::size_t c = 0; c < scored.size(); ++c) scored[c].instances = instances[c];
+  }
+  pool_into(counts, scored);
 }
 
 }  // namespace mapscore::eval

@@ -19,12 +19,22 @@
 
 namespace mapscore::eval {
 
+/// One frame that was scored by itself.
+struct FrameResult {
+  int frame = 0;  ///< index in the recording
+  double stamp_s = 0.0;
+  Counts counts;  ///< by class id
+};
+
 /// One trial under way: takes the frames of a recording in order and ends in counts. Used by one
 /// thread at a time; `task`, `recording`, `table` and `truths` must outlive it.
 class TrialRun {
  public:
   TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
            TruthCache& truths);
+
+  /// Keeps the counts of each frame, where each is scored by itself. Call it before the first one.
+  void keep_frames() { keeps_frames_ = true; }
 
   /// Register, segment, place and fuse one frame under the trial's faults; and score it, where each
   /// frame is scored by itself.
@@ -33,18 +43,26 @@ class TrialRun {
   /// Scores the map and gives the counts of the whole trial.
   [[nodiscard]] TrialResult finish();
 
+  /// What was kept, in the order of the frames; added up, the counts of the trial.
+  [[nodiscard]] const std::vector<FrameResult>& frames() const { return frames_; }
+
   /// The map as it stands; of the last frame where each is scored by itself.
   [[nodiscard]] const SemanticMap& map() const { return map_; }
   [[nodiscard]] double threshold() const { return threshold_; }
   [[nodiscard]] const LatticeTruth& truth() const { return *truth_; }
 
  private:
-  [[nodiscard]] Observation observe(const Frame& frame);
+  /// Zero counts of a trial, or of one of its frames.
+  [[nodiscard]] Counts no_counts() const;
+  /// Counts the boxes of the detections.
+  [[nodiscard]] Observation observe(const Frame& frame, Counts& counts);
   /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
   void account(const Segment& segment);
   [[nodiscard]] std::vector<Pose> sensor_poses(int frame) const;
-  void score(const ViewTruth& view);
+  /// Adds the counts of the map as it stands, against the view of that frame or, where the map is
+  /// scored, the only one.
+  void score(int frame, Counts& counts);
 
   const Task& task_;
   const ClassTable& table_;
@@ -59,8 +77,11 @@ class TrialRun {
   ScoreOptions score_options_;
   FrameBoxes& boxes_;  ///< true ones, shared by all trials
   std::shared_ptr<const LatticeTruth> truth_;
+  std::shared_ptr<const LatticeTruth> instance_truth_;  ///< none where instances are not scored
   SemanticMap map_;
   TrialResult result_;
+  bool keeps_frames_ = false;
+  std::vector<FrameResult> frames_;
 };
 
 /// What a task's method is told of the cameras, with its faults.

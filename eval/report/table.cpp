@@ -46,6 +46,8 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
       "ceilings: lattice = true labels on the depth pixels, true pose; registration = the method "
       "at dose "
       "zero"};
+  if (study.score.instances)
+    caption.emplace_back("PQ: of instances; a predicted one is a connected piece of one class");
   return caption;
 }
 
@@ -69,7 +71,7 @@ Table score_table(const StudySummary& summary, const std::string& group) {
   std::vector<std::pair<std::string, std::string>> metrics{
       {"precision", "precision"}, {"recall", "recall"}, {"F1", "f1"}, {"IoU", "iou"}};
   for (const auto& [title, name] : std::vector<std::pair<std::string, std::string>>{
-           {"F1 tol. 1", "f1_t1"}, {"F at 2 cm", "f_2cm"}})
+           {"F1 tol. 1", "f1_t1"}, {"F at 2 cm", "f_2cm"}, {"PQ", "pq"}})
     if (!summary.trials.empty() && has_metric(summary.trials.front(), summary, name))
       metrics.emplace_back(title, name);
   for (const auto& [title, name] : std::vector<std::pair<std::string, std::string>>{

@@ -19,7 +19,7 @@ struct Table {
 };
 
 /// Scores of every method at every cell for one group of classes ("pooled", "macro" or a class), at
-/// tolerance 0 and, where scored, 1 and by distance, with both ceilings.
+/// tolerance 0 and, where scored, 1, by distance and of instances, with both ceilings.
 [[nodiscard]] Table score_table(const StudySummary& summary, const std::string& group);
 
 /// Column of a swept path: its last part, or all of it where two end alike.

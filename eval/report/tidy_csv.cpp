@@ -26,6 +26,11 @@ std::vector<Metric> counts_as_metrics(const ClassCounts& c) {
   }
   add("boxes", c.boxes.detections);
   add("boxes_unseen", c.boxes.unseen);
+  if (!c.instances) return metrics;
+  add("instances_true_positive", c.instances->true_positive);
+  add("instances_false_positive", c.instances->false_positive);
+  add("instances_false_negative", c.instances->false_negative);
+  add("instances_void", c.instances->void_predicted);
   return metrics;
 }
 
@@ -85,6 +90,21 @@ void write_tidy_csv(const StudySummary& summary, std::ostream& out) {
   for (const auto* lines :
        {&summary.trials, &summary.registration_ceilings, &summary.lattice_ceilings})
     for (const ResultLine& line : *lines) write_line(line, summary, out);
+}
+
+void write_frames_csv(std::span<const FrameResult> frames, const ClassTable& table,
+                      std::ostream& out) {
+  std::vector<std::string> groups;
+  for (const SemanticClass& c : table.classes)
+    if (c.detect) groups.push_back(c.name);
+  groups.emplace_back(kPooled);
+  out << csv_line({"frame", "stamp_s", "class", "metric", "value"});
+  for (const FrameResult& frame : frames) {
+    const std::string index = std::to_string(frame.frame), stamp = fmt::format("{}", frame.stamp_s);
+    for (const std::string& group : groups)
+      for (const Metric& metric : tidy_metrics(frame.counts, table, group))
+        out << csv_line({index, stamp, group, metric.name, text_of(metric.value)});
+  }
 }
 
 }  // namespace mapscore::eval

@@ -3,9 +3,13 @@
 
 #pragma once
 
+#include "eval/experiment/trial_run.hpp"
 #include "eval/report/summary.hpp"
 
 #include <iosfwd>
+#include <span>
+#include <string_view>
+#include <vector>
 
 namespace mapscore::eval {
 
@@ -17,5 +21,10 @@ namespace mapscore::eval {
 /// Columns: role, method, seed, one a swept path, class, metric, value; `-` is undefined. Same
 /// study, same bytes.
 void write_tidy_csv(const StudySummary& summary, std::ostream& out);
+
+/// Tidy CSV of the frames of one trial, each scored by itself: columns frame, stamp_s, class
+/// (detected ones, then pooled), metric, value. Same frames, same bytes.
+void write_frames_csv(std::span<const FrameResult> frames, const ClassTable& table,
+                      std::ostream& out);
 
 }  // namespace mapscore::eval

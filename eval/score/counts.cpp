@@ -35,6 +35,16 @@ void pool_tolerances(std::vector<ToleranceCounts>& total,
   }
 }
 
+void pool_instances(std::optional<InstanceCounts>& total,
+                    const std::optional<InstanceCounts>& other) {
+  if (total.has_value() != other.has_value()) {
+    throw Error(
+        "score: counts with and without instances cannot be pooled; score both with the same "
+        "score.instances");
+  }
+  if (total) *total += *other;
+}
+
 }  // namespace
 
 void check(const ScoreOptions& options) {
@@ -52,6 +62,7 @@ void check(const ScoreOptions& options) {
 
 ClassCounts& ClassCounts::operator+=(const ClassCounts& other) {
   pool_tolerances(at_tolerance, other.at_tolerance);
+  pool_instances(instances, other.instances);
   predicted += other.predicted;
   true_predicted += other.true_predicted;
   visible += other.visible;
@@ -62,6 +73,8 @@ ClassCounts& ClassCounts::operator+=(const ClassCounts& other) {
   missed_mislabelled += other.missed_mislabelled;
   missed_unlabelled += other.missed_unlabelled;
   missed_unmapped += other.missed_unmapped;
+  visible_4 += other.visible_4;
+  found_4 += other.found_4;
   accuracy += other.accuracy;
   completeness += other.completeness;
   curve += other.curve;

@@ -7,8 +7,10 @@
 #include "eval/score/box_counts.hpp"
 #include "eval/score/class_curve.hpp"
 #include "eval/score/distance_tally.hpp"
+#include "eval/score/instance_counts.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace mapscore::eval {
@@ -21,6 +23,9 @@ struct ScoreOptions {
 
 /// Throws Error when a list is not ascending or a value is out of range.
 void check(const ScoreOptions& options);
+
+/// Samples from which on a voxel of V_c is in visible_4.
+inline constexpr std::uint32_t kManySamples = 4;
 
 /// Counts at one tolerance t: predicted voxels within t voxels of S_c, visible ones within t of
 /// P_c.
@@ -49,13 +54,18 @@ struct ClassCounts {
   std::int64_t missed_unlabelled = 0;   ///< in the map, but nothing is predicted there
   std::int64_t missed_unmapped = 0;     ///< not in the map
 
+  /// Of the voxels of V_c with 4 samples and more; of all where the truth has no samples.
+  std::int64_t visible_4 = 0;
+  std::int64_t found_4 = 0;
+
   std::vector<ToleranceCounts> at_tolerance;
   DistanceTally accuracy;      ///< predicted cubes to the class's exact surface
   DistanceTally completeness;  ///< noise-free samples of the class to the nearest predicted cube
   ClassCurve curve;            ///< the counts at every threshold
   BoxCounts boxes;             ///< of detections; none where a map is all there is
+  std::optional<InstanceCounts> instances;  ///< where instances were scored
 
-  /// Pools. Throws Error when tolerances or distances differ.
+  /// Pools. Throws Error when tolerances or distances differ, or one alone has instances.
   ClassCounts& operator+=(const ClassCounts& other);
   bool operator==(const ClassCounts&) const = default;
 };

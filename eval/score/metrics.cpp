@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/score/box_score.hpp"
+#include "eval/score/instance_score.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +19,19 @@ namespace {
 
 constexpr double kCentimetresPerMetre = 100.0;
 constexpr double kPercentile = 0.95;
+
+/// The figures against the voxels of V with many samples, undefined where there are none.
+void append_many_samples(const ClassCounts& counts, std::vector<Metric>& metrics) {
+  const std::int64_t false_predicted = counts.predicted - counts.true_predicted;
+  std::optional<double> f1_4, iou_4;
+  if (counts.visible_4 > 0) {
+    f1_4 = f1(counts.true_predicted, counts.predicted, counts.found_4, counts.visible_4);
+    iou_4 = ratio(counts.found_4, counts.visible_4 + false_predicted);
+  }
+  metrics.push_back({"recall_4", ratio(counts.found_4, counts.visible_4)});
+  metrics.push_back({"f1_4", f1_4});
+  metrics.push_back({"iou_4", iou_4});
+}
 
 void append_tolerance(const ClassCounts& counts, const ToleranceCounts& at,
                       std::vector<Metric>& metrics) {
@@ -63,6 +77,24 @@ std::optional<double> mean_defined(std::span<const std::vector<Metric>> classes,
   return defined == 0 ? std::nullopt : std::optional(sum / defined);
 }
 
+/// The figures of a class as they enter the mean over classes: without those of instances.
+std::vector<Metric> metrics_for_mean(ClassCounts counts) {
+  counts.instances.reset();
+  return metrics_of(counts);
+}
+
+/// Means over the classes with visible instances, all undefined where there is none; nothing where
+/// instances were not scored.
+std::vector<Metric> mean_instance_metrics(const Counts& counts, const ClassTable& table) {
+  std::vector<InstanceCounts> instances;
+  for (const ClassCounts& of_class : counts) {
+    if (!of_class.instances) return {};
+    instances.push_back(*of_class.instances);
+  }
+  std::vector<Metric> macro = macro_instance_metrics(instances, table);
+  return macro.empty() ? instance_metrics({}) : macro;
+}
+
 }  // namespace
 
 std::optional<double> ratio(std::int64_t part, std::int64_t whole) {
@@ -99,12 +131,15 @@ std::vector<Metric> metrics_of(const ClassCounts& counts) {
                               {"recall", recall(counts)},
                               {"f1", f1(counts)},
                               {"iou", iou(counts)}};
+  append_many_samples(counts, metrics);
   for (const ToleranceCounts& at : counts.at_tolerance) append_tolerance(counts, at, metrics);
   append_distances(counts, metrics);
   metrics.push_back({"ap", average_precision(counts.curve)});
   metrics.push_back({"brier", brier(counts.curve)});
   metrics.push_back({"ece", expected_calibration_error(counts.curve)});
   for (Metric& metric : box_metrics(counts.boxes)) metrics.push_back(std::move(metric));
+  if (!counts.instances) return metrics;
+  for (Metric& metric : instance_metrics(*counts.instances)) metrics.push_back(std::move(metric));
   return metrics;
 }
 
@@ -116,13 +151,14 @@ std::vector<Metric> macro_metrics(const Counts& counts, const ClassTable& table)
   std::vector<std::vector<Metric>> classes;
   for (const SemanticClass& semantic : table.classes) {
     if (!semantic.detect || counts[semantic.id].visible == 0) continue;
-    classes.push_back(metrics_of(counts[semantic.id]));
+    classes.push_back(metrics_for_mean(counts[semantic.id]));
   }
   if (classes.empty()) return {};
   std::vector<Metric> macro = classes.front();
   for (std::size_t figure = 0; figure < macro.size(); ++figure) {
     macro[figure].value = mean_defined(classes, figure);
   }
+  for (Metric& metric : mean_instance_metrics(counts, table)) macro.push_back(std::move(metric));
   macro.push_back({"mpa", value_of(macro, "recall")});
   macro.push_back({"miou", value_of(macro, "iou")});
   return macro;

@@ -37,15 +37,17 @@ struct Metric {
 [[nodiscard]] std::optional<double> iou(const ClassCounts& counts);
 
 /// All figures of one class, or of pooled counts, always in this order: precision, recall, f1, iou;
-/// for each tolerance t precision_tT, recall_tT, f1_tT; where distances were scored, for each
-/// tau precision_Xcm, recall_Xcm, f_Xcm, then accuracy_mean_m, accuracy_p95_m, completeness_mean_m,
-/// completeness_p95_m; ap, brier, ece; box_iou, box_25, box_50, box_75.
+/// recall_4, f1_4, iou_4; for each tolerance t precision_tT, recall_tT, f1_tT; where distances were
+/// scored, for each tau precision_Xcm, recall_Xcm, f_Xcm, then accuracy_mean_m, accuracy_p95_m,
+/// completeness_mean_m, completeness_p95_m; ap, brier, ece; box_iou, box_25, box_50, box_75; where
+/// instances were scored, those of instance_metrics.
 [[nodiscard]] std::vector<Metric> metrics_of(const ClassCounts& counts);
 
 /// The mean of every figure over the detected classes with visible voxels; a class for which a
-/// figure is undefined is left out of that figure's mean. Two of them again by the names they go
-/// by, at the end: mpa (recall) and miou (iou). Empty when there is no such class. Throws Error
-/// when counts and table differ in size.
+/// figure is undefined is left out of that figure's mean. Figures of instances are those of
+/// macro_instance_metrics. Two of them again by the names they go by, at the end: mpa (recall) and
+/// miou (iou). Empty when there is no such class. Throws Error when counts and table differ in
+/// size.
 [[nodiscard]] std::vector<Metric> macro_metrics(const Counts& counts, const ClassTable& table);
 
 /// The figure of that name, or nullopt when it is undefined. Throws Error when there is none.

@@ -44,7 +44,11 @@ void count_visible(const VisibleVoxel& truth, RowWindow<MapVoxel>& map, double t
   const auto voxel = map.at(truth.key);  // one or none
   const bool is_found = !voxel.empty() && predicts_class(voxel.front());
   const int distance = is_found ? 0 : map.distance(truth.key, predicts_class);
+  // A whole surface has no samples, and nothing that was seen too little.
+  const bool is_seen_well = truth.samples == 0 || truth.samples >= kManySamples;
   ++counts.visible;
+  counts.visible_4 += is_seen_well;
+  counts.found_4 += is_seen_well && is_found;
   for (ToleranceCounts& at : counts.at_tolerance) at.found += distance <= at.voxels;
   if (is_found) {
     ++counts.found;

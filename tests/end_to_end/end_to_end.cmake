@@ -53,3 +53,7 @@ foreach(drive apartment person)
                    $<TARGET_FILE:mapscore> ${PROJECT_SOURCE_DIR}/scenes ${drive})
   set_tests_properties(independent_ruler.${drive} PROPERTIES COST 100)  # the longest ones start first
 endforeach()
+add_test(NAME independent_ruler.foreign_maps
+         COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/foreign_maps.py
+                 $<TARGET_FILE:mapscore> ${PROJECT_SOURCE_DIR}/scenes)
+set_tests_properties(independent_ruler.foreign_maps PROPERTIES COST 100)

@@ -4,13 +4,13 @@
 
 import csv
 import os
-import sys
 
 import numpy as np
 import yaml
 from PIL import Image
 
 from surfaces import KINDS, rotation_of_quaternion
+from triangles import read_triangles
 
 
 def transform(numbers):
@@ -53,6 +53,7 @@ class Recording:
         self.color, self.depth = head["color"], head["depth"]
         self.T_color_depth, self.T_base_depth = transform(head["T_color_depth"]), transform(head["T_base_depth"])
         self.names = {entry["id"]: str(entry["name"]) for entry in head["classes"]}
+        self.colours = {entry["id"]: tuple(bytes.fromhex(entry["colour"])) for entry in head["classes"]}
         self.detected = {entry["id"] for entry in head["classes"] if entry["detect"]}
         self.class_of = np.full(max(entry["id"] for entry in head["instances"]) + 1, -1)
         for entry in head["instances"]:
@@ -96,15 +97,18 @@ class Recording:
         y = (v - self.depth["cy_px"]) / self.depth["fy_px"]
         return np.stack([z * x, z * y, z], axis=-1).reshape(-1, 3)
 
-    def geoms(self, T_map_world):
-        """[(class, shape in frame map)] of all drawn primitives."""
-        if os.path.exists(self.path("truth", "triangles.ply")):
-            print("ruler: truth/triangles.ply is not supported and left out", file=sys.stderr)
-        result = []
+    def instance_geoms(self, T_map_world):
+        """[(instance, shape in frame map)] of all drawn surfaces."""
+        triangles, result = self.path("truth", "triangles.ply"), []
+        if os.path.exists(triangles):
+            result += read_triangles(triangles, T_map_world)
         with open(self.path("truth", "shapes.csv"), encoding="utf-8", newline="") as text:
             for row in csv.DictReader(text):
                 pose = T_map_world @ transform([float(row[name]) for name in ("px", "py", "pz", "qx", "qy", "qz", "qw")])
                 size = [float(row[name] or 0) for name in ("sx", "sy", "sz")]
-                label = int(self.classes_of(int(row["instance"]))) if row["instance"] != "0" else 0
-                result.append((label, KINDS[row["kind"]](pose[:3, :3], pose[:3, 3], size)))
+                result.append((int(row["instance"]), KINDS[row["kind"]](pose[:3, :3], pose[:3, 3], size)))
         return result
+
+    def geoms(self, T_map_world):
+        """[(class, shape in frame map)] of all drawn surfaces."""
+        return [(int(self.classes_of(instance)), shape) for instance, shape in self.instance_geoms(T_map_world)]

@@ -213,6 +213,19 @@ TEST_F(TinyTruth, CacheMakesATruthOnce) {
   EXPECT_TRUE(same_visible(again->view(0).visible, first->view(0).visible));
 }
 
+TEST_F(TinyTruth, CacheKeepsTruthsOfInstancesApart) {
+  TruthCache cache(recording(), table(), frames(), 1);
+  const auto classes = cache.get({}, {});
+  const auto instances = cache.of_instances({}, {});
+  EXPECT_NE(instances, classes);
+  EXPECT_EQ(cache.get({}, {}), classes);
+  EXPECT_EQ(cache.of_instances({}, {}), instances);
+  // Here each class has one instance, of its own id.
+  EXPECT_TRUE(same_visible(instances->view(0).visible, classes->view(0).visible));
+  EXPECT_GT(classes->view(0).samples.sample_count(1), 0u);
+  EXPECT_EQ(instances->view(0).samples.sample_count(1), 0u);
+}
+
 TEST_F(TinyTruth, CacheServesManyThreads) {
   TruthCache cache(recording(), table(), frames(), 4);
   std::vector<std::shared_ptr<const LatticeTruth>> truths(4);

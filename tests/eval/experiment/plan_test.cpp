@@ -106,7 +106,8 @@ TEST(Plan, KeysDependOnEverythingThatDecidesTheResult) {
                                          "score.min_samples=4",
                                          "score.epsilon_m=0",
                                          "score.tolerances=[0, 2]",
-                                         "score.distances_m=[0.03]"};
+                                         "score.distances_m=[0.03]",
+                                         "score.instances=true"};
   for (const std::string& change : changes) keys.insert(key_of(study_of("", {change})));
   EXPECT_EQ(keys.size(), 2 + changes.size());
 }
@@ -124,6 +125,16 @@ TEST(Plan, KeysNameTheScoringVersionAndTheRecordingButNoPlace) {
   EXPECT_THAT(task.description, HasSubstr("scoring_version: " + std::to_string(kScoringVersion)));
   EXPECT_THAT(task.description, HasSubstr("recording: 0123abcd"));
   EXPECT_THAT(task.description, Not(HasSubstr("here.xml")));
+}
+
+/// So that what was swept before there was such a leaf is not computed again.
+TEST(Plan, KeysNameInstancesOnlyWhereTheyAreScored) {
+  const auto description = [](const char* score) {
+    return plan_of(study_of(score), "recording").tasks.at(0).description;
+  };
+  EXPECT_THAT(description(""), Not(HasSubstr("instances")));
+  EXPECT_EQ(description("score: {instances: false}\n"), description(""));
+  EXPECT_THAT(description("score: {instances: true}\n"), HasSubstr("\n  instances: true\n"));
 }
 
 TEST(Plan, RefusesASweepOfWhatIsRecorded) {

@@ -30,9 +30,9 @@ TrialResult result_of(std::int64_t number) {
   TrialResult result;
   result.counts = zero_counts(2, {});
   for (ClassCounts& c : result.counts) {
-    for (auto* count :
-         {&c.predicted, &c.true_predicted, &c.visible, &c.found, &c.false_near, &c.false_leak,
-          &c.false_floating, &c.missed_mislabelled, &c.missed_unlabelled, &c.missed_unmapped})
+    for (auto* count : {&c.predicted, &c.true_predicted, &c.visible, &c.found, &c.false_near,
+                        &c.false_leak, &c.false_floating, &c.missed_mislabelled,
+                        &c.missed_unlabelled, &c.missed_unmapped, &c.visible_4, &c.found_4})
       *count = next();
     c.at_tolerance = {{1, next(), next()}};
     c.accuracy = DistanceTally({0.01, 0.02});
@@ -73,6 +73,21 @@ TEST_F(Store, GivesBackWhatWasAdded) {
   EXPECT_TRUE(store.contains("key"));
   EXPECT_FALSE(store.contains("other"));
   EXPECT_FALSE(store.find("other"));
+}
+
+TEST_F(Store, GivesBackInstancesWhereTheyWereScored) {
+  TrialResult result = result_of(10);
+  for (ClassCounts& c : result.counts) {
+    c.instances = InstanceCounts{1, 2, 3, 4, 5, {{900, 6, {}}, {20, 7, {}}}};
+    for (InstanceStep& step : c.instances->steps)
+      for (std::size_t t = 0; t < step.true_predicted.size(); ++t)
+        step.true_predicted[t] = step.score + static_cast<std::int64_t>(t);
+  }
+  ResultStore store = ResultStore::open(file("a.sqlite"));
+  store.add("with", "", result);
+  store.add("without", "", result_of(10));
+  EXPECT_EQ(store.find("with")->counts, result.counts);
+  EXPECT_EQ(store.find("without")->counts, result_of(10).counts);
 }
 
 TEST_F(Store, KeepsTheFirstResultOfAKey) {

@@ -142,6 +142,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "'region_growing'; write one of erosion"},
         BadLine{"sweep_seeds", "sweep: {seeds: [1, 2]}\n",
                 "6: sweep.seeds: seeds cannot be swept; remove it"},
+        BadLine{"sweep_instances", "sweep: {score.instances: [true, false]}\n",
+                "6: sweep.score.instances: score.instances cannot be swept; remove it"},
         BadLine{"sweep_empty", "sweep: {voxel_m: []}\n",
                 "6: sweep.voxel_m: has no values; write at least one"},
         BadLine{"sweep_no_list", "sweep: {voxel_m: 0.05}\n",

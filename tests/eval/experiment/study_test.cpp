@@ -142,6 +142,7 @@ TEST(Study, ResolvedConfigurationWritesEveryDefault) {
   EXPECT_THAT(yaml, HasSubstr("name: demo\nseed: 1\nseeds: 1\nscene: room.xml\ntrajectory:\n"));
   EXPECT_THAT(yaml, HasSubstr("methods:\n  direct:\n    segmentation:\n      direct: {}\n"));
   EXPECT_THAT(yaml, HasSubstr("  distances_m: [0.01, 0.02, 0.05, 0.1]\n"));
+  EXPECT_THAT(yaml, HasSubstr("  instances: false\n"));
   EXPECT_THAT(yaml, HasSubstr("  threshold: auto\n"));
   EXPECT_THAT(yaml, HasSubstr("sweep: {}\n"));
 }

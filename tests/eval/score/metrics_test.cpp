@@ -70,6 +70,10 @@ TEST(Metrics, EverythingIsUndefinedOnlyWhenBothAreEmpty) {
 
 TEST(Metrics, NamesCarryToleranceAndDistance) {
   ClassCounts counts = counted(2, 1, 2, 1);
+  counts.visible_4 = 4;
+  counts.found_4 = 1;
+  counts.instances = InstanceCounts{3, 4, 2, 2'400'000'000, 7, {}};
+  counts.instances->steps = {{900, 3, {3, 2, 1}}, {100, 4, {1, 0, 1}}};
   counts.at_tolerance = {{1, 2, 1}};
   counts.accuracy = DistanceTally({0.005, 0.1});
   counts.completeness = DistanceTally({0.005, 0.1});
@@ -85,6 +89,9 @@ TEST(Metrics, NamesCarryToleranceAndDistance) {
                                      {"recall", 0.5},
                                      {"f1", 0.5},
                                      {"iou", 1.0 / 3.0},
+                                     {"recall_4", 0.25},
+                                     {"f1_4", 1.0 / 3.0},
+                                     {"iou_4", 0.2},
                                      {"precision_t1", 1.0},
                                      {"recall_t1", 0.5},
                                      {"f1_t1", 2.0 / 3.0},
@@ -104,7 +111,14 @@ TEST(Metrics, NamesCarryToleranceAndDistance) {
                                      {"box_iou", 0.65},
                                      {"box_25", 0.75},
                                      {"box_50", 0.75},
-                                     {"box_75", 0.5}};
+                                     {"box_75", 0.5},
+                                     {"pq", 0.4},
+                                     {"sq", 0.8},
+                                     {"rq", 0.5},
+                                     {"ap_25", 0.6 + 0.2 * 4.0 / 7.0},
+                                     {"ap_50", 0.4 * 2.0 / 3.0},
+                                     {"ap_75", 0.0},
+                                     {"ap_mean", (0.8 / 3.0 + 0.2 / 3.0 + 0.4 / 7.0) / 10.0}};
   const std::vector<Metric> metrics = metrics_of(counts);
   ASSERT_EQ(metrics.size(), expected.size());
   for (std::size_t m = 0; m < metrics.size(); ++m) {
@@ -136,6 +150,35 @@ TEST(Metrics, PooledAndMacroTakeDetectedClassesOnly) {
   EXPECT_THROW(static_cast<void>(pool_detected(counts, table_of({false}))), Error);
 }
 
+TEST(Metrics, MacroLeavesOutClassesWithoutVoxelsOfManySamples) {
+  Counts counts{counted(0, 0, 0, 0), counted(4, 2, 8, 4), counted(5, 5, 5, 5)};
+  counts[1].visible_4 = 4;
+  counts[1].found_4 = 2;
+  for (const char* name : {"recall_4", "f1_4", "iou_4"})
+    EXPECT_EQ(value_of(metrics_of(counts[2]), name), std::nullopt) << name;
+  const std::vector<Metric> macro = macro_metrics(counts, table_of({false, true, true}));
+  EXPECT_DOUBLE_EQ(*value_of(macro, "recall"), 0.75);
+  EXPECT_DOUBLE_EQ(*value_of(macro, "recall_4"), 0.5);
+  EXPECT_DOUBLE_EQ(*value_of(macro, "f1_4"), 0.5);
+  EXPECT_DOUBLE_EQ(*value_of(macro, "iou_4"), 2.0 / 6.0);
+}
+
+TEST(Metrics, MacroOfInstancesIsOverClassesWithVisibleInstances) {
+  // Class 2 has visible voxels and no visible instance; class 3 the other way about.
+  Counts counts{counted(0, 0, 0, 0), counted(1, 1, 1, 1), counted(1, 1, 1, 1), counted(1, 1, 0, 0)};
+  const auto table = table_of({false, true, true, true});
+  for (ClassCounts& of_class : counts) of_class.instances.emplace();
+  const std::vector<Metric> none = macro_metrics(counts, table);
+  EXPECT_EQ(value_of(none, "pq"), std::nullopt);
+  counts[1].instances = InstanceCounts{1, 0, 0, 900'000'000, 0, {}};
+  counts[2].instances->false_positive = 1;
+  counts[3].instances->false_negative = 1;
+  const std::vector<Metric> macro = macro_metrics(counts, table);
+  EXPECT_DOUBLE_EQ(*value_of(macro, "pq"), 0.45);
+  EXPECT_DOUBLE_EQ(*value_of(metrics_of(pool_detected(counts, table)), "rq"), 0.5);
+  EXPECT_EQ(macro.back().name, "miou");
+}
+
 TEST(Metrics, PoolingOverFramesIsTheSumOfCounts) {
   Counts total;
   std::int64_t predicted = 0, found_within = 0;
@@ -154,8 +197,13 @@ TEST(Metrics, PoolingOverFramesIsTheSumOfCounts) {
 
 /// Every count a multiple of `n`, no two alike.
 ClassCounts counted_times(std::int64_t n) {
-  ClassCounts counts{n,     2 * n,  3 * n, 4 * n, 5 * n, 6 * n, 7 * n, 8 * n,
-                     9 * n, 10 * n, {},    {},    {},    {},    {}};
+  ClassCounts counts;
+  std::int64_t times = 0;
+  for (auto* count :
+       {&counts.predicted, &counts.true_predicted, &counts.visible, &counts.found,
+        &counts.false_near, &counts.false_leak, &counts.false_floating, &counts.missed_mislabelled,
+        &counts.missed_unlabelled, &counts.missed_unmapped})
+    *count = ++times * n;
   counts.at_tolerance = {{1, 11 * n, 12 * n}};
   counts.accuracy = DistanceTally({0.01});
   counts.accuracy.add(0.013, 13 * n);
@@ -163,6 +211,10 @@ ClassCounts counted_times(std::int64_t n) {
   counts.completeness.add(0.001, 14 * n);
   counts.curve = {15 * n, 16 * n, {{500, 17 * n, 18 * n, 19 * n, 20 * n}}};
   counts.boxes = {21 * n, 22 * n, 23 * n, 24 * n, 25 * n, 26 * n};
+  counts.visible_4 = 27 * n;
+  counts.found_4 = 28 * n;
+  counts.instances = InstanceCounts{29 * n, 30 * n, 31 * n, 32 * n, 33 * n, {}};
+  counts.instances->steps = {{500, 34 * n, {35 * n, 36 * n}}};
   return counts;
 }
 
@@ -177,6 +229,10 @@ TEST(Metrics, CountsOfDifferentOptionsAreNotPooled) {
   EXPECT_THROW(pool_into(total, zero_counts(3, {{1, 2}, {}})), Error);
   EXPECT_THROW(pool_into(total, zero_counts(3, {{2}, {}})), Error);
   EXPECT_THROW(pool_into(total, zero_counts(4, {{1}, {}})), Error);
+  Counts with_instances = zero_counts(3, {{1}, {}});
+  for (ClassCounts& of_class : with_instances) of_class.instances.emplace();
+  EXPECT_THROW(pool_into(total, with_instances), Error);
+  EXPECT_THROW(pool_into(with_instances, total), Error);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ namespace mapscore::eval::testing {
 struct PlainScore {
   std::set<std::pair<VoxelKey, ClassId>> surface;
   std::map<VoxelKey, ClassId> owners;
+  std::set<VoxelKey> of_four_samples;
   std::map<VoxelKey, MapVoxel> map;
   double threshold = 0.0;
 
@@ -28,7 +29,10 @@ struct PlainScore {
              double least_probability)
       : threshold(least_probability) {
     for (const SurfaceVoxel& row : S.voxels()) surface.insert({row.key, row.class_id});
-    for (const VisibleVoxel& voxel : V.voxels()) owners[voxel.key] = voxel.owner;
+    for (const VisibleVoxel& voxel : V.voxels()) {
+      owners[voxel.key] = voxel.owner;
+      if (voxel.samples >= 4) of_four_samples.insert(voxel.key);
+    }
     for (const MapVoxel& voxel : voxels) map[voxel.key] = voxel;
   }
 
@@ -73,6 +77,8 @@ struct PlainScore {
     for (const auto& [key, owner] : owners) {
       if (owner != c) continue;
       ++counts.visible;
+      counts.visible_4 += of_four_samples.contains(key);
+      counts.found_4 += of_four_samples.contains(key) && predicts(key, c);
       bool any = false;
       for (ClassId other = 1; other < 4; ++other) any = any || predicts(key, other);
       if (predicts(key, c)) {

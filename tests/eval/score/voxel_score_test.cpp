@@ -115,6 +115,23 @@ TEST(VoxelScore, ToleranceIsPerAxisAndOfTheSameClass) {
             std::vector<ToleranceCounts>({{1, 0, 0}, {2, 0, 0}, {3, 0, 0}}));
 }
 
+TEST(VoxelScore, VoxelsOfOneToThreeSamplesLeaveTheCountsAtFour) {
+  // Voxel i has samples[i] samples; the even ones are found. Without samples: a whole surface.
+  const std::vector<std::uint32_t> samples{0, 1, 2, 3, 4, 5, 6, 4};
+  std::vector<VisibleVoxel> seen;
+  std::map<VoxelKey, ClassId> found;
+  for (int i = 0; i < static_cast<int>(samples.size()); ++i) {
+    seen.push_back({{i, 0, 0}, kCup, samples[static_cast<std::size_t>(i)]});
+    if (i % 2 == 0) found[{i, 0, 0}] = kCup;
+  }
+  const ClassCounts cup = score_voxels(map_of(found), 0.5, surface_of({}),
+                                       VisibleTruth(seen, testing::kEdge_m), 3)[kCup];
+  EXPECT_EQ(cup.visible, 8);
+  EXPECT_EQ(cup.found, 4);
+  EXPECT_EQ(cup.visible_4, 5);
+  EXPECT_EQ(cup.found_4, 3);
+}
+
 TEST(VoxelScore, TruthAgainstItselfIsPerfect) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const RandomCase made = random_case(seed);
