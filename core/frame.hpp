@@ -14,6 +14,7 @@ namespace mapscore {
 /// image that was not asked for is empty. Copies share pixels (cv::Mat): treat them as read-only.
 struct Frame {
   int index = 0;                         ///< position of the colour image in the recording
+  int depth_index = 0;                   ///< position of the depth image in the recording
   double stamp_s = 0.0;                  ///< of the depth image
   Pose T_world_base = Pose::Identity();  ///< true pose of base_footprint at `stamp_s`
   cv::Mat3b color;                       ///< BGR, as OpenCV keeps it; from the colour camera

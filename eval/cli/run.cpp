@@ -98,7 +98,7 @@ void run(const RunFlags& flags) {
   trial.keep_frames();
   Progress progress("run", "frames", flags.work.quiet);
   for (int frame = 0; frame < recording.frame_count(); ++frame) {
-    trial.advance(*frames.get(frame));
+    trial.advance(*frames.get(frame, trial.depth_of(frame)));
     progress.show(frame + 1, recording.frame_count());
   }
   const std::filesystem::path folder =

@@ -14,8 +14,8 @@
 
 namespace mapscore::eval {
 
-/// True boxes of the instances of each frame of one recording. They depend on no trial, so each
-/// frame's are made once, by the first trial that asks. Safe to use from several threads.
+/// True boxes of the instances in each depth image of one recording. They depend on no trial, so
+/// each frame's are made once, by the first trial that asks. Safe to use from several threads.
 class FrameBoxes {
  public:
   explicit FrameBoxes(const Recording& recording);
@@ -32,7 +32,7 @@ class FrameBoxes {
 
   Calibration calibration_;
   std::size_t instance_count_;
-  std::vector<Entry> entries_;  ///< by frame
+  std::vector<Entry> entries_;  ///< by depth image
 };
 
 }  // namespace mapscore::eval

@@ -39,7 +39,8 @@ class ViewMaker {
   [[nodiscard]] ViewSamples samples_of(std::span<const int> frames) const {
     ViewSamples samples{SampleCounter(map_frame_.edge_m),
                         SampleCollector(table_.classes.size(), map_frame_.edge_m)};
-    for (const int frame : frames) add(*frames_.get(frame), samples);
+    for (const int frame : frames)
+      add(*frames_.get(frame, recording_.depth_of(frame, options_.time_offset_s)), samples);
     return samples;
   }
 

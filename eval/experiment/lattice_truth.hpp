@@ -37,9 +37,10 @@ struct ViewTruth {
 struct TruthOptions {
   double epsilon_m = 0.0005;
   int min_samples = 1;
-  bool by_frame = false;    ///< a ViewTruth for each frame instead of one for all
-  bool distances = true;    ///< keep samples for the F-score at a distance
-  FrameSelection frames{};  ///< those that the views are made of
+  bool by_frame = false;       ///< a ViewTruth for each frame instead of one for all
+  bool distances = true;       ///< keep samples for the F-score at a distance
+  FrameSelection frames{};     ///< those that the views are made of
+  double time_offset_s = 0.0;  ///< of the depth images whose views are made
   bool operator==(const TruthOptions&) const = default;
 };
 

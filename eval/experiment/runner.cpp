@@ -126,7 +126,7 @@ class Sweep {
 
   void advance(TrialRun& run, int first, int end) {
     for (int index = first; index < end; ++index) {
-      run.advance(*frames_.get(index));
+      run.advance(*frames_.get(index, run.depth_of(index)));
       const std::int64_t done = ++done_;
       if (options_.progress) options_.progress(done, total_);
     }

@@ -54,6 +54,17 @@ Place place_of(const Study& study, const MethodSettings& method) {
   return method.place.value_or(study.place);
 }
 
+double depth_rate(const Study& study) {
+  constexpr double kDepthCameraFps = 30.0;
+  if (study.trajectory.depth_frames_per_s) return *study.trajectory.depth_frames_per_s;
+  const auto doses_offset = [](const SweepAxis& axis) {
+    return axis.path == "faults.time_offset_ms";
+  };
+  const bool is_dosed =
+      study.faults.time_offset_ms != 0.0 || std::ranges::any_of(study.sweep, doses_offset);
+  return is_dosed ? kDepthCameraFps : study.trajectory.frames_per_s;
+}
+
 bool decides_recording(std::string_view path) {
   constexpr auto kHeads = std::to_array<std::string_view>(
       {"scene", "classes", "robot", "recording", "trajectory", "cameras"});

@@ -27,6 +27,7 @@ struct TrajectorySettings {
   double speed_mps = 0.4;
   double turn_rate_dps = 40;
   double frames_per_s = 2;
+  std::optional<double> depth_frames_per_s;  ///< empty: see depth_rate
   int max_frames = 0;
 
   bool operator==(const TrajectorySettings&) const = default;
@@ -108,6 +109,9 @@ struct MountSettings {
   bool operator==(const MountSettings&) const = default;
 };
 
+/// The image at whose stamp the pose of a frame is looked up.
+enum class PoseStamp { depth, color };
+
 /// T_believed = T_true * Exp(xi), xi ~ N(0, E).
 struct PoseNoiseSettings {
   double sigma_xy_m = 0, sigma_z_m = 0, sigma_roll_pitch_deg = 0, sigma_yaw_deg = 0;
@@ -115,6 +119,7 @@ struct PoseNoiseSettings {
   double sigma_scale = 1;  ///< of every standard deviation
   sim::PoseNoiseKind kind = sim::PoseNoiseKind::white;
   double reported_scale = 1;  ///< reported covariance over the true one
+  PoseStamp stamp = PoseStamp::depth;
 
   bool operator==(const PoseNoiseSettings&) const = default;
 };
@@ -123,6 +128,7 @@ struct FaultSettings {
   MisregistrationSettings misregistration;
   MountSettings mount;
   PoseNoiseSettings pose;
+  double time_offset_ms = 0;  ///< of the depth image that a colour image is paired with
 
   bool operator==(const FaultSettings&) const = default;
 };
@@ -226,6 +232,10 @@ void check(const Study& study);
 
 /// `path` if absolute, otherwise below the study's base folder.
 [[nodiscard]] std::filesystem::path resolve_path(const Study& study, const std::string& path);
+
+/// Depth frames per second of a study's recording: its own, else 30 where the study doses the time
+/// offset, else those of the colour camera.
+[[nodiscard]] double depth_rate(const Study& study);
 
 /// The robot's MJCF: `robot`, or robot.xml beside the scene. Needs `scene` or `robot`.
 [[nodiscard]] std::filesystem::path robot_path(const Study& study);

@@ -27,6 +27,8 @@ template <>
 inline constexpr auto kNames<sim::PoseNoiseKind> = std::to_array<std::string_view>({"white", "walk",
                                                                                     "constant"});
 template <>
+inline constexpr auto kNames<PoseStamp> = std::to_array<std::string_view>({"depth", "color"});
+template <>
 inline constexpr auto kNames<ScoreUnit> = std::to_array<std::string_view>({"map", "frame"});
 
 void fields(auto&& visit, Of<TrajectorySettings> auto& s) {
@@ -38,6 +40,11 @@ void fields(auto&& visit, Of<TrajectorySettings> auto& s) {
         s.turn_rate_dps);
   visit(Field{"frames_per_s", "frames recorded in a second of the drive", above(0, 1000)},
         s.frames_per_s);
+  visit(Field{"depth_frames_per_s",
+              "depth images in a second of the drive; default: 30 where faults.time_offset_ms is "
+              "dosed, else frames_per_s",
+              above(0, 1000)},
+        s.depth_frames_per_s);
   visit(Field{"max_frames", "stop after so many frames; 0: at the last waypoint", at_least(0)},
         s.max_frames);
 }
@@ -145,6 +152,10 @@ void fields(auto&& visit, Of<PoseNoiseSettings> auto& s) {
         s.kind);
   visit(Field{"reported_scale", "covariance reported to the mapper over the true one", {0, 1000}},
         s.reported_scale);
+  visit(Field{.key = "stamp",
+              .meaning = "the image at whose stamp the pose of a frame is looked up",
+              .unkeyed = "depth"},
+        s.stamp);
 }
 
 void fields(auto&& visit, Of<FaultSettings> auto& s) {
@@ -152,6 +163,12 @@ void fields(auto&& visit, Of<FaultSettings> auto& s) {
         s.misregistration);
   visit(Field{"mount", "wrong camera-to-base calibration: moves points"}, s.mount);
   visit(Field{"pose", "wrong localisation"}, s.pose);
+  visit(
+      Field{.key = "time_offset_ms",
+            .meaning = "pair each colour image with the depth image nearest to its stamp plus this",
+            .range = {-10000, 10000},
+            .unkeyed = "0"},
+      s.time_offset_ms);
 }
 
 void fields(auto&& visit, Of<ScoreSettings> auto& s) {

@@ -16,6 +16,7 @@ std::string_view unit_of(std::string_view key) {
                                                {"_per_s", "1/s"},
                                                {"_mps", "m/s"},
                                                {"_dps", "deg/s"},
+                                               {"_ms", "ms"},
                                                {"_percent", "%"},
                                                {"_deg", "deg"},
                                                {"_px", "px"},

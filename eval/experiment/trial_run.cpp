@@ -21,11 +21,27 @@ std::uint64_t trial_seed(const Task& task) {
       .bits();
 }
 
-/// Believed T_map_base of every frame.
-std::vector<Pose> believed_poses(const Recording& recording, const Task& task) {
+double time_offset_s(const Study& config) {
+  return config.faults.time_offset_ms / 1000.0;
+}
+
+/// The depth image of every frame under the time offset.
+std::vector<int> paired_depth(const Recording& recording, const Study& config) {
+  std::vector<int> depth;
+  for (int frame = 0; frame < recording.frame_count(); ++frame)
+    depth.push_back(recording.depth_of(frame, time_offset_s(config)));
+  return depth;
+}
+
+/// Believed T_map_base of every frame, which is read with the depth image `depth` names.
+std::vector<Pose> believed_poses(const Recording& recording, const Task& task,
+                                 const std::vector<int>& depth) {
+  const bool at_depth = task.config.faults.pose.stamp == PoseStamp::depth;
   std::vector<Pose> poses;
   for (int frame = 0; frame < recording.frame_count(); ++frame)
-    poses.push_back(recording.T_world_base(frame));
+    poses.push_back(at_depth
+                        ? recording.T_world_base_of_depth(depth[static_cast<std::size_t>(frame)])
+                        : recording.T_world_base_of_color(frame));
   poses = sim::believe_poses(poses, dose_of(task.config.faults.pose), trial_seed(task));
   const Pose T_map_world = map_frame(task.config, task.seed_index).T_map_world();
   for (Pose& pose : poses) pose = T_map_world * pose;
@@ -58,7 +74,8 @@ TruthOptions truth_options(const Study& config) {
   return {.epsilon_m = config.score.epsilon_m,
           .min_samples = config.score.min_samples,
           .by_frame = config.score.unit == ScoreUnit::frame,
-          .distances = !config.score.distances_m.empty()};
+          .distances = !config.score.distances_m.empty(),
+          .time_offset_s = config.score.unit == ScoreUnit::frame ? time_offset_s(config) : 0.0};
 }
 
 TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
@@ -67,7 +84,8 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       table_(table),
       true_(recording.info().calibration),
       believed_(believed_calibration(true_, task)),
-      T_map_base_(believed_poses(recording, task)),
+      depth_of_(paired_depth(recording, task.config)),
+      T_map_base_(believed_poses(recording, task, depth_of_)),
       reported_covariance_(reported_covariance(task.config.faults.pose)),
       segmentation_(segmentation_params(task.config.methods.front().segmentation)),
       place_voxels_(place_of(task.config, task.config.methods.front()) == Place::voxels),

@@ -36,8 +36,13 @@ class TrialRun {
   /// Keeps the counts of each frame, where each is scored by itself. Call it before the first one.
   void keep_frames() { keeps_frames_ = true; }
 
+  /// The depth image that a frame is paired with under the trial's time offset.
+  [[nodiscard]] int depth_of(int frame) const {
+    return depth_of_.at(static_cast<std::size_t>(frame));
+  }
+
   /// Register, segment, place and fuse one frame under the trial's faults; and score it, where each
-  /// frame is scored by itself.
+  /// frame is scored by itself. It is read with the depth image that `depth_of` names.
   void advance(const Frame& frame);
 
   /// Scores the map and gives the counts of the whole trial.
@@ -68,6 +73,7 @@ class TrialRun {
   const ClassTable& table_;
   Calibration true_;              ///< what rendered the images
   Calibration believed_;          ///< what the method is told
+  std::vector<int> depth_of_;     ///< by frame
   std::vector<Pose> T_map_base_;  ///< believed, by frame
   Covariance6 reported_covariance_;
   SegmentationParams segmentation_;

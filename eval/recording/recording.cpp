@@ -37,17 +37,15 @@ void check_count(const fs::path& list, std::size_t lines, int frame_count) {
                             list.string(), lines, frame_count));
 }
 
-/// Every depth image has its pose, in the same order.
-void check_poses(const fs::path& file, const std::vector<TrajectoryPose>& poses,
-                 const std::vector<StampedImage>& depth) {
-  for (std::size_t i = 0; i < depth.size(); ++i)
-    if (i >= poses.size() || poses[i].stamp_s != depth[i].stamp_s)
-      throw Error(
-          fmt::format("{}: no pose at stamp {} of {}; give one line for each line of depth.txt",
-                      file.string(), depth[i].stamp_s, depth[i].path));
-  if (poses.size() != depth.size())
-    throw Error(fmt::format("{}: {} poses for {} lines of depth.txt; give one for each",
-                            file.string(), poses.size(), depth.size()));
+/// The pose of a depth image; the trajectory has a line at its stamp.
+const Pose& pose_at(const fs::path& file, const std::vector<TrajectoryPose>& trajectory,
+                    const StampedImage& image) {
+  const auto line = first_from(trajectory, image.stamp_s);
+  if (line == trajectory.end() || line->stamp_s != image.stamp_s)
+    throw Error(
+        fmt::format("{}: no pose at stamp {} of {}; give one line for each line of depth.txt",
+                    file.string(), image.stamp_s, image.path));
+  return line->T_world_base;
 }
 
 void check_files(const fs::path& folder, const std::vector<std::string>& images, bool has_truth) {
@@ -79,46 +77,73 @@ Recording Recording::open(const fs::path& folder) {
   recording.folder_ = folder;
   recording.info_ = read_info(folder / "recording.yaml");
   const bool has_truth = recording.info_.has_truth;
-  const auto color = read_stamp_list(folder / "color.txt");
+  recording.color_ = read_stamp_list(folder / "color.txt");
   const auto depth = read_stamp_list(folder / "depth.txt");
-  const auto poses = read_trajectory(folder / "groundtruth.txt");
-  check_count(folder / "color.txt", color.size(), recording.info_.frame_count);
-  check_poses(folder / "groundtruth.txt", poses, depth);
-  const std::vector<std::string> images = image_paths(color, depth, has_truth);
+  recording.trajectory_ = read_trajectory(folder / "groundtruth.txt");
+  check_count(folder / "color.txt", recording.color_.size(), recording.info_.frame_count);
+  for (const StampedImage& image : depth)
+    recording.depth_.push_back(
+        {image, pose_at(folder / "groundtruth.txt", recording.trajectory_, image)});
+  const std::vector<std::string> images = image_paths(recording.color_, depth, has_truth);
   check_files(folder, images, has_truth);
-  for (const StampedImage& image : color) {
-    const std::size_t paired = nearest_in_time(depth, image.stamp_s);
-    const std::string& depth_path = depth[paired].path;
-    recording.entries_.push_back(
-        {image.stamp_s, depth[paired].stamp_s, image.path, sibling_path(image.path, "label"),
-         depth_path, sibling_path(depth_path, "depth_label"), poses[paired].T_world_base});
-  }
   recording.content_hash_ = eval::content_hash(folder, images);
   return recording;
 }
 
-Frame Recording::read(int index, Channels channels) const {
+int Recording::depth_of(int index, double offset_s) const {
+  check_frame(index);
+  const double stamp_s = color_[static_cast<std::size_t>(index)].stamp_s + offset_s;
+  return static_cast<int>(nearest_in_time(depth_, stamp_s));
+}
+
+Pose Recording::T_world_base_of_color(int index) const {
+  check_frame(index);
+  const StampedImage& image = color_[static_cast<std::size_t>(index)];
+  if (const auto pose = interpolated(trajectory_, image.stamp_s)) return *pose;
+  throw Error(fmt::format("{}: does not reach stamp {} of {}; lengthen the trajectory",
+                          (folder_ / "groundtruth.txt").string(), image.stamp_s, image.path));
+}
+
+void Recording::check_frame(int index) const {
   if (index < 0 || index >= frame_count())
     throw Error(fmt::format("{}: no frame {}; the recording has frames 0 to {}", folder_.string(),
                             index, frame_count() - 1));
+}
+
+Frame Recording::read(int index, int depth_index, Channels channels) const {
+  Frame frame;
+  read_color(index, channels, frame);
+  read_depth(depth_index, channels, frame);
+  return frame;
+}
+
+void Recording::read_color(int index, Channels channels, Frame& frame) const {
+  check_frame(index);
+  frame.index = index;
+  const std::string& path = color_[static_cast<std::size_t>(index)].path;
+  const CameraModel& camera = info_.calibration.color;
+  if (channels.color) {
+    const fs::path file = folder_ / path;
+    frame.color = decode_color_png(read_file(file), size_of(camera), file.string());
+  }
+  if (channels.label) frame.label = read_grey16(folder_ / sibling_path(path, "label"), camera);
+}
+
+void Recording::read_depth(int depth_index, Channels channels, Frame& frame) const {
+  if (depth_index < 0 || depth_index >= depth_count())
+    throw Error(fmt::format("{}: no depth image {}; the recording has 0 to {}", folder_.string(),
+                            depth_index, depth_count() - 1));
   if (channels.depth_label && !info_.has_truth)
     throw Error(
         fmt::format("{}: made without truth; it can be mapped, not scored", folder_.string()));
-  const Entry& entry = entries_[static_cast<std::size_t>(index)];
-  const CameraModel& color = info_.calibration.color;
-  const CameraModel& depth = info_.calibration.depth;
-  Frame frame;
-  frame.index = index;
-  frame.stamp_s = entry.depth_stamp_s;
-  frame.T_world_base = entry.T_world_base;
-  if (channels.color) {
-    const fs::path file = folder_ / entry.color;
-    frame.color = decode_color_png(read_file(file), size_of(color), file.string());
-  }
-  if (channels.label) frame.label = read_grey16(folder_ / entry.label, color);
-  if (channels.depth) frame.depth = read_grey16(folder_ / entry.depth, depth);
-  if (channels.depth_label) frame.depth_label = read_grey16(folder_ / entry.depth_label, depth);
-  return frame;
+  const DepthImage& image = depth_[static_cast<std::size_t>(depth_index)];
+  const CameraModel& camera = info_.calibration.depth;
+  frame.depth_index = depth_index;
+  frame.stamp_s = image.stamp_s;
+  frame.T_world_base = image.T_world_base;
+  if (channels.depth) frame.depth = read_grey16(folder_ / image.path, camera);
+  if (channels.depth_label)
+    frame.depth_label = read_grey16(folder_ / sibling_path(image.path, "depth_label"), camera);
 }
 
 std::vector<Shape> Recording::read_shapes() const {

@@ -7,6 +7,7 @@
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/shape.hpp"
+#include "eval/recording/stamp_list.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -48,29 +49,51 @@ class Recording {
 
   [[nodiscard]] const RecordingInfo& info() const { return info_; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  /// Colour images, each a frame of every trial.
   [[nodiscard]] int frame_count() const { return info_.frame_count; }
+  [[nodiscard]] int depth_count() const { return static_cast<int>(depth_.size()); }
   /// Hash over recording.yaml, lists, poses, surfaces and every image file's bytes.
   [[nodiscard]] const std::string& content_hash() const { return content_hash_; }
 
-  /// True pose of base_footprint at the depth stamp of a frame.
-  [[nodiscard]] const Pose& T_world_base(int index) const {
-    return entries_.at(static_cast<std::size_t>(index)).T_world_base;
-  }
+  /// The depth image that a frame is read with: the nearest to the stamp of its colour image plus
+  /// `offset_s`, the earlier of two equally near.
+  [[nodiscard]] int depth_of(int index, double offset_s = 0.0) const;
 
-  [[nodiscard]] Frame read(int index, Channels channels = {}) const;
+  /// True pose of base_footprint at the stamp of a frame's depth image.
+  [[nodiscard]] const Pose& T_world_base(int index) const {
+    return T_world_base_of_depth(depth_of(index));
+  }
+  [[nodiscard]] const Pose& T_world_base_of_depth(int depth_index) const {
+    return depth_.at(static_cast<std::size_t>(depth_index)).T_world_base;
+  }
+  /// True pose at the stamp of a colour image, between two lines of groundtruth.txt interpolated.
+  /// Throws Error where the trajectory does not reach it.
+  [[nodiscard]] Pose T_world_base_of_color(int index) const;
+
+  /// A frame with the depth image that belongs to it.
+  [[nodiscard]] Frame read(int index, Channels channels = {}) const {
+    return read(index, depth_of(index), channels);
+  }
+  /// A frame with any depth image.
+  [[nodiscard]] Frame read(int index, int depth_index, Channels channels = {}) const;
+  /// One side of a frame alone: color and label, or depth, depth_label, stamp and pose.
+  void read_color(int index, Channels channels, Frame& frame) const;
+  void read_depth(int depth_index, Channels channels, Frame& frame) const;
   /// Exact drawn surfaces in the world frame, background included (instance 0).
   [[nodiscard]] std::vector<Shape> read_shapes() const;
 
  private:
+  struct DepthImage : StampedImage {
+    Pose T_world_base;
+  };
+  void check_frame(int index) const;
+
   std::filesystem::path folder_;
   RecordingInfo info_;
   std::string content_hash_;
-  struct Entry {
-    double color_stamp_s, depth_stamp_s;
-    std::string color, label, depth, depth_label;  ///< relative paths
-    Pose T_world_base;
-  };
-  std::vector<Entry> entries_;
+  std::vector<StampedImage> color_;
+  std::vector<DepthImage> depth_;
+  std::vector<TrajectoryPose> trajectory_;
 };
 
 /// Writes a recording aside (FOLDER.partial) and renames it in `finish`; without `finish` the
@@ -82,7 +105,12 @@ class RecordingWriter {
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-  /// Encodes and writes the images of one frame. Safe to call from several threads, in any order.
+  /// Encodes and writes a colour image and its labels, or a depth image and its labels, with the
+  /// pose of base_footprint at its stamp. Images of a side are numbered from 0. Safe to call from
+  /// several threads, in any order.
+  void write_color(const Frame& frame);
+  void write_depth(const Frame& frame);
+  /// Both sides of a frame, at one stamp, both numbered `frame.index`.
   void write(const Frame& frame);
   void write_shapes(const std::vector<Shape>& shapes);
   /// Writes lists, trajectory and recording.yaml; checks that every frame 0..n-1 was written;

@@ -100,14 +100,19 @@ std::string trajectory_text(const std::vector<TrajectoryPose>& poses) {
   return text;
 }
 
-std::size_t nearest_in_time(const std::vector<StampedImage>& images, double stamp_s) {
-  const auto after = std::lower_bound(
-      images.begin(), images.end(), stamp_s,
-      [](const StampedImage& image, double stamp) { return image.stamp_s < stamp; });
-  if (after == images.begin()) return 0;
-  const auto before = std::prev(after);
-  const bool later = after != images.end() && after->stamp_s - stamp_s < stamp_s - before->stamp_s;
-  return static_cast<std::size_t>((later ? after : before) - images.begin());
+std::optional<Pose> interpolated(const std::vector<TrajectoryPose>& trajectory, double stamp_s) {
+  const auto after = first_from(trajectory, stamp_s);
+  if (after == trajectory.end()) return std::nullopt;
+  if (after->stamp_s == stamp_s) return after->T_world_base;
+  if (after == trajectory.begin()) return std::nullopt;
+  const TrajectoryPose &from = *std::prev(after), &to = *after;
+  const double share = (stamp_s - from.stamp_s) / (to.stamp_s - from.stamp_s);
+  const Pose &a = from.T_world_base, &b = to.T_world_base;
+  const Eigen::Quaterniond q_a(a.linear()), q_b(b.linear());
+  Pose pose = Pose::Identity();
+  pose.linear() = q_a.slerp(share, q_b).toRotationMatrix();
+  pose.translation() = (1.0 - share) * a.translation() + share * b.translation();
+  return pose;
 }
 
 }  // namespace mapscore::eval

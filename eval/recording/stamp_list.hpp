@@ -5,7 +5,11 @@
 
 #include "core/geometry/pose.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +35,26 @@ struct TrajectoryPose {
 [[nodiscard]] std::string stamp_list_text(const std::vector<StampedImage>& images);
 [[nodiscard]] std::string trajectory_text(const std::vector<TrajectoryPose>& poses);
 
-/// Index of the image nearest in time, the earlier one of two equally near; `images` is not empty.
-[[nodiscard]] std::size_t nearest_in_time(const std::vector<StampedImage>& images, double stamp_s);
+/// First element of an ascending list whose stamp is not before `stamp_s`.
+template <class Stamped>
+[[nodiscard]] auto first_from(const std::vector<Stamped>& list, double stamp_s) {
+  return std::ranges::lower_bound(list, stamp_s, {}, &Stamped::stamp_s);
+}
+
+/// Index of the element nearest in time, the earlier one of two equally near; `list` ascends and is
+/// not empty.
+template <class Stamped>
+[[nodiscard]] std::size_t nearest_in_time(const std::vector<Stamped>& list, double stamp_s) {
+  const auto after = first_from(list, stamp_s);
+  if (after == list.begin()) return 0;
+  const auto before = std::prev(after);
+  const bool later = after != list.end() && after->stamp_s - stamp_s < stamp_s - before->stamp_s;
+  return static_cast<std::size_t>((later ? after : before) - list.begin());
+}
+
+/// Pose at a stamp: that of the line there, bit for bit, else between the lines around it, position
+/// linearly and attitude along the great circle. Nothing before the first and after the last line.
+[[nodiscard]] std::optional<Pose> interpolated(const std::vector<TrajectoryPose>& trajectory,
+                                               double stamp_s);
 
 }  // namespace mapscore::eval

@@ -65,12 +65,13 @@ struct RecordingWriter::State {
     Pose T_world_base;
     std::vector<HashedFile> images;
   };
+  using Side = std::map<int, Written>;  ///< by number of the image
 
   fs::path folder, partial;
   RecordingInfo info;
   bool has_shapes = false, finished = false;
-  std::mutex mutex;  // guards `frames`
-  std::map<int, Written> frames;
+  std::mutex mutex;  // guards the sides
+  Side color, depth;
 
   template <class Image>
   [[nodiscard]] HashedFile write_image(const char* channel, int index, const Image& image) const {
@@ -80,43 +81,74 @@ struct RecordingWriter::State {
     return {path, hash_of(png)};
   }
 
+  /// Takes a number of a side before its images are written.
+  void claim(Side& side, const char* name, int index, const Frame& frame) {
+    if (!std::isfinite(frame.stamp_s) || !frame.T_world_base.matrix().allFinite())
+      refuse(folder, fmt::format("{} image {}: stamp or pose is not finite", name, index));
+    const std::lock_guard lock(mutex);
+    if (!side.emplace(index, Written{frame.stamp_s, frame.T_world_base, {}}).second)
+      refuse(folder, fmt::format("{} image {} was written twice; number them from 0", name, index));
+  }
+
+  void note(Side& side, int index, std::vector<HashedFile> images) {
+    const std::lock_guard lock(mutex);
+    side.at(index).images = std::move(images);
+  }
+
+  void check_side(const Side& side, const char* name) const {
+    if (side.empty()) refuse(folder, "no frames were written; give the drive more than none");
+    const auto count = static_cast<int>(side.size());
+    if (side.begin()->first != 0 || side.rbegin()->first != count - 1)
+      refuse(folder,
+             fmt::format("{} images 0 to {} are not all there, {} were written; record again", name,
+                         side.rbegin()->first, count));
+    for (const auto& [index, image] : side)
+      if (image.images.empty())
+        refuse(folder, fmt::format("writing {} image {} failed; record again", name, index));
+    for (auto image = std::next(side.begin()); image != side.end(); ++image)
+      if (image->second.stamp_s <= std::prev(image)->second.stamp_s)
+        refuse(folder, fmt::format("stamp of {} image {} does not come after the one before; mend "
+                                   "the trajectory",
+                                   name, image->first));
+  }
+
   void check_frames() const {
-    if (frames.empty()) refuse(folder, "no frames were written; give the drive more than none");
-    const auto count = static_cast<int>(frames.size());
-    if (frames.begin()->first != 0 || frames.rbegin()->first != count - 1)
-      refuse(folder, fmt::format("frames 0 to {} are not all there, {} were written; record again",
-                                 frames.rbegin()->first, count));
+    check_side(color, "color");
+    check_side(depth, "depth");
+    const auto count = static_cast<int>(color.size());
     if (info.frame_count != 0 && info.frame_count != count)
       refuse(folder, fmt::format("{} frames were written, {} were announced; record again", count,
                                  info.frame_count));
-    for (const auto& [index, frame] : frames)
-      if (frame.images.empty())
-        refuse(folder, fmt::format("writing frame {} failed; record again", index));
     if (info.has_truth && !has_shapes)
       refuse(folder, "surfaces were not written; write them or record without truth");
-    for (auto frame = std::next(frames.begin()); frame != frames.end(); ++frame)
-      if (frame->second.stamp_s <= std::prev(frame)->second.stamp_s)
-        refuse(folder, fmt::format("stamp of frame {} does not come after the one before; mend the "
-                                   "trajectory",
-                                   frame->first));
+  }
+
+  /// Poses at the stamps of both sides; where they share one, the depth image's.
+  [[nodiscard]] std::vector<TrajectoryPose> trajectory() const {
+    std::map<double, Pose> poses;
+    for (const Side* side : {&depth, &color})
+      for (const auto& [index, image] : *side) poses.emplace(image.stamp_s, image.T_world_base);
+    std::vector<TrajectoryPose> lines;
+    for (const auto& [stamp_s, pose] : poses) lines.push_back({stamp_s, pose});
+    return lines;
   }
 
   void write_lists() const {
-    std::vector<StampedImage> color, depth;
-    std::vector<TrajectoryPose> poses;
     std::vector<HashedFile> hashes;
-    for (const auto& [index, frame] : frames) {
-      color.push_back({frame.stamp_s, image_name("color", index)});
-      depth.push_back({frame.stamp_s, image_name("depth", index)});
-      poses.push_back({frame.stamp_s, frame.T_world_base});
-      hashes.insert(hashes.end(), frame.images.begin(), frame.images.end());
-    }
-    std::sort(hashes.begin(), hashes.end(),
-              [](const HashedFile& a, const HashedFile& b) { return a.path < b.path; });
-    write_file(partial / "color.txt", stamp_list_text(color));
-    write_file(partial / "rgb.txt", stamp_list_text(color));
-    write_file(partial / "depth.txt", stamp_list_text(depth));
-    write_file(partial / "groundtruth.txt", trajectory_text(poses));
+    const auto list = [&](const Side& side, const char* channel) {
+      std::vector<StampedImage> images;
+      for (const auto& [index, image] : side) {
+        images.push_back({image.stamp_s, image_name(channel, index)});
+        hashes.insert(hashes.end(), image.images.begin(), image.images.end());
+      }
+      return stamp_list_text(images);
+    };
+    const std::string color_list = list(color, "color");
+    write_file(partial / "color.txt", color_list);
+    write_file(partial / "rgb.txt", color_list);
+    write_file(partial / "depth.txt", list(depth, "depth"));
+    std::ranges::sort(hashes, {}, &HashedFile::path);
+    write_file(partial / "groundtruth.txt", trajectory_text(trajectory()));
     write_file(partial / "hashes.txt", hash_list_text(hashes));
   }
 };
@@ -140,29 +172,33 @@ RecordingWriter::~RecordingWriter() {
   if (!state_->finished) fs::remove_all(state_->partial, ignored);
 }
 
+void RecordingWriter::write_color(const Frame& frame) {
+  const CameraModel& camera = state_->info.calibration.color;
+  check_size(frame.index, "color", frame.color, camera);
+  check_size(frame.index, "label", frame.label, camera);
+  state_->claim(state_->color, "color", frame.index, frame);
+  state_->note(state_->color, frame.index,
+               {state_->write_image("color", frame.index, frame.color),
+                state_->write_image("label", frame.index, frame.label)});
+}
+
+void RecordingWriter::write_depth(const Frame& frame) {
+  const CameraModel& camera = state_->info.calibration.depth;
+  const int index = frame.depth_index;
+  check_size(index, "depth", frame.depth, camera);
+  if (state_->info.has_truth) check_size(index, "depth_label", frame.depth_label, camera);
+  state_->claim(state_->depth, "depth", index, frame);
+  std::vector<HashedFile> images{state_->write_image("depth", index, frame.depth)};
+  if (state_->info.has_truth)
+    images.push_back(state_->write_image("depth_label", index, frame.depth_label));
+  state_->note(state_->depth, index, std::move(images));
+}
+
 void RecordingWriter::write(const Frame& frame) {
-  const Calibration& cameras = state_->info.calibration;
-  check_size(frame.index, "color", frame.color, cameras.color);
-  check_size(frame.index, "label", frame.label, cameras.color);
-  check_size(frame.index, "depth", frame.depth, cameras.depth);
-  if (state_->info.has_truth)
-    check_size(frame.index, "depth_label", frame.depth_label, cameras.depth);
-  if (!std::isfinite(frame.stamp_s) || !frame.T_world_base.matrix().allFinite())
-    refuse(state_->folder, fmt::format("frame {}: stamp or pose is not finite", frame.index));
-  {
-    const std::lock_guard lock(state_->mutex);
-    const State::Written claimed{frame.stamp_s, frame.T_world_base, {}};
-    if (!state_->frames.emplace(frame.index, claimed).second)
-      refuse(state_->folder,
-             fmt::format("frame {} was written twice; number the frames from 0", frame.index));
-  }
-  std::vector<HashedFile> images{state_->write_image("color", frame.index, frame.color),
-                                 state_->write_image("label", frame.index, frame.label),
-                                 state_->write_image("depth", frame.index, frame.depth)};
-  if (state_->info.has_truth)
-    images.push_back(state_->write_image("depth_label", frame.index, frame.depth_label));
-  const std::lock_guard lock(state_->mutex);
-  state_->frames.at(frame.index).images = std::move(images);
+  Frame numbered = frame;
+  numbered.depth_index = frame.index;
+  write_color(numbered);
+  write_depth(numbered);
 }
 
 void RecordingWriter::write_shapes(const std::vector<Shape>& shapes) {
@@ -181,7 +217,7 @@ void RecordingWriter::write_shapes(const std::vector<Shape>& shapes) {
 void RecordingWriter::finish() {
   state_->check_frames();
   state_->write_lists();
-  state_->info.frame_count = static_cast<int>(state_->frames.size());
+  state_->info.frame_count = static_cast<int>(state_->color.size());
   write_file(state_->partial / "recording.yaml", info_text(state_->info));
   check_absent(state_->folder);
   std::error_code error;

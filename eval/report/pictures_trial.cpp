@@ -108,7 +108,7 @@ std::vector<JudgedMap> map_trials(const Study& study, const ClassTable& table,
     TrialRun run(task, recording, table, truths);
     for (int frame = alone.value_or(0); frame < (alone ? *alone + 1 : recording.frame_count());
          ++frame)
-      run.advance(*frames.get(frame));
+      run.advance(*frames.get(frame, run.depth_of(frame)));
     maps.push_back(judged_trial(run, task, table, spec, alone));
   }
   if (maps.empty())

@@ -132,7 +132,7 @@ TEST_F(BrokenRecording, ALineLostFromAList) {
 
 TEST_F(BrokenRecording, ALineLostFromTheDepthList) {
   replace("depth.txt", "1.5 depth/000003.png\n", "");
-  expect_refusal("groundtruth.txt: 4 poses for 3 lines of depth.txt");
+  expect_refusal("hashes.txt: does not list the images of color.txt and depth.txt");
 }
 
 TEST_F(BrokenRecording, PosesMissingOrBroken) {

@@ -182,6 +182,51 @@ TEST(Recording, PairsEachColourImageWithTheDepthImageNearestInTime) {
   }
 }
 
+TEST(Recording, HoldsColourAndDepthAtRatesOfTheirOwn) {
+  const TemporaryFolder folder;
+  const std::vector<Frame> frames = tiny_frames();
+  {
+    RecordingInfo info = tiny_info();
+    info.frame_count = 2;
+    RecordingWriter writer(folder.path() / "rates", info);
+    for (const int i : {1, 0}) {  // colour at 0 and 1.5 s
+      Frame color = frames[static_cast<std::size_t>(3 * i)];
+      color.index = i;
+      writer.write_color(color);
+    }
+    for (const int i : {2, 0, 1}) {  // depth at 0, 0.5 and 1 s
+      Frame depth = frames[static_cast<std::size_t>(i)];
+      depth.depth_index = i;
+      writer.write_depth(depth);
+    }
+    writer.write_shapes(tiny_shapes());
+    writer.finish();
+  }
+  const Recording recording = Recording::open(folder.path() / "rates");
+  EXPECT_EQ(recording.frame_count(), 2);
+  EXPECT_EQ(recording.depth_count(), 3);
+  EXPECT_EQ(recording.depth_of(1), 2);
+  EXPECT_EQ(recording.depth_of(1, -0.8), 1);
+  EXPECT_EQ(recording.depth_of(1, -99.0), 0);
+  EXPECT_EQ(recording.T_world_base_of_color(1).matrix(), frames[3].T_world_base.matrix());
+  const Frame frame = recording.read(1, 1);
+  EXPECT_EQ(frame.index, 1);
+  EXPECT_EQ(frame.depth_index, 1);
+  EXPECT_EQ(frame.stamp_s, 0.5);
+  EXPECT_TRUE(same(frame.label, frames[3].label));
+  EXPECT_TRUE(same(frame.depth, frames[1].depth));
+  testing::expect_error("no depth image 3; the recording has 0 to 2",
+                        [&] { (void)recording.read(0, 3); });
+}
+
+TEST(Trajectory, IsInterpolatedBetweenItsLinesAndExactOnThem) {
+  std::vector<TrajectoryPose> lines{{1.0, planar_pose(1, 2, 0)}, {3.0, planar_pose(3, 0, 1.2)}};
+  EXPECT_EQ(interpolated(lines, 3.0)->matrix(), lines[1].T_world_base.matrix());
+  EXPECT_TRUE(interpolated(lines, 1.5)->isApprox(planar_pose(1.5, 1.5, 0.3), 1e-12));
+  EXPECT_FALSE(interpolated(lines, 0.999));
+  EXPECT_FALSE(interpolated(lines, 3.001));
+}
+
 TEST(Recording, WithoutTruthItIsReadButGivesNone) {
   const TemporaryFolder folder;
   RecordingInfo info = tiny_info();

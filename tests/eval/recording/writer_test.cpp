@@ -45,7 +45,7 @@ TEST_F(Writer, AFailedFrameLeavesNothingBehind) {
                  [&] { writer.write(tiny_frames()[0]); });
     for (const int index : {1, 2, 3}) writer.write(tiny_frames()[static_cast<std::size_t>(index)]);
     writer.write_shapes(tiny_shapes());
-    expect_error("writing frame 0 failed", [&] { writer.finish(); });
+    expect_error("writing depth image 0 failed", [&] { writer.finish(); });
   }
   EXPECT_FALSE(fs::exists(partial_));
   EXPECT_FALSE(fs::exists(out_));
@@ -129,11 +129,11 @@ TEST_F(Writer, FinishRefusesWhatIsNotWhole) {
   expect_error("surfaces were not written", [&] { writer.finish(); });
   writer.write_shapes(tiny_shapes());
   writer.write(frames[2]);
-  expect_error("frames 0 to 2 are not all there", [&] { writer.finish(); });
+  expect_error("color images 0 to 2 are not all there", [&] { writer.finish(); });
   Frame late = frames[1];
   late.stamp_s = 1.0;
   writer.write(late);
-  expect_error("stamp of frame 2 does not come after", [&] { writer.finish(); });
+  expect_error("stamp of color image 2 does not come after", [&] { writer.finish(); });
   EXPECT_FALSE(fs::exists(out_));
 }
 
@@ -148,16 +148,16 @@ TEST_F(Writer, RefusesFramesThatDoNotFit) {
   RecordingWriter writer(out_, tiny_info());
   Frame frame = tiny_frames()[0];
   writer.write(frame);
-  expect_error("frame 0 was written twice", [&] { writer.write(frame); });
+  expect_error("color image 0 was written twice", [&] { writer.write(frame); });
   frame.index = 1;
   frame.depth = cv::Mat1w(3, 3);
   expect_error("frame 1: depth is 3 x 3, its camera 64 x 48", [&] { writer.write(frame); });
-  frame = tiny_frames()[1];
+  frame = tiny_frames()[2];
   frame.depth_label.release();
-  expect_error("frame 1: depth_label is 0 x 0", [&] { writer.write(frame); });
-  frame = tiny_frames()[1];
+  expect_error("frame 2: depth_label is 0 x 0", [&] { writer.write(frame); });
+  frame = tiny_frames()[3];
   frame.T_world_base.translation().x() = std::numeric_limits<double>::infinity();
-  expect_error("frame 1: stamp or pose is not finite", [&] { writer.write(frame); });
+  expect_error("color image 3: stamp or pose is not finite", [&] { writer.write(frame); });
   std::vector<Shape> shapes = tiny_shapes();
   shapes[0].instance = 3;
   expect_error("instance 3 is not in the class table", [&] { writer.write_shapes(shapes); });
