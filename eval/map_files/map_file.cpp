@@ -3,6 +3,7 @@
 
 #include "eval/map_files/map_file.hpp"
 
+#include "eval/map_files/lower_case.hpp"
 #include "eval/map_files/octree_file.hpp"
 #include "eval/map_files/pcd_file.hpp"
 #include "eval/map_files/ply_file.hpp"
@@ -15,12 +16,8 @@
 namespace mapscore::eval {
 namespace {
 
-/// With its dot, capitals made small.
 std::string ending_of(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return ending;
+  return lower_case(file.extension().string());
 }
 
 }  // namespace
