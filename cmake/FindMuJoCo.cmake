@@ -28,7 +28,8 @@ endif()
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(MuJoCo REQUIRED_VARS MuJoCo_LIBRARY MuJoCo_INCLUDE_DIR
-                                  VERSION_VAR MuJoCo_VERSION)
+                                  VERSION_VAR MuJoCo_VERSION
+                                  REASON_FAILURE_MESSAGE "run scripts/setup.sh, which fetches it, or configure with -DMAPSCORE_SIMULATOR=OFF")
 
 if(MuJoCo_FOUND AND NOT TARGET MuJoCo::MuJoCo)
   add_library(MuJoCo::MuJoCo SHARED IMPORTED)

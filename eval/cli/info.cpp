@@ -15,7 +15,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -74,11 +73,6 @@ void print_store(const fs::path& results) {
   std::cout << store.text("study");
 }
 
-bool is_map(const fs::path& file) {
-  constexpr std::array kEndings{".ot", ".bt", ".ply", ".pcd", ".csv"};
-  return std::ranges::find(kEndings, file.extension().string()) != kEndings.end();
-}
-
 const char* name_of(LabelKind kind) {
   switch (kind) {
     case LabelKind::colour:
@@ -120,7 +114,7 @@ void print_map(const fs::path& file) {
 void info(const fs::path& file) {
   if (!fs::exists(file)) throw Error(file.string() + ": there is no such file or folder");
   if (file.extension() == ".xml") return print_scene(file);
-  if (is_map(file)) return print_map(file);
+  if (has_ending_of_a_map(file)) return print_map(file);
   if (fs::exists(file / "recording.yaml")) return print_recording(file);
   if (fs::exists(store_file(file)) && store_file(file).extension() == ".sqlite")
     return print_store(file);

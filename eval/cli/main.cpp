@@ -5,9 +5,11 @@
 #include "eval/cli/verbs.hpp"
 
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
+#include <string_view>
 
 namespace {
 
@@ -29,6 +31,18 @@ void refuse_unknown_verb(const CLI::App& program, int argc, char** argv) {
   throw mapscore::Error(std::string("no verb '") + argv[1] + "'; there are: " + verbs);
 }
 
+/// An unset variable of a shell would otherwise pass for a flag that was not given.
+void refuse_empty_values(int argc, char** argv) {
+  for (int n = 1; n < argc; ++n) {
+    const std::string_view word = argv[n];
+    if (word.empty())
+      throw mapscore::Error(std::string("an empty value after '") + argv[n - 1] +
+                            "'; give one, or leave the flag out");
+    if (word.starts_with("--") && word.find('=') == word.size() - 1)
+      throw mapscore::Error(std::string(word) + ": has no value; give one, or leave the flag out");
+  }
+}
+
 int run(CLI::App& program, int argc, char** argv) {
   int exit_code = 0;
   namespace verbs = mapscore::eval;
@@ -43,6 +57,7 @@ int run(CLI::App& program, int argc, char** argv) {
   verbs::add_check(program, exit_code);
   verbs::add_info(program);
   refuse_unknown_verb(program, argc, argv);
+  refuse_empty_values(argc, argv);
   program.parse(argc, argv);
   std::cout.flush();
   return std::cout ? exit_code : complain("standard output cannot be written; is the disk full?");
@@ -70,6 +85,9 @@ int main(int argc, char** argv) {
     return complain(std::string(error.what()) + "; see `mapscore --help`");
   } catch (const mapscore::Error& error) {
     return complain(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(error.path1().string() + ": " + error.code().message() +
+                    "; give another place, or mend its permissions");
   } catch (const std::bad_alloc&) {
     return complain("out of memory; use fewer --jobs, less --memory or larger voxels");
   } catch (const std::exception& error) {

@@ -22,6 +22,8 @@ namespace {
 /// A share of occupied voxels on or beside surfaces that no map falls below by being bad: in a home
 /// even voxels thrown at random do better.
 constexpr double kLeastShareAtSurfaces = 0.01;
+/// Below it a map is more likely turned or shifted than bad.
+constexpr double kDoubtfulShareAtSurfaces = 0.25;
 
 Pose transform_of(const std::string& text) {
   if (text.empty()) return Pose::Identity();
@@ -49,6 +51,22 @@ std::string span_of(const Eigen::AlignedBox3d& box) {
                      box.max().x(), box.min().y(), box.max().y(), box.min().z(), box.max().z());
 }
 
+std::string words_of(Placing placing, double file_edge_m, bool is_moved) {
+  const std::string from =
+      file_edge_m > 0.0 ? fmt::format("voxels of {} m", file_edge_m) : std::string("its voxels");
+  const char* moved = is_moved ? " moved by --transform and" : "";
+  switch (placing) {
+    case Placing::pulled:
+      return fmt::format("{}{} read at the centres of the truth's", from, moved);
+    case Placing::pushed:
+      return fmt::format("{}{} put into the truth's by their centres", from, moved);
+    case Placing::binned:
+      return fmt::format("points{} binned", moved);
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 void MapFlags::add_to(CLI::App& verb) {
@@ -70,6 +88,8 @@ InputMap read_input_map(const MapFlags& flags, const ClassTable& table, double e
       read_map_file(flags.file, flags.skip_nan ? NotFinite::skip : NotFinite::refuse);
   InputMap map;
   map.geometry = flags.geometry || file.label_kind == LabelKind::none;
+  if (flags.geometry && !flags.legend.empty())
+    throw Error("--legend: --geometry leaves the labels out; give one of the two");
   if (map.geometry && !flags.legend.empty())
     throw Error(flags.file + ": has no labels that --legend could explain; leave it out");
   Labelling labelling = labelling_of(flags, file, map.geometry, table);
@@ -79,6 +99,7 @@ InputMap read_input_map(const MapFlags& flags, const ClassTable& table, double e
                                     flags.resample ? Resample::allow : Resample::refuse);
     for (std::size_t n = 0; n < lattice.instances.size(); ++n)
       map.numbers.push_back({lattice.voxels[n].key, lattice.instances[n]});
+    map.placing = words_of(lattice.placing, file.edge_m, !flags.transform.empty());
     map.snapshot = MapSnapshot(std::move(lattice.voxels));
   } catch (const Error& error) {
     throw Error(flags.file + ": " + error.what());
@@ -94,8 +115,9 @@ std::string text_of(const std::vector<Leftover>& leftovers, std::size_t most) {
   return text;
 }
 
-void check_frame(const MapFlags& flags, const MapSnapshot& map, const SurfaceTruth& surface) {
-  if (flags.trust_frame) return;
+std::string check_frame(const MapFlags& flags, const MapSnapshot& map,
+                        const SurfaceTruth& surface) {
+  if (flags.trust_frame) return {};
   std::size_t occupied = 0, at_surfaces = 0;
   Eigen::AlignedBox3d map_box, truth_box;
   const auto touched = [&](const VoxelKey& key) { return surface.touches_any(key); };
@@ -106,7 +128,12 @@ void check_frame(const MapFlags& flags, const MapSnapshot& map, const SurfaceTru
     at_surfaces += touched(voxel.key) || any_in_shell(voxel.key, 1, touched) ? 1 : 0;
   }
   const auto share = static_cast<double>(at_surfaces) / static_cast<double>(occupied);
-  if (occupied == 0 || share >= kLeastShareAtSurfaces) return;
+  if (occupied == 0 || share >= kDoubtfulShareAtSurfaces) return {};
+  if (share >= kLeastShareAtSurfaces)
+    return fmt::format(
+        "only {:.0f} % of the map's occupied voxels lie on or beside a surface; is it in the frame "
+        "that --transform, --origin_m and --yaw_deg say?",
+        100.0 * share);
   for (const SurfaceVoxel& row : surface.voxels())
     truth_box.extend(centre_of(row.key, surface.edge_m()));
   throw Error(fmt::format(

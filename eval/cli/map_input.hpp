@@ -30,6 +30,7 @@ struct InputMap {
   std::vector<NumberedVoxel> numbers;  ///< of objects; empty where the file has none
   bool geometry = false;               ///< without classes: occupied voxels are of kSurfaceClass
   std::vector<Leftover> leftovers;     ///< labels that mean nothing
+  std::string placing;                 ///< in words, how it came onto the lattice
 };
 
 /// Reads the map, gives its labels their meaning in `table` and brings it onto the lattice of edge
@@ -41,7 +42,9 @@ struct InputMap {
 [[nodiscard]] std::string text_of(const std::vector<Leftover>& leftovers, std::size_t most);
 
 /// Throws Error with the bounds of both when fewer than one occupied voxel in a hundred lies on or
-/// beside a surface: then the map lies in another frame. A map without occupied voxels passes.
-void check_frame(const MapFlags& flags, const MapSnapshot& map, const SurfaceTruth& surface);
+/// beside a surface: then the map lies in another frame. Below one in four it gives a note for the
+/// user, else nothing. A map without occupied voxels passes.
+[[nodiscard]] std::string check_frame(const MapFlags& flags, const MapSnapshot& map,
+                                      const SurfaceTruth& surface);
 
 }  // namespace mapscore::eval

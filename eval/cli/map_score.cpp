@@ -34,7 +34,7 @@ MapScore score_input(const InputMap& map, const MapFlags& flags, double threshol
   score.threshold = threshold;
   score.sampled = source.recording() != nullptr;
   score.truth = source.truth(sampled_table(score.table, map.snapshot), true);
-  check_frame(flags, map.snapshot, score.truth.surface);
+  score.note = check_frame(flags, map.snapshot, score.truth.surface);
   const ViewTruth& view = score.truth.view(0);
   const std::size_t classes = score.table.classes.size();
   score.counts = score.truth.score(map.snapshot, threshold, view, classes, {}, jobs);

@@ -26,6 +26,7 @@ struct MapScore {
   ConfusionMatrix confusion;
   std::vector<InstanceCounts> instances;     ///< by class id; empty for geometry alone
   std::optional<OccupancyCounts> occupancy;  ///< where a recording's map knows free voxels
+  std::string note;                          ///< for the user, on where the map lies; often empty
 };
 
 /// Scores a map against a truth. Throws Error when the map lies in another frame.

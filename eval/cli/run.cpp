@@ -19,6 +19,7 @@
 #include "eval/report/whole_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iostream>
 #include <memory>
@@ -36,13 +37,14 @@ struct RunFlags {
 };
 
 TrialSpec spec_of(const Study& study, const RunFlags& flags) {
+  if (flags.seed < 0 || flags.seed >= study.seeds)
+    throw Error(fmt::format("no trial of seed {}; seeds: 0 to {}", flags.seed, study.seeds - 1));
   for (const TrialSpec& spec : trials(study))
     if (spec.seed_index == flags.seed && (flags.method.empty() || spec.method == flags.method))
       return spec;
   std::string names;
   for (const MethodSettings& method : study.methods) names += " " + method.name;
-  throw Error(fmt::format("no trial of method '{}' and seed {}; methods:{}; seeds: 0 to {}",
-                          flags.method, flags.seed, names, study.seeds - 1));
+  throw Error(fmt::format("no trial of method '{}'; methods:{}", flags.method, names));
 }
 
 std::string score_text(const TrialResult& result, const ClassTable& table) {
@@ -79,6 +81,26 @@ void write_frames(const TrialRun& trial, const ClassTable& table,
   std::cout << file.string() << '\n';
 }
 
+/// The command that scores the map again, as a comment.
+std::string score_command(const std::filesystem::path& map, const Study& study,
+                          const Recording& recording, const ClassTable& table, const Task& task,
+                          double threshold) {
+  const MapFrame frame = map_frame(task.config, task.seed_index);
+  std::string command = fmt::format(
+      "# mapscore score {} --truth {} --voxel_m {} --origin_m {} {} {} --yaw_deg {} --threshold {}",
+      map.string(), recording.folder().string(), frame.edge_m, frame.origin_m.x(),
+      frame.origin_m.y(), frame.origin_m.z(), task.config.map_yaw_deg, threshold);
+  if (task.config.score.unit == ScoreUnit::frame)
+    command += fmt::format(" --frames {}", recording.frame_count() - 1);
+  if (study.detect) {
+    std::vector<std::string> names;
+    for (const SemanticClass& c : table.classes)
+      if (c.detect) names.push_back(c.name);
+    command += fmt::format(" --detect {}", fmt::join(names, ","));
+  }
+  return command + '\n';
+}
+
 void run(const RunFlags& flags) {
   const std::optional<sim::View> view = flags.view.view();
   const Study study = flags.study.load();
@@ -90,6 +112,7 @@ void run(const RunFlags& flags) {
   const ClassTable table = detected_table(study, recording.info().table);
   const TrialSpec spec = spec_of(study, flags);
   const Task task = task_of(study, spec, Labels::detected, recording.content_hash());
+  const bool by_frame = task.config.score.unit == ScoreUnit::frame;
 
   FrameCache frames(recording, {.color = false, .label = true, .depth = true, .depth_label = true},
                     flags.work.memory_bytes);
@@ -108,16 +131,14 @@ void run(const RunFlags& flags) {
   trial.map().save(folder / "map.ot");
   trial.map().export_color(folder / "map_colour.ot", table, trial.threshold());
   const TrialResult result = trial.finish();
-  const MapFrame frame = map_frame(task.config, task.seed_index);
-  std::cout << fmt::format("# {} seed {} {}\n", spec.method, spec.seed_index, text_of(spec.cell))
-            << score_text(result, table) << (folder / "map.ot").string() << '\n'
-            << (folder / "map_colour.ot").string() << '\n'
-            << fmt::format(
-                   "# mapscore score {} --truth {} --voxel_m {} --origin_m {} {} {} --yaw_deg {}"
-                   " --threshold {}\n",
-                   (folder / "map.ot").string(), recording.folder().string(), frame.edge_m,
-                   frame.origin_m.x(), frame.origin_m.y(), frame.origin_m.z(),
-                   task.config.map_yaw_deg, trial.threshold());
+  std::cout << fmt::format("# {} seed {}{}{}, voxels of {} m, each {} scored, threshold {}\n",
+                           spec.method, spec.seed_index, spec.cell.doses.empty() ? "" : " ",
+                           text_of(spec.cell), task.config.voxel_m, by_frame ? "frame" : "map",
+                           trial.threshold())
+            << score_text(result, table) << (folder / "map.ot").string()
+            << (by_frame ? " (of the last frame)\n" : "\n") << (folder / "map_colour.ot").string()
+            << '\n'
+            << score_command(folder / "map.ot", study, recording, table, task, trial.threshold());
   write_frames(trial, table, folder / "frames.csv");
   print_pictures(draw_pictures(
       study, table, recording,

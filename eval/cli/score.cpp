@@ -29,6 +29,7 @@ constexpr std::size_t kListedLeftovers = 10;
 struct ScoreFlags {
   MapFlags map;
   std::string truth, format = "text";
+  std::vector<std::string> detect;
   std::optional<double> threshold;
   bool details = false, tidy = false;
   std::string picture, errors_ply;
@@ -57,16 +58,27 @@ void print_tidy(const ScoreFlags& flags, const Table& table) {
 std::vector<std::string> caption_of(const ScoreFlags& flags, const InputMap& map,
                                     const MapScore& score, const TruthSource& source) {
   std::string seen = "all of the scene's surface counts as visible; no samples";
-  if (source.recording()) seen = fmt::format("as {} frames saw it", source.frames().size());
+  if (source.recording())
+    seen = fmt::format("visible with {} samples in {} of {} frames", flags.lattice.min_samples,
+                       source.frames().size(), source.recording()->frame_count());
   std::string detected;
   for (const SemanticClass& c : score.table.classes)
     if (c.detect) detected += (detected.empty() ? "" : ", ") + c.name;
   std::vector<std::string> caption{
       fmt::format("{} against {}, {}", flags.map.file, flags.truth, seen),
-      fmt::format("voxels of {} m; threshold {}; pooled and macro over: {}", flags.lattice.voxel_m,
-                  score.threshold, detected)};
+      fmt::format("voxels of {} m, origin {} {} {} m, yaw {} deg, epsilon {} m; threshold {}",
+                  flags.lattice.voxel_m, flags.lattice.origin_m[0], flags.lattice.origin_m[1],
+                  flags.lattice.origin_m[2], flags.lattice.yaw_deg, flags.lattice.epsilon_m,
+                  score.threshold),
+      fmt::format("pooled and macro over: {}", detected)};
+  if (!map.placing.empty()) caption.push_back("the map: " + map.placing);
   if (map.geometry) caption.emplace_back("geometry alone: occupied voxels against all surfaces");
   return caption;
+}
+
+/// What the user may want to know, of figures that are right as they are.
+void note(const ScoreFlags& flags, const std::string& text) {
+  if (!flags.work.quiet) std::cerr << "mapscore: note: " << text << '\n';
 }
 
 /// The verdicts that were asked for, in the scene and as points.
@@ -95,12 +107,14 @@ void check_outputs(const ScoreFlags& flags) {
 void score_map(const ScoreFlags& flags) {
   check_outputs(flags);
   TruthSource source(flags.truth, flags.lattice, flags.work);
+  if (!flags.detect.empty()) source.detect(flags.detect);
   const InputMap map = read_input_map(flags.map, source.table(), flags.lattice.voxel_m);
   if (!map.leftovers.empty())
-    std::cerr << "mapscore: labels without a meaning: " << text_of(map.leftovers, kListedLeftovers)
-              << "; --legend can give them one\n";
+    note(flags, "labels without a meaning: " + text_of(map.leftovers, kListedLeftovers) +
+                    "; --legend can give them one");
   const double threshold = flags.threshold.value_or(map.geometry ? 0.0 : kDefaultThreshold);
   const MapScore score = score_input(map, flags.map, threshold, source, flags.work.jobs);
+  if (!score.note.empty()) note(flags, score.note);
   write_errors(flags, map, score, source);
   if (flags.tidy) return print_tidy(flags, tidy_table(score));
   std::vector<Table> tables{class_table(score)};
@@ -119,12 +133,49 @@ LabelLegend legend_of(const ScoreFlags& flags, const ClassTable& table) {
       };
 }
 
+/// A folder of label images is scored pixel by pixel: flags of voxels would do nothing.
+void check_label_flags(const ScoreFlags& flags) {
+  const LatticeFlags none;
+  const LatticeFlags& lattice = flags.lattice;
+  const std::pair<bool, const char*> idle[] = {
+      {!flags.picture.empty(), "--picture"},
+      {!flags.errors_ply.empty(), "--errors_ply"},
+      {flags.view.view().has_value(), "--view"},
+      {flags.threshold.has_value(), "--threshold"},
+      {!flags.detect.empty(), "--detect"},
+      {!flags.map.transform.empty(), "--transform"},
+      {flags.map.geometry, "--geometry"},
+      {flags.map.resample, "--resample"},
+      {flags.map.skip_nan, "--skip_nan"},
+      {flags.map.trust_frame, "--trust_frame"},
+      {lattice.voxel_m != none.voxel_m, "--voxel_m"},
+      {lattice.origin_m != none.origin_m, "--origin_m"},
+      {lattice.yaw_deg != none.yaw_deg, "--yaw_deg"},
+      {lattice.epsilon_m != none.epsilon_m, "--epsilon_m"},
+      {lattice.min_samples != none.min_samples, "--min_samples"}};
+  for (const auto& [given, flag] : idle)
+    if (given)
+      throw Error(
+          fmt::format("{}: {} is a folder of label images, which have no voxels; leave it "
+                      "out",
+                      flag, flags.map.file));
+}
+
+/// The recording's own label images hold numbers of instances, which would pass for classes.
+void refuse_own_labels(const std::string& folder, const Recording& recording) {
+  std::error_code none;
+  if (std::filesystem::equivalent(folder, recording.folder() / "label", none))
+    throw Error(folder +
+                ": holds ids of instances, the truth; label images to score hold ids of "
+                "classes");
+}
+
 void score_label_images(const ScoreFlags& flags) {
+  check_label_flags(flags);
   TruthSource source(flags.truth, flags.lattice, flags.work);
   if (!source.recording())
     throw Error(flags.map.file + ": a folder of label images needs a recording as --truth");
-  if (!flags.picture.empty() || !flags.errors_ply.empty())
-    throw Error(flags.map.file + ": a folder of label images has no voxels to draw");
+  refuse_own_labels(flags.map.file, *source.recording());
   const ConfusionMatrix matrix =
       label_folder_confusion(*source.recording(), flags.map.file, source.frames(),
                              legend_of(flags, source.table()), flags.work.jobs);
@@ -157,6 +208,10 @@ void add_score(CLI::App& program) {
   verb->add_option("--threshold", flags->threshold,
                    "Least probability of a predicted voxel [0.25; 0 for geometry]")
       ->check(finite_within(0.0, 1.0));
+  verb->add_option("--detect", flags->detect,
+                   "Classes of pooled, macro, pictures and errors, by commas, or all [the truth's]")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   verb->add_flag("--details", flags->details,
                  "And distances, probabilities, instances, confusion, free space");
   verb->add_flag("--tidy", flags->tidy, "Everything as one table: class,metric,value");

@@ -42,6 +42,17 @@ void merge_into(ResultStore& store, const std::string& other, bool quiet) {
   if (!quiet) std::cerr << fmt::format("sweep: {} trials taken over from {}\n", taken, other);
 }
 
+/// A store keeps the trials of every study, and shows those of the last one.
+void note_other_study(const ResultStore& store, const std::filesystem::path& results,
+                      const Study& study) {
+  if (store.text("study").empty()) return;
+  const std::string before = read_study(store, results).study.name;
+  if (before != study.name)
+    std::cerr << fmt::format(
+        "sweep: note: {} held study {}; its trials stay, tables will show {}\n", results.string(),
+        before, study.name);
+}
+
 void sweep(const SweepFlags& flags) {
   const Study study = flags.study.load();
   const std::filesystem::path results = flags.study.results_folder(study);
@@ -55,6 +66,7 @@ void sweep(const SweepFlags& flags) {
   const Plan plan = plan_of(study, recording.content_hash());
 
   ResultStore store = ResultStore::open(results / "results.sqlite");
+  if (!flags.work.quiet) note_other_study(store, results, study);
   write_study(store,
               {study, table, recording.content_hash(),
                std::filesystem::relative(recording.folder(), results).string()},

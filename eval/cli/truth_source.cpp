@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/experiment/study_recording.hpp"
+#include "eval/experiment/study_store.hpp"
 
 #include <numbers>
 
@@ -40,11 +41,15 @@ TruthSource::TruthSource(const std::string& source, const LatticeFlags& lattice,
   if (std::filesystem::path(source).extension() == ".xml") {
     if (lattice.frames)
       throw Error("--frames: " + source + " is a scene and has none; give a recording");
+    if (lattice.min_samples != LatticeFlags().min_samples)
+      throw Error("--min_samples: " + source + " is a scene and has no samples; leave it out");
     SceneSurfaces scene = surfaces_of_scene(source);
     table_ = std::move(scene.table);
     shapes_ = std::move(scene.shapes);
     return;
   }
+  if (std::filesystem::is_regular_file(source))
+    throw Error(source + ": neither a recording's folder nor a scene (.xml); give one of these");
   recording_.emplace(Recording::open(source));
   if (!recording_->info().has_truth)
     throw Error(source +
@@ -55,6 +60,13 @@ TruthSource::TruthSource(const std::string& source, const LatticeFlags& lattice,
   frames_.emplace(*recording_,
                   Channels{.color = false, .label = false, .depth = true, .depth_label = true},
                   work.memory_bytes);
+}
+
+void TruthSource::detect(const std::vector<std::string>& classes) {
+  Study study;
+  study.detect = DetectedSet{classes == std::vector<std::string>{"all"}, classes};
+  if (study.detect->all) study.detect->classes.clear();
+  table_ = detected_table(study, std::move(table_));
 }
 
 std::vector<int> TruthSource::frames() const {

@@ -40,6 +40,9 @@ class TruthSource {
   TruthSource(const TruthSource&) = delete;
   TruthSource& operator=(const TruthSource&) = delete;
 
+  /// Detects these classes in place of the source's own; {"all"}: every one. Throws Error naming a
+  /// class that is not there.
+  void detect(const std::vector<std::string>& classes);
   [[nodiscard]] const ClassTable& table() const { return table_; }
   /// Drawn surfaces in the world frame.
   [[nodiscard]] const std::vector<Shape>& shapes() const { return shapes_; }

@@ -3,6 +3,7 @@
 
 #include "eval/map_files/cloud_fields.hpp"
 
+#include "eval/map_files/lower_case.hpp"
 #include "eval/map_files/refusal.hpp"
 #include "eval/map_files/text_rows.hpp"
 
@@ -21,13 +22,6 @@ namespace mapscore::eval {
 namespace {
 
 using Names = std::initializer_list<std::string_view>;
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& letter : lower)
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  return lower;
-}
 
 /// Column of the first name that is there.
 std::optional<std::size_t> first_of(std::span<const CloudField> fields, Names names) {

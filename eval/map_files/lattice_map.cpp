@@ -145,7 +145,12 @@ void refuse_too_many(const MapFile& map, double source_edge_m, double edge_m) {
 LatticeMap on_lattice(const MapFile& map, const std::vector<ClassId>& classes,
                       const Pose& T_map_file, double edge_m, Resample resample) {
   assert(classes.size() == map.size());
-  if (map.voxels.empty()) return bin_points(map, classes, T_map_file, edge_m);
+  const auto placed = [](LatticeMap lattice, Placing placing) {
+    lattice.placing = placing;
+    return lattice;
+  };
+  if (map.voxels.empty())
+    return placed(bin_points(map, classes, T_map_file, edge_m), Placing::binned);
 
   const double source_edge_m = map.edge_m > 0.0 ? map.edge_m : edge_m;
   const bool same_edge = std::abs(source_edge_m - edge_m) <= kSameEdge_m;
@@ -157,9 +162,10 @@ LatticeMap on_lattice(const MapFile& map, const std::vector<ClassId>& classes,
   if (same_edge && T_map_file.matrix() == Eigen::Matrix4d::Identity())
     return as_they_are(map, classes, edge_m);
   if (!same_edge && source_edge_m < edge_m)
-    return push_centres(map, classes, T_map_file, source_edge_m, edge_m);
+    return placed(push_centres(map, classes, T_map_file, source_edge_m, edge_m), Placing::pushed);
   refuse_too_many(map, source_edge_m, edge_m);
-  return pull_sources(map, classes, T_map_file, same_edge ? edge_m : source_edge_m, edge_m);
+  return placed(pull_sources(map, classes, T_map_file, same_edge ? edge_m : source_edge_m, edge_m),
+                Placing::pulled);
 }
 
 }  // namespace mapscore::eval

@@ -16,10 +16,14 @@ namespace mapscore::eval {
 /// Whether voxels of another edge than the lattice's are brought onto it.
 enum class Resample { refuse, allow };
 
+/// How a map came onto the lattice: its voxels as they are, pulled or pushed, or its points binned.
+enum class Placing { as_they_are, pulled, pushed, binned };
+
 /// A foreign map on the lattice of the truth, ascending by key, each voxel once.
 struct LatticeMap {
   std::vector<MapVoxel> voxels;
   std::vector<std::uint32_t> instances;  ///< one a voxel, 0: none; empty when the map has none
+  Placing placing = Placing::as_they_are;
 };
 
 /// Brings a map onto the lattice of edge `edge_m` in frame map; `classes` has one class for each of

@@ -4,6 +4,7 @@
 #include "eval/map_files/voxel_csv.hpp"
 
 #include "eval/map_files/csv_cells.hpp"
+#include "eval/map_files/lower_case.hpp"
 #include "eval/map_files/refusal.hpp"
 #include "eval/map_files/text_rows.hpp"
 #include "eval/recording/file_bytes.hpp"
@@ -86,7 +87,7 @@ class CsvReader {
   }
 
   void take_column(const std::string& name, int n) {
-    const auto found = std::ranges::find(kColumns, name);
+    const auto found = std::ranges::find(kColumns, lower_case(name));
     if (found == kColumns.end())
       refuse_row(
           fmt::format("unknown column {}; known are {}", shown(name), fmt::join(kColumns, ", ")));

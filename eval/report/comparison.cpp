@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 namespace mapscore::eval {
@@ -66,6 +67,16 @@ const ResultLine& line_of(const StudySummary& summary, const Cell& cell,
   return *line;
 }
 
+/// Whether all seeds, two and more, have the very same two values: nothing was drawn that this
+/// figure depends on, so the seeds are one observation and tell nothing of chance.
+bool is_one_value(const std::vector<std::optional<double>>& a,
+                  const std::vector<std::optional<double>>& b) {
+  const auto same = [](const auto& values) {
+    return std::ranges::adjacent_find(values, std::not_equal_to<>()) == values.end();
+  };
+  return a.size() > 1 && same(a) && same(b);
+}
+
 /// Values of both lines, position by position the same seed; a seed that one lacks is undefined.
 PairedComparison compare_lines(const ResultLine& a, const ResultLine& b,
                                const StudySummary& summary, const std::string& group,
@@ -80,7 +91,9 @@ PairedComparison compare_lines(const ResultLine& a, const ResultLine& b,
     values_a.push_back(values.first);
     values_b.push_back(values.second);
   }
-  return compare_paired(values_a, values_b);
+  PairedComparison paired = compare_paired(values_a, values_b);
+  if (is_one_value(values_a, values_b)) paired.p.reset();
+  return paired;
 }
 
 std::string figure(const std::optional<double>& value) {
@@ -126,7 +139,8 @@ std::vector<std::string> caption_of(const StudySummary& summary, const Compariso
           "p: two-sided sign-flip permutation of the mean difference, {}; not corrected for "
           "{} row{}; p (Holm): corrected",
           study.seeds <= kExactSignFlips ? "exact" : "by random sign patterns", rows,
-          rows == 1 ? "" : "s"),
+          rows == 1 ? "" : "s") +
+          "; - where all seeds have the same values, drawn from nothing",
       fmt::format("least p possible with {} pair{}: {}; p (Holm): {}", study.seeds,
                   study.seeds == 1 ? "" : "s", probability(least),
                   probability(std::min(1.0, least * static_cast<double>(rows))))};

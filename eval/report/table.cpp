@@ -9,6 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
 
 namespace mapscore::eval {
 namespace {
@@ -129,12 +132,28 @@ std::string to_csv(const Table& table) {
 
 namespace {
 
+/// Numbers as numbers, `-` and nothing as null, anything else as text.
+nlohmann::ordered_json json_of(const std::string& cell) {
+  if (cell == "-" || cell.empty()) return nullptr;
+  const char *begin = cell.data() + (cell.starts_with('+') ? 1 : 0),
+             *end = cell.data() + cell.size();
+  std::int64_t whole = 0;
+  if (const auto read = std::from_chars(begin, end, whole);
+      read.ec == std::errc() && read.ptr == end)
+    return whole;
+  double number = 0.0;
+  if (const auto read = std::from_chars(begin, end, number);
+      read.ec == std::errc() && read.ptr == end && std::isfinite(number))
+    return number;
+  return cell;
+}
+
 nlohmann::ordered_json json_of(const Table& table) {
   nlohmann::ordered_json object{{"caption", table.caption},
                                 {"rows", nlohmann::ordered_json::array()}};
   for (const auto& row : table.rows) {
     nlohmann::ordered_json entry;
-    for (std::size_t i = 0; i < row.size(); ++i) entry[table.columns[i]] = row[i];
+    for (std::size_t i = 0; i < row.size(); ++i) entry[table.columns[i]] = json_of(row[i]);
     object["rows"].push_back(std::move(entry));
   }
   return object;

@@ -9,6 +9,8 @@
 #include "eval/truth/slabs.hpp"
 #include "eval/truth/voxelise.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>  // says whether this is glibc
@@ -49,8 +51,9 @@ void check(const SurfaceOptions& options) {
                 "; give a positive edge in metres");
   }
   if (!(options.epsilon_m >= 0 && options.epsilon_m < options.edge_m)) {
-    throw Error("epsilon_m: is " + std::to_string(options.epsilon_m) +
-                "; give metres from 0 to below the voxel's edge");
+    throw Error(fmt::format(
+        "epsilon_m: is {}; give metres from 0 to below the voxel's edge (voxel_m), which is {}",
+        options.epsilon_m, options.edge_m));
   }
   if (options.jobs < 1) {
     throw Error("jobs: is " + std::to_string(options.jobs) + "; give at least 1");

@@ -166,10 +166,46 @@ TEST_F(ScoreMap, RefusesWhatDoesNotFit) {
   expect_refused(score("map.txt"), {"map.txt", ".ply"});
 }
 
+TEST_F(ScoreMap, FlagsThatWouldDoNothingAreRefused) {
+  std::filesystem::copy(path("tiny/label"), path("network"));
+  expect_done(mapscore({"truth", path("tiny"), "-o", path("truth.csv")}));
+  for (const std::vector<std::string>& flags :
+       std::vector<std::vector<std::string>>{{"--geometry"},
+                                             {"--threshold", "0.5"},
+                                             {"--transform", "1 0 0 0 0 0 1"},
+                                             {"--detect", "crate"},
+                                             {"--picture", "a.png"},
+                                             {"--min_samples", "2"}})
+    expect_refused(score("network", flags), {flags.front(), "network", "label images"});
+  for (const char* flag : {"--transform", "--legend", "--picture", "--errors_ply"})
+    expect_refused(score("truth.csv", {"--resample", flag, ""}), {flag, "empty"});
+  expect_refused(score("truth.csv", {"--resample", "--legend="}), {"--legend=", "no value"});
+  expect_refused(score("truth.csv", {"--resample", "--geometry", "--legend", "l.yaml"}),
+                 {"--legend", "--geometry"});
+  expect_refused(mapscore({"score", path("truth.csv"), "--truth", path("truth.csv")}),
+                 {"truth.csv", "recording's folder", "scene"});
+}
+
+TEST_F(ScoreMap, DetectChoosesWhatPooledFiguresAreOver) {
+  expect_done(mapscore({"truth", path("tiny"), "-o", path("truth.csv")}));
+  const auto pooled = [&](const std::vector<std::string>& flags) {
+    const Outcome outcome = score("truth.csv", flags);
+    expect_done(outcome);
+    return outcome.out;
+  };
+  EXPECT_NE(pooled({}).find("pooled and macro over: crate\n"), std::string::npos);
+  EXPECT_NE(pooled({"--detect", "wall"}).find("pooled and macro over: wall\n"), std::string::npos);
+  EXPECT_NE(pooled({"--detect", "all"}).find("over: crate, wall\n"), std::string::npos);
+  EXPECT_EQ(pooled({"--detect", "crate,wall"}), pooled({"--detect", "all"}));
+  expect_refused(score("truth.csv", {"--detect", "cup"}), {"detect", "cup"});
+}
+
 TEST_F(ScoreMap, LabelImagesAgainstThemselves) {
+  expect_refused(mapscore({"score", path("tiny/label"), "--truth", path("tiny")}),
+                 {"tiny/label", "ids of instances"});
   // The tiny recording's instance ids equal its class ids.
-  const Outcome outcome =
-      mapscore({"score", path("tiny/label"), "--truth", path("tiny"), "--tidy"});
+  std::filesystem::copy(path("tiny/label"), path("network"));
+  const Outcome outcome = mapscore({"score", path("network"), "--truth", path("tiny"), "--tidy"});
   expect_done(outcome);
   EXPECT_NE(outcome.out.find("all,miou,1\n"), std::string::npos) << outcome.out;
 }

@@ -21,6 +21,7 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 
+from agreement import differences
 from drives import program, record
 from foreign_cases import Bench, point_clouds, voxel_lists
 from foreign_trees import label_folders, resampled, trees
@@ -43,29 +44,11 @@ def details(mapscore, *arguments):
     for table in json.loads(program(mapscore, "score", *arguments, "--details", "--format", "json", "-q")):
         for row in table["rows"]:
             if "best threshold" in row and row["class"] != "macro":
-                result.update({(row["class"], name): row[name] for name in ("best threshold", "F1 there")})
+                result.update({(row["class"], name): "-" if row[name] is None else f"{row[name]:.3f}"
+                               for name in ("best threshold", "F1 there")})
             if "truly" in row:
-                result.update({("truly " + row["truly"], name): row[name] for name in row if name != "truly"})
+                result.update({("truly " + row["truly"], name): str(row[name]) for name in row if name != "truly"})
     return result
-
-
-def agree(metric, ours, theirs):
-    if isinstance(theirs, str):
-        return ours == theirs
-    if theirs is None or ours == "-":
-        return theirs is None and ours == "-"
-    if isinstance(theirs, int):
-        return ours == str(theirs)
-    digits = 6 if metric.endswith("_m") else 9
-    return abs(float(ours) - theirs) <= 10.0**-digits
-
-
-def differences(name, ours, theirs):
-    lines = []
-    for key in sorted(set(ours) | set(theirs)):
-        if key not in ours or key not in theirs or not agree(key[1], ours[key], theirs[key]):
-            lines.append(f"  {name}: {','.join(key)}: program {ours.get(key, 'nothing')}, ruler {theirs.get(key, 'nothing')}")
-    return lines
 
 
 def all_cases(bench):

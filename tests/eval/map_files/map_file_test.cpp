@@ -30,6 +30,12 @@ TEST_F(MapFileByEnding, EachIsReadByItsReader) {
   EXPECT_EQ(read_map_file(folder_ / "a.ot").edge_m, 0.05);
 }
 
+TEST_F(MapFileByEnding, CapitalsDoNotMatter) {
+  EXPECT_EQ(read_map_file(file("A.CSV", "1,2,3,cup\n")).voxels.size(), 1u);
+  EXPECT_TRUE(has_ending_of_a_map("folder/a.Ply"));
+  EXPECT_FALSE(has_ending_of_a_map("folder.ply/a"));
+}
+
 TEST_F(MapFileByEnding, OtherEndingsAreRefusedWithTheListOfThose) {
   for (const char* name : {"a.pcl", "a", "a.ply.gz"})
     expect_error("maps are read from .ot, .bt, .ply, .pcd and .csv; convert it to one of these",

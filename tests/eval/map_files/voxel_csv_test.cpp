@@ -28,7 +28,7 @@ struct VoxelCsv : testing::MapFiles {
 };
 
 TEST_F(VoxelCsv, RowsWithAndWithoutAHeader) {
-  for (const char* head : {"", "i,j,k,class\n", "\xef\xbb\xbfi, j ,k,class\r\n"}) {
+  for (const char* head : {"", "i,j,k,class\n", "\xef\xbb\xbfi, j ,k,class\r\n", "I,J,K,Class\n"}) {
     const MapFile map = read(head + std::string("0,-1,2,cup\n\n5,6,7, chair \r\n0,0,0,cup"));
     EXPECT_EQ(map.voxels, (Voxels{{0, -1, 2}, {5, 6, 7}, {0, 0, 0}}));
     EXPECT_EQ(map.label_kind, LabelKind::name);

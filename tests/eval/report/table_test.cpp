@@ -70,10 +70,15 @@ TEST(Table, AsCsvQuotesWhatHoldsACommaAndKeepsEmptyCells) {
   EXPECT_EQ(to_csv(table), "translation_m,method,F1\n\"[0, 0, 0]\",,1\n,\"say \"\"x\"\"\",2\n");
 }
 
-TEST(Table, AsJsonNamesEveryCell) {
-  EXPECT_EQ(to_json({{"c"}, {"b", "a"}, {{"1", "2"}}}),
-            "{\n  \"caption\": [\n    \"c\"\n  ],\n  \"rows\": [\n    {\n      \"b\": \"1\",\n"
-            "      \"a\": \"2\"\n    }\n  ]\n}\n");
+TEST(Table, AsJsonNamesEveryCellAndKeepsNumbersNumbers) {
+  EXPECT_EQ(to_json({{"c"}, {"b", "a"}, {{"1", "x2"}}}),
+            "{\n  \"caption\": [\n    \"c\"\n  ],\n  \"rows\": [\n    {\n      \"b\": 1,\n"
+            "      \"a\": \"x2\"\n    }\n  ]\n}\n");
+  const std::string json = to_json(
+      {{}, {"a", "b", "c", "d", "e", "f"}, {{"+0.0623", "-", "", "-1e-05", "nan", "[0, 1]"}}});
+  for (const char* cell : {"\"a\": 0.0623,", "\"b\": null,", "\"c\": null,", "\"d\": -1e-05,",
+                           "\"e\": \"nan\",", "\"f\": \"[0, 1]\""})
+    EXPECT_NE(json.find(cell), std::string::npos) << cell << json;
 }
 
 }  // namespace
