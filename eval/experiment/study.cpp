@@ -56,7 +56,7 @@ Place place_of(const Study& study, const MethodSettings& method) {
 
 bool decides_recording(std::string_view path) {
   constexpr auto kHeads = std::to_array<std::string_view>(
-      {"scene", "classes", "robot", "recording", "trajectory", "cameras"});
+      {"scene", "classes", "robot", "motion", "recording", "trajectory", "cameras"});
   return std::ranges::find(kHeads, split_path(path).first) != kHeads.end();
 }
 

@@ -7,6 +7,7 @@
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/shape.hpp"
+#include "eval/recording/shape_poses.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -27,6 +28,8 @@ struct RecordingInfo {
   std::string scene;           ///< file name of the scene
   std::string scene_hash;      ///< content hash of scene, class file and robot
   std::string mujoco_version;  ///< empty when made elsewhere
+  std::string motion;          ///< file name of the scene's motion; empty where nothing moves
+  std::string motion_hash;     ///< hash of its bytes
   std::uint64_t seed = 0;
   int frame_count = 0;
   bool has_truth =
@@ -57,9 +60,17 @@ class Recording {
     return entries_.at(static_cast<std::size_t>(index)).T_world_base;
   }
 
+  /// Stamp of the depth image of a frame.
+  [[nodiscard]] double depth_stamp_s(int index) const {
+    return entries_.at(static_cast<std::size_t>(index)).depth_stamp_s;
+  }
+
   [[nodiscard]] Frame read(int index, Channels channels = {}) const;
   /// Exact drawn surfaces in the world frame, background included (instance 0).
+  /// Those that move stand where they were before they did; see read_poses.
   [[nodiscard]] std::vector<Shape> read_shapes() const;
+  /// Where the moving ones of read_shapes were at each depth image; empty where nothing moves.
+  [[nodiscard]] ShapePoses read_poses() const;
 
  private:
   std::filesystem::path folder_;
@@ -84,7 +95,9 @@ class RecordingWriter {
 
   /// Encodes and writes the images of one frame. Safe to call from several threads, in any order.
   void write(const Frame& frame);
-  void write_shapes(const std::vector<Shape>& shapes);
+  /// `poses`: where those of `shapes` that move were at each depth image; written, even if nothing
+  /// moved, where the recording has a motion.
+  void write_shapes(const std::vector<Shape>& shapes, const ShapePoses& poses = {});
   /// Writes lists, trajectory and recording.yaml; checks that every frame 0..n-1 was written;
   /// renames.
   void finish();
