@@ -9,7 +9,6 @@
 #include "eval/score/voxel_score.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <optional>
 #include <span>
 #include <utility>
@@ -80,17 +79,6 @@ class ViewMaker {
   const SurfaceTruth& surface_;
 };
 
-std::vector<ViewTruth> view_of_each(const ViewMaker& maker, std::span<const int> frames, int jobs) {
-  std::vector<ViewTruth> views(frames.size());
-  Runs places(frames.size(), 1);
-  run_jobs(jobs, [&](int) {
-    for (Runs::Run place; places.next(place);) {
-      views[place.first] = maker.view_of(maker.samples_of(frames.subspan(place.first, 1)), 1);
-    }
-  });
-  return views;
-}
-
 /// Each job takes frames that follow each other, so that the samples come in their order.
 ViewTruth view_of_all(const ViewMaker& maker, std::span<const int> frames, int jobs) {
   const std::size_t shares = std::clamp<std::size_t>(frames.size(), 1, std::max(jobs, 1));
@@ -136,69 +124,20 @@ LatticeTruth make_surface_truth(const std::vector<Shape>& shapes, const ClassTab
   return truth;
 }
 
-std::vector<ViewTruth> make_views(const Recording& recording, const ClassTable& table,
-                                  FrameCache& frames, const MapFrame& map_frame,
-                                  const TruthOptions& options, const SurfaceTruth& surface,
-                                  int jobs) {
+ViewTruth make_view(const Recording& recording, const ClassTable& table, FrameCache& frames,
+                    const MapFrame& map_frame, const TruthOptions& options,
+                    const SurfaceTruth& surface, int jobs) {
   const ViewMaker maker(recording, table, frames, map_frame, options, surface);
-  const std::vector<int> selected = options.frames.of(recording.frame_count());
-  if (options.by_frame) return view_of_each(maker, selected, jobs);
-  std::vector<ViewTruth> views;
-  views.push_back(view_of_all(maker, selected, jobs));
-  return views;
+  return view_of_all(maker, options.frames.of(recording.frame_count()), jobs);
 }
 
 LatticeTruth make_lattice_truth(const Recording& recording, const ClassTable& table,
                                 FrameCache& frames, const MapFrame& map_frame,
                                 const TruthOptions& options, int jobs) {
-  LatticeTruth truth = make_surface_truth(recording.read_shapes(), table, map_frame, options, jobs);
-  truth.views = make_views(recording, table, frames, map_frame, options, truth.surface, jobs);
+  const RecordedShapes shapes = shapes_of(recording);
+  LatticeTruth truth = make_surface_truth(shapes.at(options.at_s), table, map_frame, options, jobs);
+  truth.view = make_view(recording, table, frames, map_frame, options, truth.surface, jobs);
   return truth;
-}
-
-TruthCache::TruthCache(const Recording& recording, const ClassTable& table, FrameCache& frames,
-                       std::size_t capacity)
-    : recording_(recording),
-      table_(table),
-      instance_table_(instance_table(table)),
-      frames_(frames),
-      capacity_(capacity),
-      boxes_(recording) {}
-
-std::shared_ptr<const LatticeTruth> TruthCache::get(const MapFrame& map_frame,
-                                                    const TruthOptions& options) {
-  return get(entries_, table_, map_frame, options);
-}
-
-std::shared_ptr<const LatticeTruth> TruthCache::of_instances(const MapFrame& map_frame,
-                                                             TruthOptions options) {
-  options.distances = false;
-  return get(instance_entries_, instance_table_, map_frame, options);
-}
-
-TruthCache::Truth TruthCache::get(Entries& entries, const ClassTable& table,
-                                  const MapFrame& map_frame, const TruthOptions& options) {
-  std::promise<Truth> promise;
-  std::shared_future<Truth> truth = promise.get_future().share();
-  {
-    std::unique_lock lock(mutex_);
-    for (const Entry& entry : entries) {
-      if (!(entry.map_frame == map_frame && entry.options == options)) continue;
-      truth = entry.truth;
-      lock.unlock();
-      return truth.get();
-    }
-    entries.push_front({map_frame, options, truth});
-    if (entries.size() > capacity_) entries.pop_back();
-  }
-  try {
-    constexpr int kOneJob = 1;  // the threads that ask are the parallelism
-    promise.set_value(std::make_shared<const LatticeTruth>(
-        make_lattice_truth(recording_, table, frames_, map_frame, options, kOneJob)));
-  } catch (...) {
-    promise.set_exception(std::current_exception());
-  }
-  return truth.get();
 }
 
 }  // namespace mapscore::eval

@@ -49,6 +49,7 @@ class TrialRun {
   /// The map as it stands; of the last frame where each is scored by itself.
   [[nodiscard]] const SemanticMap& map() const { return map_; }
   [[nodiscard]] double threshold() const { return threshold_; }
+  /// What the map is scored against; of the last frame where each is scored by itself.
   [[nodiscard]] const LatticeTruth& truth() const { return *truth_; }
 
  private:
@@ -60,9 +61,10 @@ class TrialRun {
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
   void account(const Segment& segment);
   [[nodiscard]] std::vector<Pose> sensor_poses(int frame) const;
-  /// Adds the counts of the map as it stands, against the view of that frame or, where the map is
-  /// scored, the only one.
-  void score(int frame, Counts& counts);
+  /// Adds the counts of the map as it stands.
+  void score(Counts& counts);
+  /// Takes the truth of one frame.
+  void look_up_truth_of(int frame);
 
   const Task& task_;
   const ClassTable& table_;
@@ -75,6 +77,8 @@ class TrialRun {
   BlendSettings blend_;
   double threshold_;
   ScoreOptions score_options_;
+  MapFrame map_frame_;
+  TruthCache& truths_;
   FrameBoxes& boxes_;  ///< true ones, shared by all trials
   std::shared_ptr<const LatticeTruth> truth_;
   std::shared_ptr<const LatticeTruth> instance_truth_;  ///< none where instances are not scored
