@@ -65,7 +65,7 @@ std::vector<Leg> legs_of(const Drive& drive) {
 std::vector<StampedPose> poses_along(const Drive& drive) {
   check(drive);
   const std::vector<Leg> legs = legs_of(drive);
-  const double end_s = legs.back().start_s + legs.back().duration_s;
+  const double end_s = std::max(legs.back().start_s + legs.back().duration_s, drive.until_s);
   constexpr double kRounding = 1e-9;  // a drive of a whole number of frames keeps its last one
   double frames = std::floor(end_s * drive.frames_per_s + kRounding) + 1.0;
   if (drive.max_frames > 0) frames = std::min(frames, static_cast<double>(drive.max_frames));

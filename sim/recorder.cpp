@@ -10,28 +10,29 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace mapscore::sim {
 namespace {
 
-/// The poses still to be rendered, how many are done, and the first exception: what workers share.
+/// What is still to be rendered, how much is done, and the first exception: what workers share.
 class Work {
  public:
-  Work(const std::vector<StampedPose>& poses, const std::function<void(int, int)>& progress)
-      : poses_(poses), progress_(progress) {}
+  Work(std::size_t count, const std::function<void(int, int)>& progress)
+      : count_(count), progress_(progress) {}
 
-  /// Index of the next pose, -1 when there is none or a worker failed.
-  int next() {
-    if (failed_) return -1;
+  /// The next one's number; none when all are taken or a worker failed.
+  std::optional<std::size_t> next() {
+    if (failed_) return std::nullopt;
     const std::size_t index = next_++;
-    return index < poses_.size() ? static_cast<int>(index) : -1;
+    return index < count_ ? std::optional(index) : std::nullopt;
   }
 
   void count_done() {
     const std::scoped_lock lock(mutex_);
     ++done_;
-    if (progress_) progress_(done_, static_cast<int>(poses_.size()));
+    if (progress_) progress_(done_, static_cast<int>(count_));
   }
 
   void fail(std::exception_ptr error) {
@@ -45,7 +46,7 @@ class Work {
   }
 
  private:
-  const std::vector<StampedPose>& poses_;
+  const std::size_t count_;
   const std::function<void(int, int)>& progress_;
   std::atomic<std::size_t> next_{0};
   std::atomic<bool> failed_{false};
@@ -54,17 +55,33 @@ class Work {
   std::exception_ptr error_;
 };
 
-void render_frames(const World& world, const std::vector<StampedPose>& poses, bool shadows,
-                   const std::function<void(const Frame&)>& sink, Work& work) {
-  try {
-    Renderer renderer(world, shadows);
-    for (int i = work.next(); i >= 0; i = work.next()) {
-      sink(renderer.render(i, poses[i].stamp_s, poses[i].T_world_base));
-      work.count_done();
+/// Calls `render_one(renderer, n)` for n in 0..count-1, each worker with a renderer of its own.
+void render_all(const World& world, std::size_t count, const RecordOptions& options,
+                const std::function<void(Renderer&, std::size_t)>& render_one,
+                const std::function<void(int, int)>& progress) {
+  if (options.jobs < 1) throw Error("record: jobs must be at least 1");
+  Work work(count, progress);
+  const auto worker = [&] {
+    try {
+      Renderer renderer(world, options.shadows);
+      while (const std::optional<std::size_t> n = work.next()) {
+        render_one(renderer, *n);
+        work.count_done();
+      }
+    } catch (...) {
+      work.fail(std::current_exception());
     }
-  } catch (...) {
-    work.fail(std::current_exception());
-  }
+  };
+  {
+    const std::size_t workers = std::min(static_cast<std::size_t>(options.jobs), count);
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < workers; ++i) threads.emplace_back(worker);
+  }  // joins
+  work.rethrow();
+}
+
+Instant instant_of(const StampedPose& pose) {
+  return {pose.stamp_s, pose.T_world_base};
 }
 
 }  // namespace
@@ -72,17 +89,31 @@ void render_frames(const World& world, const std::vector<StampedPose>& poses, bo
 void record(const World& world, const std::vector<StampedPose>& poses, const RecordOptions& options,
             const std::function<void(const Frame&)>& sink,
             const std::function<void(int, int)>& progress) {
-  if (options.jobs < 1) throw Error("record: jobs must be at least 1");
-  if (poses.empty()) return;
-  Work work(poses, progress);
-  {
-    const std::size_t workers = std::min(static_cast<std::size_t>(options.jobs), poses.size());
-    std::vector<std::jthread> threads;
-    for (std::size_t i = 0; i < workers; ++i) {
-      threads.emplace_back([&] { render_frames(world, poses, options.shadows, sink, work); });
+  const auto render_one = [&](Renderer& renderer, std::size_t n) {
+    const Instant instant = instant_of(poses[n]);
+    sink(renderer.render(static_cast<int>(n), instant, instant));
+  };
+  render_all(world, poses.size(), options, render_one, progress);
+}
+
+void record(const World& world, const Streams& streams, const RecordOptions& options,
+            const StreamSinks& sinks, const std::function<void(int, int)>& progress) {
+  const std::size_t colors = streams.color.size();
+  const auto render_one = [&](Renderer& renderer, std::size_t n) {
+    Frame frame;
+    if (n < colors) {
+      const StampedPose& pose = streams.color[n];
+      frame.index = static_cast<int>(n);
+      frame.stamp_s = pose.stamp_s;
+      frame.T_world_base = pose.T_world_base;
+      renderer.render_color(instant_of(pose), frame);
+      return sinks.color(frame);
     }
-  }  // joins
-  work.rethrow();
+    frame.depth_index = static_cast<int>(n - colors);
+    renderer.render_depth(instant_of(streams.depth[n - colors]), frame);
+    sinks.depth(frame);
+  };
+  render_all(world, colors + streams.depth.size(), options, render_one, progress);
 }
 
 }  // namespace mapscore::sim

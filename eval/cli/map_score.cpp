@@ -22,7 +22,7 @@ std::vector<InstanceCounts> instances_of(const InputMap& map, double threshold,
   const PredictedInstances predicted = map.numbers.empty()
                                            ? pieces_of(map.snapshot, threshold)
                                            : objects_of(map.snapshot, threshold, map.numbers);
-  return score_instances(predicted, truth.surface, truth.view(0).visible, source.table());
+  return score_instances(predicted, truth.surface, truth.view.visible, source.table());
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ MapScore score_input(const InputMap& map, const MapFlags& flags, double threshol
   score.sampled = source.recording() != nullptr;
   score.truth = source.truth(sampled_table(score.table, map.snapshot), true);
   score.note = check_frame(flags, map.snapshot, score.truth.surface);
-  const ViewTruth& view = score.truth.view(0);
+  const ViewTruth& view = score.truth.view;
   const std::size_t classes = score.table.classes.size();
   score.counts = score.truth.score(map.snapshot, threshold, view, classes, {}, jobs);
   score.confusion =

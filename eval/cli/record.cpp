@@ -17,7 +17,7 @@ namespace mapscore::eval {
 namespace {
 
 struct RecordFlags {
-  std::string source, folder, trajectory;
+  std::string source, folder, trajectory, motion;
   std::vector<std::string> overrides;
   WorkFlags work;
 };
@@ -31,9 +31,10 @@ void record(const RecordFlags& flags) {
     throw Error(flags.source +
                 ": a scene by itself says no way to drive; add --trajectory FILE, or record a "
                 "study");
-  const Study study = is_scene(flags.source) ? study_of_scene(flags.source, flags.overrides)
-                                             : load_study(flags.source, flags.overrides);
-  Progress progress("record", "frames", flags.work.quiet);
+  Study study = is_scene(flags.source) ? study_of_scene(flags.source, flags.overrides)
+                                       : load_study(flags.source, flags.overrides);
+  if (!flags.motion.empty()) study.motion = std::filesystem::absolute(flags.motion).string();
+  Progress progress("record", "images", flags.work.quiet);
   record_study(
       study, flags.folder, flags.work.jobs,
       [&](int done, int total) { progress.show(done, total); }, flags.trajectory);
@@ -52,6 +53,8 @@ void add_record(CLI::App& program) {
       "--trajectory", flags->trajectory,
       "TUM lines (stamp tx ty tz qx qy qz qw) of the colour camera's optical frame in the "
       "world; replaces the study's drive");
+  verb->add_option("--motion", flags->motion,
+                   "Motion file (CSV: stamp_s and joints of the scene); replaces the study's");
   verb->add_option("--set", flags->overrides, "Override a key of the study; may be repeated")
       ->allow_extra_args(false);
   flags->work.add_to(*verb);
@@ -59,7 +62,9 @@ void add_record(CLI::App& program) {
       "Examples:\n"
       "  mapscore record configs/demo.yaml -o /data/apartment\n"
       "  mapscore record configs/demo.yaml -o /data/shaded --set cameras.shadows=true\n"
-      "  mapscore record scenes/apartment.xml --trajectory poses.txt -o /data/handheld");
+      "  mapscore record scenes/apartment.xml --trajectory poses.txt -o /data/handheld\n"
+      "  mapscore record scenes/moving_person.xml --motion scenes/moving_person.motion.csv "
+      "--trajectory poses.txt -o /data/person");
   verb->callback([flags] { record(*flags); });
 }
 

@@ -105,7 +105,7 @@ void run(const RunFlags& flags) {
   const std::optional<sim::View> view = flags.view.view();
   const Study study = flags.study.load();
   const std::filesystem::path results = flags.study.results_folder(study);
-  Progress recording_progress("record", "frames", flags.work.quiet);
+  Progress recording_progress("record", "images", flags.work.quiet);
   const Recording recording =
       recording_of(study, results, flags.work.jobs,
                    [&](int done, int total) { recording_progress.show(done, total); });

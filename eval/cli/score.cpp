@@ -88,7 +88,7 @@ void write_errors(const ScoreFlags& flags, const InputMap& map, const MapScore& 
   const std::string name = std::filesystem::path(flags.map.file).filename().string();
   const JudgedMap judged =
       judged_map(name, name, map.snapshot, score.threshold, score.truth.surface,
-                 score.truth.view(0).visible, score.table, flags.lattice.map_frame().T_map_world());
+                 score.truth.view.visible, score.table, flags.lattice.map_frame().T_map_world());
   if (!flags.errors_ply.empty()) write_error_ply(flags.errors_ply, judged);
   if (flags.picture.empty()) return;
   ScenePainter painter(source.shapes(), source.table());

@@ -58,7 +58,7 @@ void sweep(const SweepFlags& flags) {
   const std::filesystem::path results = flags.study.results_folder(study);
   const auto [shard, shards] = parse_shard(flags.shard);
 
-  Progress recording_progress("record", "frames", flags.work.quiet);
+  Progress recording_progress("record", "images", flags.work.quiet);
   const Recording recording =
       recording_of(study, results, flags.work.jobs,
                    [&](int done, int total) { recording_progress.show(done, total); });

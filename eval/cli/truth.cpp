@@ -27,7 +27,7 @@ void write_truth_of(const TruthFlags& flags) {
     truth = source.truth(source.table(), false);
   else
     truth.surface = source.surface();
-  const VisibleTruth* visible = source.recording() ? &truth.view(0).visible : nullptr;
+  const VisibleTruth* visible = source.recording() ? &truth.view.visible : nullptr;
   write_truth(flags.file, truth.surface, visible, source.table());
   std::cout << fmt::format("{:<16} {:>10} {:>10}\n", "class", "surface", "visible");
   for (const SemanticClass& c : source.table().classes)

@@ -8,6 +8,8 @@
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
 
+#include <fmt/format.h>
+
 #include <numbers>
 
 namespace mapscore::eval {
@@ -24,9 +26,22 @@ void LatticeFlags::add_to(CLI::App& verb) {
       ->check(finite_within(0.0, 1.0));
   verb.add_option("--min_samples", min_samples, "Depth samples that make a voxel visible [1]")
       ->check(CLI::Range(1, 1000000));
+  verb.add_option("--at_s", at_s, "Where things move: the time whose surfaces count, seconds")
+      ->check(finite_within(-1e12, 1e12));
+  verb.add_option("--frame", frame, "The same, as the frame at whose depth stamp that is, from 0")
+      ->check(CLI::NonNegativeNumber);
   verb.add_option("--frames", frames,
                   "Frames of the recording that count: 3,7,9 or first:end:step, from 0, without "
                   "end [all]");
+}
+
+std::optional<double> LatticeFlags::time_in(const Recording& recording) const {
+  if (!frame) return at_s;
+  if (at_s) throw Error("--frame: stands beside --at_s; both say a time, keep one");
+  if (*frame >= recording.frame_count())
+    throw Error(fmt::format("--frame: {} is not in the recording; it has frames 0 to {}", *frame,
+                            recording.frame_count() - 1));
+  return recording.depth_stamp_s(*frame);
 }
 
 MapFrame LatticeFlags::map_frame() const {
@@ -39,8 +54,9 @@ TruthSource::TruthSource(const std::string& source, const LatticeFlags& lattice,
                          const WorkFlags& work)
     : lattice_(lattice), jobs_(work.jobs) {
   if (std::filesystem::path(source).extension() == ".xml") {
-    if (lattice.frames)
-      throw Error("--frames: " + source + " is a scene and has none; give a recording");
+    if (lattice.frames || lattice.frame || lattice.at_s)
+      throw Error("--frames, --frame, --at_s: " + source +
+                  " is a scene and has no frames; give a recording");
     if (lattice.min_samples != LatticeFlags().min_samples)
       throw Error("--min_samples: " + source + " is a scene and has no samples; leave it out");
     SceneSurfaces scene = surfaces_of_scene(source);
@@ -56,7 +72,7 @@ TruthSource::TruthSource(const std::string& source, const LatticeFlags& lattice,
                 ": the recording has no truth/; only maps of rendered recordings can be scored");
   if (lattice.frames) selection_ = FrameSelection(*lattice.frames);
   table_ = recording_->info().table;
-  shapes_ = recording_->read_shapes();
+  shapes_ = shapes_of(*recording_).at(lattice.time_in(*recording_));
   frames_.emplace(*recording_,
                   Channels{.color = false, .label = false, .depth = true, .depth_label = true},
                   work.memory_bytes);
@@ -80,14 +96,15 @@ SurfaceTruth TruthSource::surface() const {
 
 LatticeTruth TruthSource::truth(const ClassTable& table, bool distances) {
   const MapFrame map_frame = lattice_.map_frame();
-  const TruthOptions options{lattice_.epsilon_m, lattice_.min_samples, false, distances,
-                             selection_};
+  const TruthOptions options{.epsilon_m = lattice_.epsilon_m,
+                             .min_samples = lattice_.min_samples,
+                             .distances = distances,
+                             .frames = selection_};
   LatticeTruth truth = make_surface_truth(shapes_, table, map_frame, options, jobs_);
   if (recording_)
-    truth.views =
-        make_views(*recording_, table, *frames_, map_frame, options, truth.surface, jobs_);
+    truth.view = make_view(*recording_, table, *frames_, map_frame, options, truth.surface, jobs_);
   else
-    truth.views.push_back(whole_surface_view(truth.surface, table.classes.size()));
+    truth.view = whole_surface_view(truth.surface, table.classes.size());
   return truth;
 }
 

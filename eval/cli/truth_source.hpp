@@ -27,8 +27,13 @@ struct LatticeFlags {
   int min_samples = 1;
   std::optional<std::string> frames;  ///< as FrameSelection reads them; none: all
 
+  std::optional<double> at_s;  ///< where things move: the time whose surfaces count
+  std::optional<int> frame;    ///< the same, as a frame
+
   void add_to(CLI::App& verb);
   [[nodiscard]] MapFrame map_frame() const;
+  /// The time that the flags say, if any. Throws Error when they say two, or no frame of these.
+  [[nodiscard]] std::optional<double> time_in(const Recording& recording) const;
 };
 
 /// A scene or a recording, opened once, of which truths are made by any class table.
@@ -44,7 +49,7 @@ class TruthSource {
   /// class that is not there.
   void detect(const std::vector<std::string>& classes);
   [[nodiscard]] const ClassTable& table() const { return table_; }
-  /// Drawn surfaces in the world frame.
+  /// Drawn surfaces in the world frame, at the flags' time where they move.
   [[nodiscard]] const std::vector<Shape>& shapes() const { return shapes_; }
   /// Nothing for a scene, which no camera saw.
   [[nodiscard]] const Recording* recording() const { return recording_ ? &*recording_ : nullptr; }

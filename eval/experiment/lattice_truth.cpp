@@ -9,7 +9,6 @@
 #include "eval/score/voxel_score.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <optional>
 #include <span>
 #include <utility>
@@ -17,7 +16,7 @@
 namespace mapscore::eval {
 namespace {
 
-/// Depth samples of some frames: counted by voxel, and kept for distances.
+/// Depth samples of some images: counted by voxel, and kept for distances.
 struct ViewSamples {
   SampleCounter counter;
   SampleCollector points;
@@ -35,12 +34,11 @@ class ViewMaker {
         options_(options),
         surface_(surface) {}
 
-  /// Samples of the frames, one frame after the other.
-  [[nodiscard]] ViewSamples samples_of(std::span<const int> frames) const {
+  /// Samples of depth images, one after the other.
+  [[nodiscard]] ViewSamples samples_of(std::span<const int> images) const {
     ViewSamples samples{SampleCounter(map_frame_.edge_m),
                         SampleCollector(table_.classes.size(), map_frame_.edge_m)};
-    for (const int frame : frames)
-      add(*frames_.get(frame, recording_.depth_of(frame, options_.time_offset_s)), samples);
+    for (const int image : images) add(*frames_.get_depth(image), samples);
     return samples;
   }
 
@@ -81,26 +79,25 @@ class ViewMaker {
   const SurfaceTruth& surface_;
 };
 
-std::vector<ViewTruth> view_of_each(const ViewMaker& maker, std::span<const int> frames, int jobs) {
-  std::vector<ViewTruth> views(frames.size());
-  Runs places(frames.size(), 1);
-  run_jobs(jobs, [&](int) {
-    for (Runs::Run place; places.next(place);) {
-      views[place.first] = maker.view_of(maker.samples_of(frames.subspan(place.first, 1)), 1);
-    }
-  });
-  return views;
+/// The depth images that the view is made of, each once.
+std::vector<int> depth_images(const Recording& recording, const TruthOptions& options) {
+  if (options.depth_image) return {*options.depth_image};
+  std::vector<int> images;
+  for (const int frame : options.frames.of(recording.frame_count()))
+    images.push_back(recording.depth_of(frame));
+  images.erase(std::unique(images.begin(), images.end()), images.end());
+  return images;
 }
 
-/// Each job takes frames that follow each other, so that the samples come in their order.
-ViewTruth view_of_all(const ViewMaker& maker, std::span<const int> frames, int jobs) {
-  const std::size_t shares = std::clamp<std::size_t>(frames.size(), 1, std::max(jobs, 1));
+/// Each job takes images that follow each other, so that the samples come in their order.
+ViewTruth view_of_all(const ViewMaker& maker, std::span<const int> images, int jobs) {
+  const std::size_t shares = std::clamp<std::size_t>(images.size(), 1, std::max(jobs, 1));
   std::vector<std::optional<ViewSamples>> samples(shares);
   run_jobs(static_cast<int>(shares), [&](int job) {
     const auto share = static_cast<std::size_t>(job);
-    const std::size_t first = frames.size() * share / shares;
-    const std::size_t last = frames.size() * (share + 1) / shares;
-    samples[share] = maker.samples_of(frames.subspan(first, last - first));
+    const std::size_t first = images.size() * share / shares;
+    const std::size_t last = images.size() * (share + 1) / shares;
+    samples[share] = maker.samples_of(images.subspan(first, last - first));
   });
   ViewSamples all = *std::exchange(samples.front(), std::nullopt);
   for (std::size_t share = 1; share < shares; ++share) {
@@ -137,69 +134,20 @@ LatticeTruth make_surface_truth(const std::vector<Shape>& shapes, const ClassTab
   return truth;
 }
 
-std::vector<ViewTruth> make_views(const Recording& recording, const ClassTable& table,
-                                  FrameCache& frames, const MapFrame& map_frame,
-                                  const TruthOptions& options, const SurfaceTruth& surface,
-                                  int jobs) {
+ViewTruth make_view(const Recording& recording, const ClassTable& table, FrameCache& frames,
+                    const MapFrame& map_frame, const TruthOptions& options,
+                    const SurfaceTruth& surface, int jobs) {
   const ViewMaker maker(recording, table, frames, map_frame, options, surface);
-  const std::vector<int> selected = options.frames.of(recording.frame_count());
-  if (options.by_frame) return view_of_each(maker, selected, jobs);
-  std::vector<ViewTruth> views;
-  views.push_back(view_of_all(maker, selected, jobs));
-  return views;
+  return view_of_all(maker, depth_images(recording, options), jobs);
 }
 
 LatticeTruth make_lattice_truth(const Recording& recording, const ClassTable& table,
                                 FrameCache& frames, const MapFrame& map_frame,
                                 const TruthOptions& options, int jobs) {
-  LatticeTruth truth = make_surface_truth(recording.read_shapes(), table, map_frame, options, jobs);
-  truth.views = make_views(recording, table, frames, map_frame, options, truth.surface, jobs);
+  const RecordedShapes shapes = shapes_of(recording);
+  LatticeTruth truth = make_surface_truth(shapes.at(options.at_s), table, map_frame, options, jobs);
+  truth.view = make_view(recording, table, frames, map_frame, options, truth.surface, jobs);
   return truth;
-}
-
-TruthCache::TruthCache(const Recording& recording, const ClassTable& table, FrameCache& frames,
-                       std::size_t capacity)
-    : recording_(recording),
-      table_(table),
-      instance_table_(instance_table(table)),
-      frames_(frames),
-      capacity_(capacity),
-      boxes_(recording) {}
-
-std::shared_ptr<const LatticeTruth> TruthCache::get(const MapFrame& map_frame,
-                                                    const TruthOptions& options) {
-  return get(entries_, table_, map_frame, options);
-}
-
-std::shared_ptr<const LatticeTruth> TruthCache::of_instances(const MapFrame& map_frame,
-                                                             TruthOptions options) {
-  options.distances = false;
-  return get(instance_entries_, instance_table_, map_frame, options);
-}
-
-TruthCache::Truth TruthCache::get(Entries& entries, const ClassTable& table,
-                                  const MapFrame& map_frame, const TruthOptions& options) {
-  std::promise<Truth> promise;
-  std::shared_future<Truth> truth = promise.get_future().share();
-  {
-    std::unique_lock lock(mutex_);
-    for (const Entry& entry : entries) {
-      if (!(entry.map_frame == map_frame && entry.options == options)) continue;
-      truth = entry.truth;
-      lock.unlock();
-      return truth.get();
-    }
-    entries.push_front({map_frame, options, truth});
-    if (entries.size() > capacity_) entries.pop_back();
-  }
-  try {
-    constexpr int kOneJob = 1;  // the threads that ask are the parallelism
-    promise.set_value(std::make_shared<const LatticeTruth>(
-        make_lattice_truth(recording_, table, frames_, map_frame, options, kOneJob)));
-  } catch (...) {
-    promise.set_exception(std::current_exception());
-  }
-  return truth.get();
 }
 
 }  // namespace mapscore::eval

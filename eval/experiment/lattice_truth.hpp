@@ -6,6 +6,7 @@
 #include "core/classes.hpp"
 #include "eval/experiment/frame_boxes.hpp"
 #include "eval/experiment/map_frame.hpp"
+#include "eval/experiment/recorded_surfaces.hpp"
 #include "eval/recording/frame_cache.hpp"
 #include "eval/recording/frame_selection.hpp"
 #include "eval/recording/recording.hpp"
@@ -18,6 +19,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,10 +39,10 @@ struct ViewTruth {
 struct TruthOptions {
   double epsilon_m = 0.0005;
   int min_samples = 1;
-  bool by_frame = false;       ///< a ViewTruth for each frame instead of one for all
-  bool distances = true;       ///< keep samples for the F-score at a distance
-  FrameSelection frames{};     ///< those that the views are made of
-  double time_offset_s = 0.0;  ///< of the depth images whose views are made
+  std::optional<double> at_s{};      ///< the time whose surfaces count, where things move
+  bool distances = true;             ///< keep samples for the F-score at a distance
+  FrameSelection frames{};           ///< those that the view is made of
+  std::optional<int> depth_image{};  ///< the view is made of it alone, in place of the frames
   bool operator==(const TruthOptions&) const = default;
 };
 
@@ -48,18 +50,13 @@ struct TruthOptions {
 struct LatticeTruth {
   SurfaceTruth surface;
   CubeDistance distance_to_class;
-  std::vector<ViewTruth> views;  ///< one for all selected frames, or one for each in their order
+  ViewTruth view;  ///< of all selected frames together; empty until it is made
 
-  /// Counts of a map against this truth and one of its views; distances where the options name
+  /// Counts of a map against this truth and a view of it; distances where the options name
   /// some. They do not depend on `jobs`.
   [[nodiscard]] Counts score(const MapSnapshot& map, double threshold, const ViewTruth& view,
                              std::size_t class_count, const ScoreOptions& options,
                              int jobs = 1) const;
-
-  /// `frame`: its place among the selected ones.
-  [[nodiscard]] const ViewTruth& view(int frame) const {
-    return views.size() == 1 ? views.front() : views.at(static_cast<std::size_t>(frame));
-  }
 };
 
 /// The surfaces alone, without any view.
@@ -67,55 +64,82 @@ struct LatticeTruth {
                                               const ClassTable& table, const MapFrame& map_frame,
                                               const TruthOptions& options, int jobs);
 
-/// What the selected frames of a recording saw of `surface`, which lies on the lattice of
+/// What the selected frames of a recording saw together of `surface`, which lies on the lattice of
 /// `map_frame`; `frames` must decode depth and depth_label. Works on `jobs` threads, on which the
 /// result does not depend. Throws Error when a frame cannot be read or the selection is not one of
 /// this recording.
-[[nodiscard]] std::vector<ViewTruth> make_views(const Recording& recording, const ClassTable& table,
-                                                FrameCache& frames, const MapFrame& map_frame,
-                                                const TruthOptions& options,
-                                                const SurfaceTruth& surface, int jobs);
+[[nodiscard]] ViewTruth make_view(const Recording& recording, const ClassTable& table,
+                                  FrameCache& frames, const MapFrame& map_frame,
+                                  const TruthOptions& options, const SurfaceTruth& surface,
+                                  int jobs);
 
-/// Makes the truth of a recording: its surfaces and its views.
+/// Makes the truth of a recording: its surfaces, at the options' time where they move, and what was
+/// seen of them. Throws Error when they move and the options say no time.
 [[nodiscard]] LatticeTruth make_lattice_truth(const Recording& recording, const ClassTable& table,
                                               FrameCache& frames, const MapFrame& map_frame,
                                               const TruthOptions& options, int jobs);
 
 /// Truths of the lattices in use, each made once; the oldest goes when more than `capacity` of a
-/// kind are held. Safe to use from several threads: whoever asks for a truth that is being made
-/// waits for it.
+/// kind are held (kFramesOfLattice times as many of single frames). Safe to use from several
+/// threads: whoever asks for a truth that is being made waits for it.
 class TruthCache {
  public:
+  static constexpr std::size_t kFramesOfLattice = 16;
+
   TruthCache(const Recording& recording, const ClassTable& table, FrameCache& frames,
              std::size_t capacity);
 
+  /// The truth of a map of the selected frames.
   [[nodiscard]] std::shared_ptr<const LatticeTruth> get(const MapFrame& map_frame,
                                                         const TruthOptions& options);
   /// As get, with every instance a class of its own (see instance_table) and without distances.
   [[nodiscard]] std::shared_ptr<const LatticeTruth> of_instances(const MapFrame& map_frame,
                                                                  TruthOptions options);
+  /// The truth of a frame by itself, at the stamp of the depth image that it is read with.
+  [[nodiscard]] std::shared_ptr<const LatticeTruth> of_frame(const MapFrame& map_frame,
+                                                             TruthOptions options, int depth_image);
+  /// As of_frame, with every instance a class of its own and without distances.
+  [[nodiscard]] std::shared_ptr<const LatticeTruth> of_frame_instances(const MapFrame& map_frame,
+                                                                       TruthOptions options,
+                                                                       int depth_image);
   /// What every trial compares its detections' boxes with; on no lattice.
   [[nodiscard]] FrameBoxes& boxes() { return boxes_; }
 
  private:
   using Truth = std::shared_ptr<const LatticeTruth>;
-  struct Entry {
-    MapFrame map_frame;
-    TruthOptions options;
-    std::shared_future<Truth> truth;
+  using Surfaces = std::shared_ptr<const RecordedSurfaces>;
+  /// What is made of a table's classes: surfaces by lattice, truths of maps and of single frames;
+  /// each list with the most recently made first.
+  struct Shelf {
+    struct OfLattice {
+      MapFrame map_frame;
+      double epsilon_m;
+      std::shared_future<Surfaces> surfaces;
+    };
+    struct OfView {
+      MapFrame map_frame;
+      TruthOptions options;
+      std::shared_future<Truth> truth;
+    };
+    const ClassTable& table;
+    std::list<OfLattice> surfaces{};
+    std::list<OfView> maps{}, frames{};
   };
-  using Entries = std::list<Entry>;  ///< most recently made first
 
-  [[nodiscard]] Truth get(Entries& entries, const ClassTable& table, const MapFrame& map_frame,
-                          const TruthOptions& options);
+  [[nodiscard]] Truth get(Shelf& shelf, std::list<Shelf::OfView>& truths, std::size_t capacity,
+                          const MapFrame& map_frame, const TruthOptions& options);
+  [[nodiscard]] Surfaces surfaces(Shelf& shelf, const MapFrame& map_frame, double epsilon_m);
+  [[nodiscard]] TruthOptions at_image(TruthOptions options, int depth_image) const;
+  [[nodiscard]] const RecordedShapes& shapes();
 
   const Recording& recording_;
-  const ClassTable& table_;
   ClassTable instance_table_;
   FrameCache& frames_;
   std::size_t capacity_;
-  std::mutex mutex_;
-  Entries entries_, instance_entries_;
+  std::once_flag shapes_read_;
+  RecordedShapes shapes_;
+  std::mutex mutex_;  // guards the shelves' lists
+  Shelf classes_, instances_;
   FrameBoxes boxes_;
 };
 

@@ -25,7 +25,8 @@ Study determining(Study config) {
   const Study none;
   config.name.clear();
   config.seeds = 1;
-  for (auto* path : {&config.scene, &config.classes, &config.robot, &config.recording})
+  for (auto* path :
+       {&config.scene, &config.classes, &config.robot, &config.motion, &config.recording})
     path->reset();
   config.trajectory = none.trajectory;
   config.cameras = none.cameras;

@@ -21,6 +21,11 @@ namespace {
 /// Maps that are under way at once when the frames do not all fit into memory.
 constexpr std::size_t kTrialsAtOnce = 64;
 
+/// Frames of a block where each is scored by itself: their truths are shared by the trials that
+/// walk them together, and let go then.
+constexpr int kFramesScoredAtOnce = 8;
+static_assert(kFramesScoredAtOnce <= static_cast<int>(TruthCache::kFramesOfLattice));
+
 /// Calls `work(i)` for i in 0..count-1 from `jobs` threads; rethrows the first exception.
 void for_each_in_parallel(std::size_t count, int jobs,
                           const std::function<void(std::size_t)>& work) {
@@ -89,7 +94,7 @@ class Sweep {
                 static_cast<std::size_t>(std::max(1, options.jobs)) + 1) {}
 
   void run(const std::vector<const Task*>& tasks) {
-    const int block = block_of_frames();
+    const int block = block_of_frames(tasks);
     const bool all_fit = block == recording_.frame_count();
     const std::size_t batch = all_fit ? tasks.size() : kTrialsAtOnce;
     total_ = static_cast<std::int64_t>(tasks.size()) * recording_.frame_count();
@@ -102,8 +107,11 @@ class Sweep {
   }
 
  private:
-  [[nodiscard]] int block_of_frames() const {
-    const std::size_t fitting = options_.memory_bytes / bytes_of_a_frame(recording_);
+  [[nodiscard]] int block_of_frames(const std::vector<const Task*>& tasks) const {
+    std::size_t fitting = options_.memory_bytes / bytes_of_a_frame(recording_);
+    if (std::ranges::any_of(
+            tasks, [](const Task* task) { return task->config.score.unit == ScoreUnit::frame; }))
+      fitting = std::min<std::size_t>(fitting, kFramesScoredAtOnce);
     return static_cast<int>(
         std::clamp<std::size_t>(fitting, 1, static_cast<std::size_t>(recording_.frame_count())));
   }

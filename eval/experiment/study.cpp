@@ -67,7 +67,7 @@ double depth_rate(const Study& study) {
 
 bool decides_recording(std::string_view path) {
   constexpr auto kHeads = std::to_array<std::string_view>(
-      {"scene", "classes", "robot", "recording", "trajectory", "cameras"});
+      {"scene", "classes", "robot", "motion", "recording", "trajectory", "cameras"});
   return std::ranges::find(kHeads, split_path(path).first) != kHeads.end();
 }
 

@@ -143,6 +143,7 @@ enum class ScoreUnit { map, frame };
 
 struct ScoreSettings {
   ScoreUnit unit = ScoreUnit::map;
+  std::optional<double> at_s;  ///< empty: nothing moves, or each frame at its own time
   AutoNumber threshold;
   int min_samples = 1;
   double epsilon_m = 0.0005;
@@ -173,7 +174,7 @@ struct Study {
   std::string name;
   std::uint64_t seed = 1;
   int seeds = 1;
-  std::optional<std::string> scene, classes, robot, recording;
+  std::optional<std::string> scene, classes, robot, motion, recording;
   TrajectorySettings trajectory;
   CameraSettings cameras;
   double voxel_m = 0.05;

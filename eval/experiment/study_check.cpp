@@ -20,6 +20,9 @@ namespace {
 constexpr std::size_t kMostTrials = 1000000;
 
 void check_input(const Study& study, const Blame& blame) {
+  if (study.motion && !study.scene)
+    blame("motion",
+          "stands without a scene, whose joints it moves; write scene: PATH, or remove it");
   if (study.recording) return;
   if (!study.scene) {
     blame("scene", "is missing; write scene: PATH, or recording: PATH to replay one");
@@ -116,6 +119,13 @@ void check_methods(const std::vector<MethodSettings>& methods, const Blame& blam
   }
 }
 
+void check_time(const ScoreSettings& score, const Blame& blame) {
+  if (score.at_s && score.unit == ScoreUnit::frame)
+    blame("score.at_s",
+          "stands beside unit: frame, which scores each frame at its own time; "
+          "keep one of the two");
+}
+
 void check_view(const Study& study, const Blame& blame) try {
   if (study.picture_view) (void)view_of_numbers(*study.picture_view);
 } catch (const Error& error) {
@@ -131,6 +141,7 @@ void check_leaves(const Study& study, const Blame& blame) {
   check_rigid(study.faults.misregistration, "faults.misregistration", blame);
   check_rigid(study.faults.mount, "faults.mount", blame);
   check_covariance(study.faults.pose, blame);
+  check_time(study.score, blame);
   check_ascending(study.score.tolerances, "score.tolerances", blame);
   check_ascending(study.score.distances_m, "score.distances_m", blame);
 }

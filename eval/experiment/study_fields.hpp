@@ -174,6 +174,11 @@ void fields(auto&& visit, Of<FaultSettings> auto& s) {
 void fields(auto&& visit, Of<ScoreSettings> auto& s) {
   visit(Field{"unit", "score the fused map, or each frame's observation against its own truth"},
         s.unit);
+  visit(
+      Field{
+          "at_s",
+          "with unit map, where the scene moves: the time whose surfaces a map is scored against"},
+      s.at_s);
   visit(Field{"threshold",
               "least probability of a predicted voxel; auto: half of what a first full hit gives",
               {0, 1}},
@@ -197,6 +202,8 @@ void fields(auto&& visit, Of<Study> auto& s) {
   visit(Field{"scene", "MJCF of the scene, from the study file's folder"}, s.scene);
   visit(Field{"classes", "class file; default: SCENE.classes.yaml beside the scene"}, s.classes);
   visit(Field{"robot", "MJCF of the robot; default: robot.xml beside the scene"}, s.robot);
+  visit(Field{"motion", "motion file (CSV): how joints of the scene move; needs a scene"},
+        s.motion);
   visit(Field{"recording", "folder of a recording to replay in place of rendering one"},
         s.recording);
   visit(Field{"trajectory", "drive of the robot"}, s.trajectory);

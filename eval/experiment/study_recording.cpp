@@ -9,6 +9,8 @@
 
 #ifdef MAPSCORE_SIMULATOR
 #include "sim/recorder.hpp"
+#include "sim/world/motion.hpp"
+#include "sim/world/moving_scene.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -24,7 +26,8 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
-sim::Drive drive_of(const TrajectorySettings& settings) {
+/// With a motion the robot stands at its last waypoint until that ends.
+sim::Drive drive_of(const TrajectorySettings& settings, const sim::Motion* motion) {
   sim::Drive drive;
   for (const auto& [x, y, yaw_deg] : settings.waypoints_m_deg)
     drive.waypoints.push_back({x, y, yaw_deg * kRadiansPerDegree});
@@ -32,6 +35,7 @@ sim::Drive drive_of(const TrajectorySettings& settings) {
   drive.turn_rate_radps = settings.turn_rate_dps * kRadiansPerDegree;
   drive.frames_per_s = settings.frames_per_s;
   drive.max_frames = settings.max_frames;
+  if (motion) drive.until_s = motion->stamps_s.back();
   return drive;
 }
 
@@ -45,33 +49,68 @@ std::vector<sim::StampedPose> poses_from(const std::filesystem::path& trajectory
   return poses;
 }
 
+/// Poses at the images of both cameras; the depth camera's end with the colour camera's.
+sim::Streams streams_of(const Study& study, const sim::Motion* motion) {
+  sim::Drive drive = drive_of(study.trajectory, motion);
+  sim::Streams streams{sim::poses_along(drive), {}};
+  if (depth_rate(study) == drive.frames_per_s) {
+    streams.depth = streams.color;
+    return streams;
+  }
+  drive.frames_per_s = depth_rate(study);
+  drive.max_frames = 0;
+  streams.depth = sim::poses_along(drive);
+  std::erase_if(streams.depth, [end_s = streams.color.back().stamp_s](const auto& pose) {
+    return pose.stamp_s > end_s;
+  });
+  return streams;
+}
+
 double rate_of(const std::vector<sim::StampedPose>& poses) {
   const double seconds = poses.back().stamp_s - poses.front().stamp_s;
   return seconds > 0.0 ? static_cast<double>(poses.size() - 1) / seconds : 1.0;
 }
 
-RecordingInfo info_of(const Study& study, const sim::World& world,
-                      const std::vector<sim::StampedPose>& poses) {
+RecordingInfo info_of(const Study& study, const sim::World& world, const sim::Streams& streams) {
   RecordingInfo info;
   info.calibration = world.calibration();
-  info.color_rate_hz = info.depth_rate_hz = rate_of(poses);
+  info.color_rate_hz = rate_of(streams.color);
+  info.depth_rate_hz = rate_of(streams.depth);
   info.table = world.classes();
   info.scene = std::filesystem::path(study.scene.value()).filename().string();
   info.scene_hash = world.hash();
   info.mujoco_version = sim::mujoco_version();
+  if (const sim::Motion* motion = world.motion()) {
+    info.motion = motion->file;
+    info.motion_hash = motion->hash;
+  }
   info.seed = study.seed;
-  info.frame_count = static_cast<int>(poses.size());
+  info.frame_count = static_cast<int>(streams.color.size());
   return info;
 }
 
-void record_world(const Study& study, const sim::World& world,
-                  const std::vector<sim::StampedPose>& poses, const std::filesystem::path& folder,
-                  int jobs, const FrameProgress& progress) {
-  RecordingWriter writer(folder, info_of(study, world, poses));
-  writer.write_shapes(world.shapes());
-  sim::record(
-      world, poses, {jobs, study.cameras.shadows}, [&](const Frame& frame) { writer.write(frame); },
-      progress);
+/// Where the shapes that move are at each stamp.
+ShapePoses poses_of_shapes(const sim::World& world, const std::vector<sim::StampedPose>& poses) {
+  if (!world.motion()) return {};
+  sim::MovingScene scene(world);
+  std::vector<double> stamps_s;
+  std::vector<std::vector<Pose>> T_world_shape;
+  for (const sim::StampedPose& pose : poses) {
+    scene.move_to(pose.stamp_s);
+    stamps_s.push_back(pose.stamp_s);
+    T_world_shape.push_back(scene.poses());
+  }
+  return poses_of_moving(world.shapes(), std::move(stamps_s), T_world_shape);
+}
+
+void record_world(const Study& study, const sim::World& world, const sim::Streams& streams,
+                  const std::filesystem::path& folder, int jobs, const FrameProgress& progress) {
+  RecordingWriter writer(folder, info_of(study, world, streams));
+  writer.write_shapes(world.shapes(), poses_of_shapes(world, streams.depth));
+  sim::record(world, streams, {jobs, study.cameras.shadows},
+              {[&](const Frame& frame) { writer.write_color(frame); },
+               [&](const Frame& frame) { writer.write_depth(frame); }},
+              progress);
   writer.finish();
 }
 
@@ -79,8 +118,13 @@ void record_world(const Study& study, const sim::World& world,
 std::string recording_name(const Study& study, const sim::World& world) {
   Study rendered;
   rendered.trajectory = study.trajectory;
+  if (depth_rate(study) != study.trajectory.frames_per_s)
+    rendered.trajectory.depth_frames_per_s = depth_rate(study);
+  else
+    rendered.trajectory.depth_frames_per_s.reset();
   rendered.cameras = study.cameras;
-  const std::string text = world.hash() + '\n' + sim::mujoco_version() + '\n' + to_yaml(rendered);
+  std::string text = world.hash() + '\n' + sim::mujoco_version() + '\n' + to_key_yaml(rendered);
+  if (world.motion()) text += world.motion()->hash;
   const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
   return fmt::format("{}-{:012x}", std::filesystem::path(study.scene.value()).stem().string(),
                      hash.high64 >> 16);
@@ -94,18 +138,21 @@ sim::World world_of(const Study& study) {
   if (study.classes) files.classes = resolve_path(study, *study.classes);
   files.robot = robot_path(study);
   const CameraSettings& cameras = study.cameras;
-  return sim::World::load(
+  const sim::World world = sim::World::load(
       files, {cameras.width_px, cameras.height_px, cameras.range_min_m, cameras.range_max_m});
+  return study.motion ? world.moving(sim::read_motion(resolve_path(study, *study.motion))) : world;
 }
 
 void record_study(const Study& study, const std::filesystem::path& folder, int jobs,
                   const FrameProgress& progress, const std::filesystem::path& trajectory) {
   if (!study.scene) throw Error("scene: nothing to record; name an MJCF file");
   const sim::World world = world_of(study);
-  const std::vector<sim::StampedPose> poses = trajectory.empty()
-                                                  ? sim::poses_along(drive_of(study.trajectory))
-                                                  : poses_from(trajectory, world.calibration());
-  record_world(study, world, poses, folder, jobs, progress);
+  sim::Streams streams;
+  if (trajectory.empty())
+    streams = streams_of(study, world.motion());
+  else
+    streams.color = streams.depth = poses_from(trajectory, world.calibration());
+  record_world(study, world, streams, folder, jobs, progress);
 }
 
 Recording recording_of(const Study& study, const std::filesystem::path& results, int jobs,
@@ -115,8 +162,7 @@ Recording recording_of(const Study& study, const std::filesystem::path& results,
   const std::filesystem::path folder = results / "recordings" / recording_name(study, world);
   const FolderLock lock(folder.parent_path());  // of several shards one records, the others wait
   if (!std::filesystem::exists(folder))
-    record_world(study, world, sim::poses_along(drive_of(study.trajectory)), folder, jobs,
-                 progress);
+    record_world(study, world, streams_of(study, world.motion()), folder, jobs, progress);
   return Recording::open(folder);
 }
 

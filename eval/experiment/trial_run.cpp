@@ -73,9 +73,8 @@ Calibration believed_calibration(const Calibration& truth, const Task& task) {
 TruthOptions truth_options(const Study& config) {
   return {.epsilon_m = config.score.epsilon_m,
           .min_samples = config.score.min_samples,
-          .by_frame = config.score.unit == ScoreUnit::frame,
-          .distances = !config.score.distances_m.empty(),
-          .time_offset_s = config.score.unit == ScoreUnit::frame ? time_offset_s(config) : 0.0};
+          .at_s = config.score.at_s,
+          .distances = !config.score.distances_m.empty()};
 }
 
 TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
@@ -92,19 +91,21 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       blend_(std::get<BlendSettings>(task.config.fusion)),
       threshold_(task.config.score.threshold.value.value_or(default_threshold(blend_.K))),
       score_options_{positive(task.config.score.tolerances), task.config.score.distances_m},
+      map_frame_(map_frame(task.config, task.seed_index)),
+      truths_(truths),
       boxes_(truths.boxes()),
-      truth_(truths.get(map_frame(task.config, task.seed_index), truth_options(task.config))),
       map_(task.config.voxel_m) {
-  if (task.config.score.instances)
-    instance_truth_ =
-        truths.of_instances(map_frame(task.config, task.seed_index), truth_options(task.config));
   result_.counts = no_counts();
+  if (task.config.score.unit == ScoreUnit::frame) return;
+  truth_ = truths.get(map_frame_, truth_options(task.config));
+  if (task.config.score.instances)
+    instance_truth_ = truths.of_instances(map_frame_, truth_options(task.config));
 }
 
 Counts TrialRun::no_counts() const {
   Counts counts = zero_counts(table_.classes.size(), score_options_);
   for (ClassCounts& of_class : counts)
-    if (instance_truth_) of_class.instances.emplace();
+    if (task_.config.score.instances) of_class.instances.emplace();
   return counts;
 }
 
@@ -117,14 +118,17 @@ void TrialRun::advance(const Frame& frame) {
   const auto hits = place(observation, sensor_poses(frame.index), map_.edge_m());
   map_.blend(hits, blend_.N, blend_.K);
   ++result_.accounting.frames;
-  if (by_itself) score(frame.index, counts);
+  if (by_itself) {
+    look_up_truth_of(frame.depth_index);
+    score(counts);
+  }
   pool_into(result_.counts, counts);
   if (by_itself && keeps_frames_)
     frames_.push_back({frame.index, frame.stamp_s, std::move(counts)});
 }
 
 TrialResult TrialRun::finish() {
-  if (task_.config.score.unit == ScoreUnit::map) score(0, result_.counts);
+  if (task_.config.score.unit == ScoreUnit::map) score(result_.counts);
   return std::move(result_);
 }
 
@@ -191,16 +195,23 @@ std::vector<Pose> TrialRun::sensor_poses(int frame) const {
   return poses;
 }
 
-void TrialRun::score(int frame, Counts& counts) {
+void TrialRun::look_up_truth_of(int depth_image) {
+  const TruthOptions options = truth_options(task_.config);
+  truth_ = truths_.of_frame(map_frame_, options, depth_image);
+  if (task_.config.score.instances)
+    instance_truth_ = truths_.of_frame_instances(map_frame_, options, depth_image);
+}
+
+void TrialRun::score(Counts& counts) {
   const MapSnapshot snapshot(map_.voxels());
   result_.accounting.hits_beyond_span += static_cast<std::int64_t>(map_.hits_beyond_span());
   result_.accounting.map_voxels += static_cast<std::int64_t>(snapshot.voxels().size());
-  Counts scored = truth_->score(snapshot, threshold_, truth_->view(frame), table_.classes.size(),
-                                score_options_);
+  Counts scored =
+      truth_->score(snapshot, threshold_, truth_->view, table_.classes.size(), score_options_);
   if (instance_truth_) {
     const std::vector<InstanceCounts> instances =
         score_instances(pieces_of(snapshot, threshold_), instance_truth_->surface,
-                        instance_truth_->view(frame).visible, table_);
+                        instance_truth_->view.visible, table_);
     for (std::size_t c = 0; c < scored.size(); ++c) scored[c].instances = instances[c];
   }
   pool_into(counts, scored);

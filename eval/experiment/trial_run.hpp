@@ -54,6 +54,7 @@ class TrialRun {
   /// The map as it stands; of the last frame where each is scored by itself.
   [[nodiscard]] const SemanticMap& map() const { return map_; }
   [[nodiscard]] double threshold() const { return threshold_; }
+  /// What the map is scored against; of the last frame where each is scored by itself.
   [[nodiscard]] const LatticeTruth& truth() const { return *truth_; }
 
  private:
@@ -65,9 +66,10 @@ class TrialRun {
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
   void account(const Segment& segment);
   [[nodiscard]] std::vector<Pose> sensor_poses(int frame) const;
-  /// Adds the counts of the map as it stands, against the view of that frame or, where the map is
-  /// scored, the only one.
-  void score(int frame, Counts& counts);
+  /// Adds the counts of the map as it stands.
+  void score(Counts& counts);
+  /// Takes the truth of the frame that is read with that depth image.
+  void look_up_truth_of(int depth_image);
 
   const Task& task_;
   const ClassTable& table_;
@@ -81,6 +83,8 @@ class TrialRun {
   BlendSettings blend_;
   double threshold_;
   ScoreOptions score_options_;
+  MapFrame map_frame_;
+  TruthCache& truths_;
   FrameBoxes& boxes_;  ///< true ones, shared by all trials
   std::shared_ptr<const LatticeTruth> truth_;
   std::shared_ptr<const LatticeTruth> instance_truth_;  ///< none where instances are not scored

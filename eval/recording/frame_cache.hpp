@@ -35,6 +35,11 @@ class FrameCache {
   }
   [[nodiscard]] std::shared_ptr<const Frame> get(int index, int depth_index);
 
+  /// The depth side alone: depth, depth_label, stamp and pose.
+  [[nodiscard]] std::shared_ptr<const Frame> get_depth(int depth_index) {
+    return side({Side::depth, depth_index});
+  }
+
   /// Bytes of the pixels kept, at most `max_bytes`.
   [[nodiscard]] std::size_t bytes() const;
   /// How many times a side was decoded so far.

@@ -15,7 +15,8 @@ namespace mapscore::eval {
 namespace {
 
 constexpr const char* kTextFiles[] = {"recording.yaml",  "color.txt",        "depth.txt",
-                                      "groundtruth.txt", "truth/shapes.csv", "truth/triangles.ply"};
+                                      "groundtruth.txt", "truth/shapes.csv", "truth/triangles.ply",
+                                      "truth/poses.csv"};
 
 std::vector<HashedFile> read_hash_list(const std::filesystem::path& file,
                                        const std::vector<std::string>& images) {

@@ -135,6 +135,9 @@ std::string info_text(const RecordingInfo& info) {
   text += fmt::format("scene: {}\nscene_hash: {}\nmujoco_version: {}\nseed: {}\n",
                       yaml_quoted(info.scene), yaml_quoted(info.scene_hash),
                       yaml_quoted(info.mujoco_version), info.seed);
+  if (!info.motion.empty())
+    text += fmt::format("motion: {}\nmotion_hash: {}\n", yaml_quoted(info.motion),
+                        yaml_quoted(info.motion_hash));
   text += fmt::format("frame_count: {}\nhas_truth: {}\n", info.frame_count, info.has_truth);
   text += fmt::format("color: {{{}}}\n", camera_text(calibration.color, info.color_rate_hz));
   text += fmt::format("depth: {{{}, range_min_m: {}, range_max_m: {}}}\n",
@@ -153,14 +156,19 @@ std::string info_text(const RecordingInfo& info) {
 RecordingInfo read_info(const std::filesystem::path& file) {
   const YamlValue root = YamlValue::load(file);
   check_version(root);
-  root.only({"format_version", "scene", "scene_hash", "mujoco_version", "seed", "frame_count",
-             "has_truth", "color", "depth", "T_color_depth", "T_base_depth", "classes",
-             "instances"});
+  root.only({"format_version", "scene", "scene_hash", "mujoco_version", "seed", "motion",
+             "motion_hash", "frame_count", "has_truth", "color", "depth", "T_color_depth",
+             "T_base_depth", "classes", "instances"});
   RecordingInfo info;
   info.scene = root.at("scene").text();
   info.scene_hash = root.at("scene_hash").text();
   info.mujoco_version = root.at("mujoco_version").text();
   info.seed = root.at("seed").whole(0, std::numeric_limits<std::uint64_t>::max());
+  if (root.has("motion") || root.has("motion_hash")) {
+    info.motion = root.at("motion").text();
+    info.motion_hash = root.at("motion_hash").text();
+    if (info.motion.empty()) root.at("motion").refuse("is empty; name the motion's file");
+  }
   info.frame_count = static_cast<int>(root.at("frame_count").whole(1, kMaxFrames));
   info.has_truth = root.at("has_truth").boolean();
   info.calibration = calibration_of(root);

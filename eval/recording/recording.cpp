@@ -158,4 +158,11 @@ std::vector<Shape> Recording::read_shapes() const {
   return shapes;
 }
 
+ShapePoses Recording::read_poses() const {
+  if (info_.motion.empty() || !info_.has_truth) return {};
+  std::vector<double> stamps_s;
+  for (const DepthImage& image : depth_) stamps_s.push_back(image.stamp_s);
+  return read_shape_poses(folder_ / "truth/poses.csv", read_shapes().size(), stamps_s);
+}
+
 }  // namespace mapscore::eval

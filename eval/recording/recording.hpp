@@ -7,6 +7,7 @@
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/shape.hpp"
+#include "eval/recording/shape_poses.hpp"
 #include "eval/recording/stamp_list.hpp"
 
 #include <cstdint>
@@ -28,6 +29,8 @@ struct RecordingInfo {
   std::string scene;           ///< file name of the scene
   std::string scene_hash;      ///< content hash of scene, class file and robot
   std::string mujoco_version;  ///< empty when made elsewhere
+  std::string motion;          ///< file name of the scene's motion; empty where nothing moves
+  std::string motion_hash;     ///< hash of its bytes
   std::uint64_t seed = 0;
   int frame_count = 0;
   bool has_truth =
@@ -63,6 +66,9 @@ class Recording {
   [[nodiscard]] const Pose& T_world_base(int index) const {
     return T_world_base_of_depth(depth_of(index));
   }
+  [[nodiscard]] double depth_stamp_s(int depth_index) const {
+    return depth_.at(static_cast<std::size_t>(depth_index)).stamp_s;
+  }
   [[nodiscard]] const Pose& T_world_base_of_depth(int depth_index) const {
     return depth_.at(static_cast<std::size_t>(depth_index)).T_world_base;
   }
@@ -80,7 +86,10 @@ class Recording {
   void read_color(int index, Channels channels, Frame& frame) const;
   void read_depth(int depth_index, Channels channels, Frame& frame) const;
   /// Exact drawn surfaces in the world frame, background included (instance 0).
+  /// Those that move stand where they were before they did; see read_poses.
   [[nodiscard]] std::vector<Shape> read_shapes() const;
+  /// Where the moving ones of read_shapes were at each depth image; empty where nothing moves.
+  [[nodiscard]] ShapePoses read_poses() const;
 
  private:
   struct DepthImage : StampedImage {
@@ -112,7 +121,9 @@ class RecordingWriter {
   void write_depth(const Frame& frame);
   /// Both sides of a frame, at one stamp, both numbered `frame.index`.
   void write(const Frame& frame);
-  void write_shapes(const std::vector<Shape>& shapes);
+  /// `poses`: where those of `shapes` that move were at each depth image; written, even if nothing
+  /// moved, where the recording has a motion.
+  void write_shapes(const std::vector<Shape>& shapes, const ShapePoses& poses = {});
   /// Writes lists, trajectory and recording.yaml; checks that every frame 0..n-1 was written;
   /// renames.
   void finish();

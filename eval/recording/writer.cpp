@@ -201,7 +201,7 @@ void RecordingWriter::write(const Frame& frame) {
   write_depth(numbered);
 }
 
-void RecordingWriter::write_shapes(const std::vector<Shape>& shapes) {
+void RecordingWriter::write_shapes(const std::vector<Shape>& shapes, const ShapePoses& poses) {
   if (!state_->info.has_truth)
     refuse(state_->folder, "a recording without truth holds no surfaces");
   for (const Shape& shape : shapes)
@@ -211,6 +211,10 @@ void RecordingWriter::write_shapes(const std::vector<Shape>& shapes) {
   write_file(state_->partial / "truth/shapes.csv", shape_table_text(shapes));
   const std::string meshes = triangle_ply_bytes(shapes);
   if (!meshes.empty()) write_file(state_->partial / "truth/triangles.ply", meshes);
+  if (state_->info.motion.empty() && !poses.empty())
+    refuse(state_->folder, "shapes move without a motion; name it in the recording's info");
+  if (!state_->info.motion.empty())
+    write_file(state_->partial / "truth/poses.csv", shape_poses_text(as_filed(poses, shapes)));
   state_->has_shapes = true;
 }
 

@@ -57,7 +57,7 @@ JudgedMap judged_trial(const TrialRun& run, const Task& task, const ClassTable& 
                        const TrialSpec& spec, std::optional<int> frame) {
   const LatticeTruth& truth = run.truth();
   return judged_map(spec.method, title_of(spec, frame), MapSnapshot(run.map().voxels()),
-                    run.threshold(), truth.surface, truth.view(frame.value_or(0)).visible, table,
+                    run.threshold(), truth.surface, truth.view.visible, table,
                     map_frame(task.config, task.seed_index).T_map_world());
 }
 

@@ -78,16 +78,24 @@ DistanceTally completeness_of(std::span<const VoxelKey> cubes, ClassId class_id,
 
 }  // namespace
 
-CubeDistance cube_distance(const std::vector<PreparedShape>& pieces, const ClassTable& table,
-                           double edge_m) {
-  std::vector<SurfaceDistance> surfaces;
-  for (const SemanticClass& semantic : table.classes) {
-    surfaces.emplace_back(pieces_of(pieces, table, semantic.id));
-  }
+ClassDistances class_distances(const std::vector<PreparedShape>& pieces, const ClassTable& table) {
+  ClassDistances surfaces;
+  for (const SemanticClass& semantic : table.classes)
+    surfaces.push_back(
+        std::make_shared<const SurfaceDistance>(pieces_of(pieces, table, semantic.id)));
+  return surfaces;
+}
+
+CubeDistance cube_distance(ClassDistances surfaces, double edge_m) {
   return [surfaces = std::move(surfaces), edge_m](const VoxelKey& key, ClassId class_id) {
     const VoxelKey next{key.i + 1, key.j + 1, key.k + 1};
-    return surfaces.at(class_id)(Box(low_corner_of(key, edge_m), low_corner_of(next, edge_m)));
+    return (*surfaces.at(class_id))(Box(low_corner_of(key, edge_m), low_corner_of(next, edge_m)));
   };
+}
+
+CubeDistance cube_distance(const std::vector<PreparedShape>& pieces, const ClassTable& table,
+                           double edge_m) {
+  return cube_distance(class_distances(pieces, table), edge_m);
 }
 
 void score_distances(const MapSnapshot& map, double threshold, const CubeDistance& distance_of,

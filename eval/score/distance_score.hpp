@@ -9,6 +9,7 @@
 #include "eval/truth/distance.hpp"
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace mapscore::eval {
@@ -16,6 +17,16 @@ namespace mapscore::eval {
 /// Euclidean distance in metres from the closed cube of a voxel to the exact boundary of the geoms
 /// of a class, parts inside other solids included; kUnreached when the class has none.
 using CubeDistance = std::function<double(const VoxelKey&, ClassId)>;
+
+/// Exact surfaces by class id; copies share them.
+using ClassDistances = std::vector<std::shared_ptr<const SurfaceDistance>>;
+
+/// `pieces`: drawn surfaces in the map frame, background included.
+[[nodiscard]] ClassDistances class_distances(const std::vector<PreparedShape>& pieces,
+                                             const ClassTable& table);
+
+/// The distance to these; may be called from several threads.
+[[nodiscard]] CubeDistance cube_distance(ClassDistances surfaces, double edge_m);
 
 /// The distance to exact surfaces. `pieces`: drawn surfaces in the map frame, background included;
 /// `edge_m`: edge of the lattice. The function may be called from several threads.

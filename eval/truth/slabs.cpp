@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -22,6 +23,21 @@ std::int32_t slab_number(std::int32_t i) {
 }
 
 }  // namespace
+
+VoxelBlock common(const VoxelBlock& a, const VoxelBlock& b) {
+  return {
+      {std::max(a.low.i, b.low.i), std::max(a.low.j, b.low.j), std::max(a.low.k, b.low.k)},
+      {std::min(a.high.i, b.high.i), std::min(a.high.j, b.high.j), std::min(a.high.k, b.high.k)}};
+}
+
+bool empty(const VoxelBlock& block) {
+  return block.low.i > block.high.i || block.low.j > block.high.j || block.low.k > block.high.k;
+}
+
+bool holds(const VoxelBlock& block, const VoxelKey& key) {
+  return key.i >= block.low.i && key.i <= block.high.i && key.j >= block.low.j &&
+         key.j <= block.high.j && key.k >= block.low.k && key.k <= block.high.k;
+}
 
 VoxelBlock block_around(const PreparedShape& piece, double edge_m, double epsilon_m) {
   const Box& bounds = piece.bounds();

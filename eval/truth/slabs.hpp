@@ -16,6 +16,11 @@ struct VoxelBlock {
   VoxelKey low, high;
 };
 
+/// What two blocks have in common; empty when they have nothing.
+[[nodiscard]] VoxelBlock common(const VoxelBlock& a, const VoxelBlock& b);
+[[nodiscard]] bool empty(const VoxelBlock& block);
+[[nodiscard]] bool holds(const VoxelBlock& block, const VoxelKey& key);
+
 /// All voxels whose closed cube, widened by `epsilon_m`, could meet the piece. Throws Error when it
 /// reaches beyond 2^20 voxels from the origin.
 [[nodiscard]] VoxelBlock block_around(const PreparedShape& piece, double edge_m, double epsilon_m);

@@ -122,16 +122,16 @@ std::vector<SurfaceVoxel> joined(std::vector<SlabRows> rows_of_slabs,
 }  // namespace
 
 SurfaceTruth::SurfaceTruth(std::vector<SurfaceVoxel> voxels, double edge_m)
-    : voxels_(std::move(voxels)), edge_m_(edge_m) {
-  if (!voxels_.empty()) least_i_ = voxels_.front().key.i;
-  for (std::size_t row = 0; row < voxels_.size(); ++row) {
-    const SurfaceVoxel& voxel = voxels_[row];
+    : rows_(std::make_shared<const std::vector<SurfaceVoxel>>(std::move(voxels))), edge_m_(edge_m) {
+  if (!rows_->empty()) least_i_ = rows_->front().key.i;
+  for (std::size_t row = 0; row < rows_->size(); ++row) {
+    const SurfaceVoxel& voxel = (*rows_)[row];
     const auto layer = static_cast<std::size_t>(voxel.key.i - least_i_);
     if (layer >= layers_.size()) layers_.resize(layer + 1, row);
     if (voxel.class_id >= counts_.size()) counts_.resize(voxel.class_id + 1u);
     ++counts_[voxel.class_id];
   }
-  layers_.push_back(voxels_.size());
+  layers_.push_back(rows_->size());
 }
 
 bool SurfaceTruth::contains(const VoxelKey& key, ClassId class_id) const {
@@ -147,7 +147,7 @@ bool SurfaceTruth::touches_any(const VoxelKey& key) const {
 std::span<const SurfaceVoxel> SurfaceTruth::classes_at(const VoxelKey& key) const {
   const std::int64_t layer = std::int64_t{key.i} - least_i_;
   if (layer < 0 || layer + 1 >= static_cast<std::int64_t>(layers_.size())) return {};
-  const std::span all(voxels_);
+  const std::span<const SurfaceVoxel> all = voxels();
   const auto at = static_cast<std::size_t>(layer);
   const std::span rows = all.subspan(layers_[at], layers_[at + 1] - layers_[at]);
   const auto first = std::partition_point(

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,7 +31,8 @@ struct SurfaceVoxel {
   bool operator==(const SurfaceVoxel&) const = default;
 };
 
-/// S_c(r) of every class c, background included. Immutable, safe to share between threads.
+/// S_c(r) of every class c, background included. Immutable, safe to share between threads; copies
+/// share the rows.
 class SurfaceTruth {
  public:
   SurfaceTruth() = default;
@@ -45,12 +47,14 @@ class SurfaceTruth {
   /// Rows of one voxel, by class; empty when no surface touches it.
   [[nodiscard]] std::span<const SurfaceVoxel> classes_at(const VoxelKey& key) const;
   /// All rows, sorted by key, then class.
-  [[nodiscard]] std::span<const SurfaceVoxel> voxels() const { return voxels_; }
+  [[nodiscard]] std::span<const SurfaceVoxel> voxels() const {
+    return rows_ ? std::span<const SurfaceVoxel>(*rows_) : std::span<const SurfaceVoxel>();
+  }
   /// |S_c|.
   [[nodiscard]] std::size_t count(ClassId class_id) const;
 
  private:
-  std::vector<SurfaceVoxel> voxels_;
+  std::shared_ptr<const std::vector<SurfaceVoxel>> rows_;
   std::int32_t least_i_ = 0;
   std::vector<std::size_t> layers_;  ///< first row with i >= least_i_ + n; the last is their count
   std::vector<std::size_t> counts_;

@@ -52,15 +52,22 @@ Voxeliser::Voxeliser(double edge_m, double epsilon_m) : edge_m_(edge_m), epsilon
 
 void Voxeliser::voxelise(const PreparedShape& piece, const Slab& slab,
                          std::vector<PieceVoxel>& voxels) {
+  VoxelBlock block = block_around(piece, edge_m_, epsilon_m_);
+  block.low.i = slab.first_i;
+  block.high.i = slab.first_i + kSlabVoxels - 1;
+  voxelise(piece, block, slab.solids, voxels);
+}
+
+void Voxeliser::voxelise(const PreparedShape& piece, const VoxelBlock& within,
+                         std::span<const PreparedShape* const> solids,
+                         std::vector<PieceVoxel>& voxels) {
   piece_ = &piece;
   voxels_ = &voxels;
-  VoxelBlock block = block_around(piece, edge_m_, epsilon_m_);
-  block.low.i = std::max(block.low.i, slab.first_i);
-  block.high.i = std::min(block.high.i, slab.first_i + kSlabVoxels - 1);
-  if (block.low.i > block.high.i) return;
+  const VoxelBlock block = common(block_around(piece, edge_m_, epsilon_m_), within);
+  if (empty(block)) return;
   const Box box = box_of(block, epsilon_m_ + kBlockMargin_m);
   others_.clear();
-  for (const PreparedShape* solid : slab.solids) {
+  for (const PreparedShape* solid : solids) {
     if (solid->shape() != piece.shape() && solid->bounds().intersects(box)) {
       others_.push_back(solid);
     }

@@ -7,6 +7,7 @@
 #include "eval/truth/shape_tests.hpp"
 #include "eval/truth/slabs.hpp"
 
+#include <span>
 #include <vector>
 
 namespace mapscore::eval {
@@ -34,6 +35,10 @@ class Voxeliser {
 
   /// Appends the voxels of `piece` in the slab that stay, each once, in no promised order.
   void voxelise(const PreparedShape& piece, const Slab& slab, std::vector<PieceVoxel>& voxels);
+
+  /// The same for a block of voxels. `solids`: all that could meet one of them.
+  void voxelise(const PreparedShape& piece, const VoxelBlock& within,
+                std::span<const PreparedShape* const> solids, std::vector<PieceVoxel>& voxels);
 
  private:
   void descend(const VoxelBlock& block, std::size_t first_other);

@@ -7,6 +7,7 @@
 #include "sim/render/offscreen.hpp"
 #include "sim/render/picture.hpp"
 #include "sim/render/scene_buffer.hpp"
+#include "sim/world/moving_scene.hpp"
 
 #include <opencv2/core.hpp>
 
@@ -64,7 +65,13 @@ struct Renderer::State {
       : world(drawn_world),
         shadows(with_shadows),
         offscreen(drawn_world.model(), coarse),
+        scene(drawn_world),
         buffer(drawn_world.model(), drawn_world.drawn(), drawn_world.drawn().geoms.size()) {}
+
+  void move_to(double stamp_s) {
+    scene.move_to(stamp_s);
+    buffer.light_as(scene.drawn());
+  }
 
   Pose T_world_depth(const Pose& T_world_base) const {
     return T_world_base * world.calibration().T_base_depth;
@@ -77,7 +84,7 @@ struct Renderer::State {
   void look(const CameraModel& camera, const Pose& T_world_optical, bool with_shades) {
     const Frustum frustum(camera, T_world_optical);
     buffer.clear();
-    for (const mjvGeom& geom : world.drawn().geoms) {
+    for (const mjvGeom& geom : scene.drawn().geoms) {
       const Eigen::Vector3d centre = Eigen::Map<const Eigen::Vector3f>(geom.pos).cast<double>();
       const bool unbounded = geom.modelrbound <= 0;
       if (unbounded || frustum.may_see(centre, geom.modelrbound) ||
@@ -89,7 +96,7 @@ struct Renderer::State {
   }
 
   bool shades(const Frustum& frustum, const Eigen::Vector3d& centre, const mjvGeom& geom) const {
-    const std::vector<mjvLight>& lights = world.drawn().lights;
+    const std::vector<mjvLight>& lights = scene.drawn().lights;
     return std::any_of(lights.begin(), lights.end(), [&](const mjvLight& light) {
       return light.castshadow && frustum.may_shade(centre, geom.modelrbound, light);
     });
@@ -121,6 +128,7 @@ struct Renderer::State {
   World world;  // shares its state
   bool shadows;
   Offscreen offscreen;
+  MovingScene scene;
   SceneBuffer buffer;
   cv::Mat3b pixels;        ///< as read, row 0 at the bottom
   cv::Mat1f depth_buffer;  ///< as read, row 0 at the bottom
@@ -131,19 +139,36 @@ Renderer::Renderer(const World& world, bool shadows, bool coarse)
 Renderer::~Renderer() = default;
 
 Frame Renderer::render(int index, double stamp_s, const Pose& T_world_base) {
-  const Calibration& calibration = state_->world.calibration();
-  const Pose T_world_color = state_->T_world_color(T_world_base);
+  const Instant instant{stamp_s, T_world_base};
+  return render(index, instant, instant);
+}
+
+Frame Renderer::render(int index, const Instant& color, const Instant& depth) {
   Frame frame;
   frame.index = index;
-  frame.stamp_s = stamp_s;
-  frame.T_world_base = T_world_base;
-  frame.color = state_->colour(calibration.color, T_world_color);
-  frame.label = state_->ids(calibration.color, T_world_color, nullptr);
+  render_color(color, frame);
+  render_depth(depth, frame);
+  return frame;
+}
+
+void Renderer::render_color(const Instant& instant, Frame& frame) {
+  const CameraModel& camera = state_->world.calibration().color;
+  const Pose T_world_color = state_->T_world_color(instant.T_world_base);
+  state_->move_to(instant.stamp_s);
+  frame.color = state_->colour(camera, T_world_color);
+  frame.label = state_->ids(camera, T_world_color, nullptr);
+}
+
+void Renderer::render_depth(const Instant& instant, Frame& frame) {
+  const Calibration& calibration = state_->world.calibration();
+  state_->move_to(instant.stamp_s);
+  frame.stamp_s = instant.stamp_s;
+  frame.T_world_base = instant.T_world_base;
   cv::Mat1f metres;
-  frame.depth_label = state_->ids(calibration.depth, state_->T_world_depth(T_world_base), &metres);
+  frame.depth_label =
+      state_->ids(calibration.depth, state_->T_world_depth(instant.T_world_base), &metres);
   frame.depth = stored_depth(metres, calibration.range_min_m, calibration.range_max_m);
   frame.depth_label.setTo(0, frame.depth == 0);
-  return frame;
 }
 
 cv::Mat1f Renderer::render_metric_depth(const Pose& T_world_base) {

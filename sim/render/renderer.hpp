@@ -37,6 +37,12 @@ struct View {
   bool open_ceiling = false;
 };
 
+/// When a camera looks, and where the robot stands then.
+struct Instant {
+  double stamp_s = 0.0;
+  Pose T_world_base = Pose::Identity();
+};
+
 /// Off-screen renderer of one world on OSMesa: one context, used by one thread (the one that made
 /// it). Renders repeat bit for bit, also between contexts of different threads.
 class Renderer {
@@ -52,7 +58,18 @@ class Renderer {
   /// colour camera; depth (16-bit, out of range = 0) and instance ids from the depth camera.
   [[nodiscard]] Frame render(int index, double stamp_s, const Pose& T_world_base);
 
-  /// Planar depth in metres before it is stored (float, 0 = none beyond the far plane), for tests.
+  /// The colour camera's side (color, label) at one instant, the depth camera's (depth,
+  /// depth_label) at another, each with the scene's configuration of that instant. Stamp and pose
+  /// of the frame are the depth's.
+  [[nodiscard]] Frame render(int index, const Instant& color, const Instant& depth);
+
+  /// One side alone: fills `color` and `label`.
+  void render_color(const Instant& instant, Frame& frame);
+  /// One side alone: fills `depth` and `depth_label`, stamp and pose.
+  void render_depth(const Instant& instant, Frame& frame);
+
+  /// Planar depth in metres before it is stored (float, 0 = none beyond the far plane), at the pose
+  /// of loading, for tests.
   [[nodiscard]] cv::Mat1f render_metric_depth(const Pose& T_world_base);
 
   /// A picture of the scene, optionally with cubes drawn into it. BGR.

@@ -26,6 +26,10 @@ mjvLight plain_light(const Eigen::Vector3f& direction, float ambient, float diff
 SceneBuffer::SceneBuffer(const mjModel& model, const DrawnScene& drawn, std::size_t geoms) {
   mjv_defaultScene(&scene_);
   mjv_makeScene(&model, &scene_, static_cast<int>(std::max<std::size_t>(geoms, 1)));
+  light_as(drawn);
+}
+
+void SceneBuffer::light_as(const DrawnScene& drawn) {
   std::copy(drawn.lights.begin(), drawn.lights.end(), scene_.lights);
   scene_.nlight = static_cast<int>(drawn.lights.size());
 }

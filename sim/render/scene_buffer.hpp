@@ -18,6 +18,8 @@ class SceneBuffer {
   SceneBuffer& operator=(const SceneBuffer&) = delete;
 
   void clear() { scene_.ngeom = 0; }
+  /// Lit as another drawn scene is.
+  void light_as(const DrawnScene& drawn);
   void add(const mjvGeom& geom) { scene_.geoms[scene_.ngeom++] = geom; }
   void look_through(const mjvGLCamera& camera) { scene_.camera[0] = scene_.camera[1] = camera; }
 

@@ -15,6 +15,10 @@
 namespace mapscore::sim {
 namespace {
 
+std::string hexadecimal(const XXH128_hash_t& digest) {
+  return fmt::format("{:016x}{:016x}", digest.high64, digest.low64);
+}
+
 class Hash {
  public:
   Hash() : state_(XXH3_createState(), XXH3_freeState) { XXH3_128bits_reset(state_.get()); }
@@ -34,10 +38,7 @@ class Hash {
     add(bytes.data(), bytes.size());
   }
 
-  std::string hex() const {
-    const XXH128_hash_t digest = XXH3_128bits_digest(state_.get());
-    return fmt::format("{:016x}{:016x}", digest.high64, digest.low64);
-  }
+  std::string hex() const { return hexadecimal(XXH3_128bits_digest(state_.get())); }
 
  private:
   std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
@@ -58,6 +59,15 @@ void add_geoms(Hash& hash, const mjModel& m) {
   hash.add(m.geom_pos, 3 * m.ngeom);
   hash.add(m.geom_quat, 4 * m.ngeom);
   hash.add(m.geom_rgba, 4 * m.ngeom);
+}
+
+/// Scenes without joints keep the hashes that they had before joints counted.
+void add_joints(Hash& hash, const mjModel& m) {
+  if (m.njnt == 0) return;
+  hash.add(m.jnt_type, m.njnt);
+  hash.add(m.jnt_bodyid, m.njnt);
+  hash.add(m.jnt_pos, 3 * m.njnt);
+  hash.add(m.jnt_axis, 3 * m.njnt);
 }
 
 void add_assets(Hash& hash, const mjModel& m) {
@@ -82,6 +92,10 @@ void add_view(Hash& hash, const mjModel& m) {
 
 }  // namespace
 
+std::string hash_of_bytes(std::string_view bytes) {
+  return hexadecimal(XXH3_128bits(bytes.data(), bytes.size()));
+}
+
 std::string content_hash(const mjModel& model, const std::filesystem::path& scene,
                          const std::optional<std::filesystem::path>& classes,
                          const std::filesystem::path& robot) {
@@ -90,6 +104,7 @@ std::string content_hash(const mjModel& model, const std::filesystem::path& scen
   if (classes) hash.add_file(*classes);
   hash.add_file(robot);
   add_geoms(hash, model);
+  add_joints(hash, model);
   add_assets(hash, model);
   add_view(hash, model);
   return hash.hex();

@@ -72,11 +72,12 @@ void SceneBuilder::add_facets(const std::vector<Shape>& shapes) {
   }
 }
 
-void draw_by_facets(const mjModel& model, const std::vector<Shape>& shapes, DrawnScene& drawn) {
+void draw_by_facets(const mjModel& model, const std::vector<Shape>& shapes,
+                    const std::vector<Pose>& T_world_shape, DrawnScene& drawn) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (!is_round(shapes[i].kind)) continue;
     const int mesh = mj_name2id(&model, mjOBJ_MESH, facets_name(shapes[i]).c_str());
-    if (mesh >= 0) draw_mesh(model, mesh, shapes[i].T_world_shape, drawn.geoms[i]);
+    if (mesh >= 0) draw_mesh(model, mesh, T_world_shape[i], drawn.geoms[i]);
   }
 }
 

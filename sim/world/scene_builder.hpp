@@ -31,8 +31,9 @@ class SceneBuilder {
   SpecPtr spec_, robot_spec_;
 };
 
-/// Draws the round geoms among `drawn` by the meshes that `add_facets` made of `shapes` (one a
-/// geom, in the same order).
-void draw_by_facets(const mjModel& model, const std::vector<Shape>& shapes, DrawnScene& drawn);
+/// Draws the round geoms among `drawn` by the meshes that `add_facets` made of `shapes`, at
+/// `T_world_shape` (one of each a geom, in the same order).
+void draw_by_facets(const mjModel& model, const std::vector<Shape>& shapes,
+                    const std::vector<Pose>& T_world_shape, DrawnScene& drawn);
 
 }  // namespace mapscore::sim

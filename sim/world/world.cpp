@@ -3,12 +3,18 @@
 
 #include "sim/world/world.hpp"
 
+#include "core/error.hpp"
 #include "sim/world/class_assignment.hpp"
+#include "sim/world/compiled_scene.hpp"
 #include "sim/world/content_hash.hpp"
+#include "sim/world/motion.hpp"
+#include "sim/world/moving_scene.hpp"
 #include "sim/world/robot_cameras.hpp"
 #include "sim/world/scene_builder.hpp"
 #include "sim/world/shape_scene.hpp"
 #include "sim/world/surfaces.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
@@ -21,16 +27,6 @@ struct PlacedModel {
   DataPtr data;
 };
 
-struct World::State {
-  PlacedModel placed;
-  std::vector<bool> robot_body;
-  Assignment assignment;
-  Calibration calibration;
-  DrawnScene drawn;
-  std::vector<Shape> shapes;
-  std::string hash;
-};
-
 namespace {
 
 std::optional<std::filesystem::path> class_file_of(const WorldFiles& files) {
@@ -38,13 +34,6 @@ std::optional<std::filesystem::path> class_file_of(const WorldFiles& files) {
   std::filesystem::path beside = files.scene;
   beside.replace_extension(".classes.yaml");
   return std::filesystem::exists(beside) ? std::optional(beside) : std::nullopt;
-}
-
-/// Everything but dynamics: nothing moves at load, and no solver can diverge.
-void place(const mjModel& model, mjData& data) {
-  mj_kinematics(&model, &data);
-  mj_comPos(&model, &data);
-  mj_camlight(&model, &data);
 }
 
 PlacedModel compile_and_place(SceneBuilder& builder) {
@@ -61,19 +50,6 @@ std::vector<bool> bodies_under(const mjModel& model, int root) {
     under[body] = body == root || under[model.body_parentid[body]];
   }
   return under;
-}
-
-/// The drawn geoms that are not the robot's and not transparent; geoms of opaque classes become
-/// solid.
-DrawnScene solid_scene(const PlacedModel& placed, const Ownership& ownership,
-                       const std::vector<bool>& robot_body) {
-  DrawnScene drawn = visible_scene(*placed.model, *placed.data);
-  std::erase_if(drawn.geoms, [&](mjvGeom& geom) {
-    const int body = placed.model->geom_bodyid[geom.objid];
-    if (ownership.opaque(body)) geom.rgba[3] = 1.0f;
-    return robot_body[body] || geom.rgba[3] < 1.0f;
-  });
-  return drawn;
 }
 
 std::vector<int> ids_of(const DrawnScene& drawn) {
@@ -97,8 +73,29 @@ std::vector<Shape> surfaces_of(const PlacedModel& placed, const std::vector<int>
   return shapes;
 }
 
-void show_instances(const std::vector<InstanceId>& instances, DrawnScene& drawn) {
-  for (mjvGeom& geom : drawn.geoms) geom.segid = instances[geom.objid];
+std::vector<Pose> poses_of(const std::vector<Shape>& shapes) {
+  std::vector<Pose> poses;
+  for (const Shape& shape : shapes) poses.push_back(shape.T_world_shape);
+  return poses;
+}
+
+/// Where the value of a joint of the scene stands in qpos.
+int address_of(const CompiledScene& scene, const std::string& joint, const std::string& file) {
+  const mjModel& model = *scene.model;
+  const int id = mj_name2id(&model, mjOBJ_JOINT, joint.c_str());
+  if (id >= 0 && !scene.robot_body[model.jnt_bodyid[id]]) {
+    if (model.jnt_type[id] == mjJNT_HINGE || model.jnt_type[id] == mjJNT_SLIDE)
+      return model.jnt_qposadr[id];
+    throw Error(fmt::format(
+        "{}: joint '{}' is neither hinge nor slide; move it by several of these", file, joint));
+  }
+  std::string names;
+  for (int other = 0; other < model.njnt; ++other)
+    if (const char* name = mj_id2name(&model, mjOBJ_JOINT, other);
+        name && *name && !scene.robot_body[model.jnt_bodyid[other]])
+      names.append(names.empty() ? "" : ", ").append(name);
+  throw Error(fmt::format("{}: the scene has no joint '{}'; its joints: {}", file, joint,
+                          names.empty() ? "none" : names));
 }
 
 /// What renderers need of the model: one sample a pixel, so that nothing blends, room for images,
@@ -122,25 +119,28 @@ World World::load(const WorldFiles& files, const CameraOverrides& cameras) {
   const PlacedModel plain = compile_and_place(builder);
   const int base = mj_name2id(plain.model.get(), mjOBJ_BODY, "robot/base_footprint");
 
-  auto state = std::make_shared<State>();
-  state->calibration =
+  auto compiled = std::make_shared<CompiledScene>();
+  compiled->calibration =
       read_calibration(*plain.model, *plain.data, base, cameras, files.robot.string());
-  state->robot_body = bodies_under(*plain.model, base);
-  const Ownership ownership = assign_bodies(*plain.model, class_file, state->robot_body);
-  const std::vector<int> geoms = ids_of(solid_scene(plain, ownership, state->robot_body));
-  state->assignment = assign_geoms(*plain.model, ownership, geoms, class_file.has_value());
-  state->hash = content_hash(*plain.model, files.scene, class_file, files.robot);
-  const std::vector<InstanceId>& instances = state->assignment.geom_instances;
+  compiled->robot_body = bodies_under(*plain.model, base);
+  compiled->ownership = assign_bodies(*plain.model, class_file, compiled->robot_body);
+  const std::vector<int> geoms =
+      ids_of(solid_scene(*plain.model, *plain.data, compiled->ownership, compiled->robot_body));
+  compiled->assignment =
+      assign_geoms(*plain.model, compiled->ownership, geoms, class_file.has_value());
+  compiled->hash = content_hash(*plain.model, files.scene, class_file, files.robot);
   make_finite(plain, geoms);
-  state->shapes = surfaces_of(plain, geoms, instances, files.scene.string());
+  auto state = std::make_shared<State>();
+  state->shapes =
+      surfaces_of(plain, geoms, compiled->assignment.geom_instances, files.scene.string());
 
   builder.add_facets(state->shapes);
-  state->placed = compile_and_place(builder);
-  make_finite(state->placed, geoms);
-  set_quality(*state->placed.model, cameras);
-  state->drawn = solid_scene(state->placed, ownership, state->robot_body);
-  show_instances(instances, state->drawn);
-  draw_by_facets(*state->placed.model, state->shapes, state->drawn);
+  PlacedModel faceted = compile_and_place(builder);
+  make_finite(faceted, geoms);
+  set_quality(*faceted.model, cameras);
+  compiled->model = std::move(faceted.model);
+  state->drawn = faceted_scene(*compiled, *faceted.data, state->shapes, poses_of(state->shapes));
+  state->compiled = std::move(compiled);
 
   World world;
   world.state_ = std::move(state);
@@ -150,43 +150,73 @@ World World::load(const WorldFiles& files, const CameraOverrides& cameras) {
 World World::of_shapes(std::vector<Shape> shapes, const ClassTable& table) {
   quiet_mujoco();
   auto state = std::make_shared<State>();
+  auto compiled = std::make_shared<CompiledScene>();
   ShapeScene scene = scene_of_shapes(std::move(shapes), table);
   set_quality(*scene.model, {});
-  state->placed.model = std::move(scene.model);
+  compiled->model = std::move(scene.model);
   state->drawn = std::move(scene.drawn);
-  state->assignment.table = table;
+  compiled->assignment.table = table;
   state->shapes = std::move(scene.shapes);
   for (const Shape& shape : state->shapes)
-    state->assignment.geom_instances.push_back(shape.instance);
+    compiled->assignment.geom_instances.push_back(shape.instance);
+  state->compiled = std::move(compiled);
   World world;
   world.state_ = std::move(state);
   return world;
 }
 
+World World::moving(Motion motion) const {
+  auto moving = std::make_shared<JointMotion>();
+  for (const std::string& joint : motion.joints)
+    moving->addresses.push_back(address_of(*state_->compiled, joint, motion.file));
+  moving->motion = std::move(motion);
+  auto state = std::make_shared<State>(*state_);
+  state->motion = std::move(moving);
+  World world;
+  world.state_ = std::move(state);
+  return world;
+}
+
+World World::at(double stamp_s) const {
+  MovingScene scene(*this);
+  scene.move_to(stamp_s);
+  auto state = std::make_shared<State>(*state_);
+  state->motion = nullptr;
+  state->drawn = scene.drawn();
+  for (std::size_t i = 0; i < state->shapes.size(); ++i)
+    state->shapes[i].T_world_shape = scene.poses()[i];
+  World world;
+  world.state_ = std::move(state);
+  return world;
+}
+
+const Motion* World::motion() const {
+  return state_->motion ? &state_->motion->motion : nullptr;
+}
 const ClassTable& World::classes() const {
-  return state_->assignment.table;
+  return state_->compiled->assignment.table;
 }
 const Calibration& World::calibration() const {
-  return state_->calibration;
+  return state_->compiled->calibration;
 }
 const std::vector<Shape>& World::shapes() const {
   return state_->shapes;
 }
 const std::vector<std::string>& World::unmatched_bodies() const {
-  return state_->assignment.unmatched_bodies;
+  return state_->compiled->assignment.unmatched_bodies;
 }
 const std::string& World::hash() const {
-  return state_->hash;
+  return state_->compiled->hash;
 }
 const mjModel_& World::model() const {
-  return *state_->placed.model;
+  return *state_->compiled->model;
 }
 const std::vector<InstanceId>& World::geom_instances() const {
-  return state_->assignment.geom_instances;
+  return state_->compiled->assignment.geom_instances;
 }
 bool World::robot_geom(int geom) const {
-  const std::vector<bool>& robot = state_->robot_body;
-  return !robot.empty() && robot[state_->placed.model->geom_bodyid[geom]];
+  const std::vector<bool>& robot = state_->compiled->robot_body;
+  return !robot.empty() && robot[state_->compiled->model->geom_bodyid[geom]];
 }
 const DrawnScene& World::drawn() const {
   return state_->drawn;

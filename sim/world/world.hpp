@@ -18,6 +18,7 @@ struct mjModel_;
 namespace mapscore::sim {
 
 struct DrawnScene;
+struct Motion;
 
 /// Files that make a world.
 struct WorldFiles {
@@ -46,6 +47,15 @@ class World {
   /// mesh cannot be used.
   [[nodiscard]] static World of_shapes(std::vector<Shape> shapes, const ClassTable& table);
 
+  /// The same world with joints that move; see MovingScene. `shapes` and `drawn` stay those of the
+  /// pose of loading. Throws Error when the scene has no such joint, or one that is neither hinge
+  /// nor slide.
+  [[nodiscard]] World moving(Motion motion) const;
+  /// The world as it stands at one instant of its motion.
+  [[nodiscard]] World at(double stamp_s) const;
+  /// None where nothing moves.
+  [[nodiscard]] const Motion* motion() const;
+
   [[nodiscard]] const ClassTable& classes() const;
   [[nodiscard]] const Calibration& calibration() const;
   /// Drawn surfaces in the world frame, the robot's left out.
@@ -63,6 +73,7 @@ class World {
   [[nodiscard]] const DrawnScene& drawn() const;
 
  private:
+  friend class MovingScene;
   struct State;
   std::shared_ptr<const State> state_;
 };
