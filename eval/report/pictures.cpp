@@ -50,6 +50,14 @@ std::vector<fs::path> paint_all(const std::vector<JudgedMap>& maps, const ClassT
   return files;
 }
 
+/// The time that a moving scene is drawn at: that of the map, or of the frame that is shown.
+std::optional<double> drawn_time(const Study& study, const ClassTable& table,
+                                 const Recording& recording) {
+  if (recording.info().motion.empty() || study.score.unit == ScoreUnit::map)
+    return study.score.at_s;
+  return recording.depth_stamp_s(fullest_frame(recording, table, 0, recording.frame_count()));
+}
+
 }  // namespace
 
 Pictures draw_pictures(const Study& study, const ClassTable& table, const Recording& recording,
@@ -58,7 +66,7 @@ Pictures draw_pictures(const Study& study, const ClassTable& table, const Record
     return {{}, recording.folder().string() + ": has no truth, so its maps cannot be judged"};
   std::unique_ptr<ScenePainter> painter;
   try {
-    painter = std::make_unique<ScenePainter>(study, recording);
+    painter = std::make_unique<ScenePainter>(study, recording, drawn_time(study, table, recording));
   } catch (const Error& error) {
     return {{}, error.what()};
   }

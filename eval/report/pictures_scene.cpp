@@ -4,7 +4,11 @@
 #include "eval/report/pictures_scene.hpp"
 
 #include "core/error.hpp"
+#include "eval/experiment/recorded_surfaces.hpp"
 #include "eval/experiment/study_recording.hpp"
+#ifdef MAPSCORE_SIMULATOR
+#include "sim/world/motion.hpp"
+#endif
 
 #include <optional>
 #include <utility>
@@ -16,20 +20,23 @@ namespace mapscore::eval {
 namespace {
 
 /// The study's scene as it was recorded; none when it is gone, refused or another one by now.
-std::optional<sim::World> recorded_world(const Study& study, const Recording& recording) try {
+std::optional<sim::World> recorded_world(const Study& study, const Recording& recording,
+                                         std::optional<double> at_s) try {
   if (!study.scene) return std::nullopt;
   sim::World world = world_of(study);
-  if (world.hash() != recording.info().scene_hash) return std::nullopt;
-  return world;
+  const std::string motion_hash = world.motion() ? world.motion()->hash : "";
+  if (world.hash() != recording.info().scene_hash || motion_hash != recording.info().motion_hash)
+    return std::nullopt;
+  return world.motion() && at_s ? world.at(*at_s) : world;
 } catch (const Error&) {
   return std::nullopt;
 }
 
-std::vector<Shape> shapes_of(const Recording& recording) {
+std::vector<Shape> shapes_at(const Recording& recording, std::optional<double> at_s) {
   if (!recording.info().has_truth)
     throw Error(recording.folder().string() +
                 ": has no truth/, so its scene cannot be drawn; give the scene file");
-  return recording.read_shapes();
+  return shapes_of(recording).at(at_s);
 }
 
 }  // namespace
@@ -40,17 +47,18 @@ struct ScenePainter::State {
   sim::Renderer renderer;
 };
 
-ScenePainter::ScenePainter(const Study& study, const Recording& recording) {
-  const std::optional<sim::World> world = recorded_world(study, recording);
+ScenePainter::ScenePainter(const Study& study, const Recording& recording,
+                           std::optional<double> at_s) {
+  const std::optional<sim::World> world = recorded_world(study, recording, at_s);
   state_ = std::make_unique<State>(
-      world ? *world : sim::World::of_shapes(shapes_of(recording), recording.info().table));
+      world ? *world : sim::World::of_shapes(shapes_at(recording, at_s), recording.info().table));
 }
 
 ScenePainter::ScenePainter(const std::filesystem::path& scene)
     : state_(std::make_unique<State>(world_of(study_of_scene(scene, {})))) {}
 
 ScenePainter::ScenePainter(const Recording& recording)
-    : ScenePainter(shapes_of(recording), recording.info().table) {}
+    : ScenePainter(shapes_at(recording, std::nullopt), recording.info().table) {}
 
 ScenePainter::ScenePainter(std::vector<Shape> shapes, const ClassTable& table)
     : state_(std::make_unique<State>(sim::World::of_shapes(std::move(shapes), table))) {}
@@ -76,7 +84,7 @@ namespace {
 
 struct ScenePainter::State {};
 
-ScenePainter::ScenePainter(const Study&, const Recording&) {
+ScenePainter::ScenePainter(const Study&, const Recording&, std::optional<double>) {
   refuse();
 }
 ScenePainter::ScenePainter(const std::filesystem::path&) {

@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,12 +22,13 @@ namespace mapscore::eval {
 class ScenePainter {
  public:
   /// The scene of a study, or, where it names none, or it is not there or not the one of the
-  /// recording any more, the surfaces of the recording.
-  ScenePainter(const Study& study, const Recording& recording);
+  /// recording any more, the surfaces of the recording; at the time `at_s` where they move.
+  ScenePainter(const Study& study, const Recording& recording,
+               std::optional<double> at_s = std::nullopt);
   /// An MJCF file, with the class file and the robot beside it. Throws Error when it is refused.
   explicit ScenePainter(const std::filesystem::path& scene);
   /// The exact surfaces of a recording, in the muted colours of their classes. Throws Error when it
-  /// has none.
+  /// has none, or they move.
   explicit ScenePainter(const Recording& recording);
   ScenePainter(std::vector<Shape> shapes, const ClassTable& table);
   ~ScenePainter();

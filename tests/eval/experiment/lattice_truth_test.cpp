@@ -36,20 +36,21 @@ bool same_visible(const VisibleTruth& a, const VisibleTruth& b) {
   return std::ranges::equal(a.voxels(), b.voxels());
 }
 
-TEST_F(TinyTruth, HasOneViewOfAllFramesOrOneOfEach) {
+TEST_F(TinyTruth, SeesAllFramesTogetherOrOne) {
   const LatticeTruth fused = truth({});
-  ASSERT_EQ(fused.views.size(), 1u);
-  EXPECT_EQ(&fused.view(3), &fused.view(0));
-  const LatticeTruth each = truth({.by_frame = true});
-  ASSERT_EQ(each.views.size(), 4u);
+  TruthCache cache(recording(), table(), frames(), 1);
   std::size_t most = 0;
   for (int frame = 0; frame < 4; ++frame) {
-    for (const VisibleVoxel& voxel : each.view(frame).visible.of(1))
-      EXPECT_TRUE(each.surface.contains(voxel.key, 1));
-    most = std::max(most, each.view(frame).visible.count(1));
+    const auto one = cache.of_frame({}, {}, frame);
+    const LatticeTruth selected = truth({.frames = FrameSelection(std::to_string(frame))});
+    EXPECT_TRUE(same_visible(one->view.visible, selected.view.visible));
+    EXPECT_EQ(cache.of_frame({}, {}, frame), one);
+    for (const VisibleVoxel& voxel : one->view.visible.of(1))
+      EXPECT_TRUE(fused.surface.contains(voxel.key, 1));
+    most = std::max(most, one->view.visible.count(1));
   }
   EXPECT_GT(most, 0u);
-  EXPECT_GT(fused.view(0).visible.count(1), most);
+  EXPECT_GT(fused.view.visible.count(1), most);
 }
 
 /// Sample for sample, in the same order.
@@ -67,18 +68,13 @@ bool same_samples(const SampleSet& a, const SampleSet& b) {
 }
 
 TEST_F(TinyTruth, DoesNotDependOnJobs) {
-  for (const bool by_frame : {false, true}) {
-    const LatticeTruth one = truth({.by_frame = by_frame}, {}, 1);
-    EXPECT_GT(one.view(0).samples.sample_count(1), 0u);
-    for (const int jobs : {2, 3, 4, 9}) {
-      const LatticeTruth many = truth({.by_frame = by_frame}, {}, jobs);
-      EXPECT_TRUE(std::ranges::equal(one.surface.voxels(), many.surface.voxels()));
-      ASSERT_EQ(one.views.size(), many.views.size());
-      for (std::size_t n = 0; n < one.views.size(); ++n) {
-        EXPECT_TRUE(same_visible(one.views[n].visible, many.views[n].visible)) << jobs;
-        EXPECT_TRUE(same_samples(one.views[n].samples, many.views[n].samples)) << jobs;
-      }
-    }
+  const LatticeTruth one = truth({}, {}, 1);
+  EXPECT_GT(one.view.samples.sample_count(1), 0u);
+  for (const int jobs : {2, 3, 4, 9}) {
+    const LatticeTruth many = truth({}, {}, jobs);
+    EXPECT_TRUE(std::ranges::equal(one.surface.voxels(), many.surface.voxels()));
+    EXPECT_TRUE(same_visible(one.view.visible, many.view.visible)) << jobs;
+    EXPECT_TRUE(same_samples(one.view.samples, many.view.samples)) << jobs;
   }
 }
 
@@ -136,25 +132,16 @@ TEST_F(TinyTruth, OfAnySubsetOfFramesEqualsAPlainRecountAtOddLattices) {
             truth({.min_samples = min_samples, .frames = FrameSelection(text)}, map_frame, 2);
         const PlainView plain =
             plain_view(recording(), made.surface, map_frame, frames, min_samples);
-        const VisibleTruth& visible = made.view(0).visible;
+        const VisibleTruth& visible = made.view.visible;
         ASSERT_EQ(visible.voxels().size(), plain.visible.size()) << text;
         for (const VisibleVoxel& voxel : visible.voxels())
           EXPECT_EQ(std::pair(voxel.owner, voxel.samples), plain.visible.at(voxel.key));
-        EXPECT_EQ(made.view(0).samples.sample_count(1), plain.samples.at(1));
+        EXPECT_EQ(made.view.samples.sample_count(1), plain.samples.at(1));
         if (min_samples == 1) sizes.insert(visible.voxels().size());
       }
     }
     EXPECT_GE(sizes.size(), 3u);  // the subsets do not all see the same
   }
-}
-
-TEST_F(TinyTruth, OfASelectionByFrameHasAViewForEachInTheirOrder) {
-  const LatticeTruth each = truth({.by_frame = true});
-  const LatticeTruth some = truth({.by_frame = true, .frames = FrameSelection("3,1")});
-  ASSERT_EQ(some.views.size(), 2u);
-  EXPECT_TRUE(same_visible(some.views[0].visible, each.views[1].visible));
-  EXPECT_TRUE(same_visible(some.views[1].visible, each.views[3].visible));
-  EXPECT_FALSE(same_visible(each.views[1].visible, each.views[3].visible));
 }
 
 TEST_F(TinyTruth, RefusesFramesThatAreNotThere) {
@@ -164,10 +151,10 @@ TEST_F(TinyTruth, RefusesFramesThatAreNotThere) {
 
 TEST_F(TinyTruth, OfAWholeSceneSeesAllItsSurfaceWithoutSamples) {
   const LatticeTruth made = make_surface_truth(recording().read_shapes(), table(), {}, {}, 1);
-  EXPECT_TRUE(made.views.empty());
+  EXPECT_TRUE(made.view.visible.voxels().empty());
   const ViewTruth whole = whole_surface_view(made.surface, table().classes.size());
   EXPECT_TRUE(same_visible(whole.visible, whole_surface(made.surface)));
-  EXPECT_GT(whole.visible.count(1), truth({}).view(0).visible.count(1));
+  EXPECT_GT(whole.visible.count(1), truth({}).view.visible.count(1));
   std::vector<MapVoxel> rows;
   for (const VisibleVoxel& voxel : whole.visible.voxels())
     rows.push_back({voxel.key, voxel.owner, 1.0, true});
@@ -210,7 +197,7 @@ TEST_F(TinyTruth, CacheMakesATruthOnce) {
             first);  // a third one pushes the oldest out
   const auto again = cache.get({}, {});
   EXPECT_NE(again, first);
-  EXPECT_TRUE(same_visible(again->view(0).visible, first->view(0).visible));
+  EXPECT_TRUE(same_visible(again->view.visible, first->view.visible));
 }
 
 TEST_F(TinyTruth, CacheKeepsTruthsOfInstancesApart) {
@@ -221,9 +208,9 @@ TEST_F(TinyTruth, CacheKeepsTruthsOfInstancesApart) {
   EXPECT_EQ(cache.get({}, {}), classes);
   EXPECT_EQ(cache.of_instances({}, {}), instances);
   // Here each class has one instance, of its own id.
-  EXPECT_TRUE(same_visible(instances->view(0).visible, classes->view(0).visible));
-  EXPECT_GT(classes->view(0).samples.sample_count(1), 0u);
-  EXPECT_EQ(instances->view(0).samples.sample_count(1), 0u);
+  EXPECT_TRUE(same_visible(instances->view.visible, classes->view.visible));
+  EXPECT_GT(classes->view.samples.sample_count(1), 0u);
+  EXPECT_EQ(instances->view.samples.sample_count(1), 0u);
 }
 
 TEST_F(TinyTruth, CacheServesManyThreads) {
