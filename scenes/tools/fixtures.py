@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Kitchen fronts and bathrooms. A kitchen run starts at the origin and grows along +y, front towards +x, back at x = 0."""
 
-import math
+from scene_xml import spot
 
 TOP = 0.907  # of the worktop
-DEEP = 0.6
 
 
 class KitchenRun:
@@ -15,10 +14,7 @@ class KitchenRun:
         self.scene, self.x, self.y, self.yaw, self.front, self.at = scene, x, y, yaw, front, 0.0
 
     def body(self, kind, z=0.0, along=0.0, out=0.0, turn=0.0, item=False):
-        a = math.radians(self.yaw)
-        u, v = out, self.at + along
-        return self.scene.body(kind, self.x + u * math.cos(a) - v * math.sin(a), self.y + u * math.sin(a) + v * math.cos(a), z,
-                               self.yaw + turn, item)
+        return self.scene.body(kind, *spot(self.x, self.y, self.yaw, out, self.at + along), z, self.yaw + turn, item)
 
     def skip(self, width):
         self.at += width
@@ -145,10 +141,8 @@ def washstand(scene, x, y, yaw):
     for side in (-1, 1):
         body.box(0.466, side * 0.155, 0.215, 0.016, 0.3, 0.47, "front").ball(0.488, side * 0.03, 0.45, 0.013, "steel")
         body.box(0.42, side * 0.28, 0, 0.04, 0.04, 0.2, "dark").box(0.05, side * 0.28, 0, 0.04, 0.04, 0.2, "dark")
-    turn = math.radians(yaw)
-    spot = lambda u: (x + u * math.cos(turn), y + u * math.sin(turn))
-    scene.body("sink", *spot(0.265), 0.876, yaw).mesh("wash_basin", 0, 0, 0, "porcelain")
-    scene.body("tap", *spot(0.038), 0.7305, yaw).mesh("tap", 0, 0, 0, "steel")
+    scene.body("sink", *spot(x, y, yaw, 0.265, 0), 0.876, yaw).mesh("wash_basin", 0, 0, 0, "porcelain")
+    scene.body("tap", *spot(x, y, yaw, 0.038, 0), 0.7305, yaw).mesh("tap", 0, 0, 0, "steel")
 
 
 def bath(scene, x, y, yaw):
@@ -157,10 +151,7 @@ def bath(scene, x, y, yaw):
     body.mesh("bath", 0.37, 0, 0.571, "porcelain").box(0.714, 0, 0, 0.02, 1.628, 0.553, "porcelain")
     for side in (-1, 1):
         body.box(0.365, side * 0.81, 0, 0.67, 0.02, 0.553, "porcelain")
-    turn = math.radians(yaw)
-    out, along = 0.37, 0.795
-    scene.body("tap", x + out * math.cos(turn) - along * math.sin(turn), y + out * math.sin(turn) + along * math.cos(turn), 0.572, yaw - 90
-               ).mesh("tap_low", 0, 0, 0, "steel")
+    scene.body("tap", *spot(x, y, yaw, 0.37, 0.795), 0.572, yaw - 90).mesh("tap_low", 0, 0, 0, "steel")
 
 
 def washing_machine(scene, x, y, yaw):

@@ -4,6 +4,8 @@
 
 import math
 
+from scene_xml import spot
+
 
 def dining_chair(scene, x, y, yaw, wood="oak"):
     body = scene.body("chair", x, y, 0, yaw)
@@ -122,10 +124,7 @@ def bed(scene, x, y, yaw, double=True, wood="oak"):
     body.mesh("mattress" if double else "mattress_single", 1.05, 0, 0.40 if double else 0.39, "linen")
     body.mesh("duvet" if double else "duvet_single", 1.36, 0, 0.492 if double else 0.472, "checks")
     for side in (-0.42, 0.4) if double else (0.01,):
-        turn = math.radians(yaw)
-        px, py = 0.31, side
-        scene.body("pillow", x + px * math.cos(turn) - py * math.sin(turn), y + px * math.sin(turn) + py * math.cos(turn),
-                   0.555 if double else 0.535, yaw, item=True).mesh("pillow", 0, 0, 0, "linen", euler=(0, -14, 0))
+        scene.body("pillow", *spot(x, y, yaw, 0.31, side), 0.555 if double else 0.535, yaw, item=True).mesh("pillow", 0, 0, 0, "linen", euler=(0, -14, 0))
 
 
 def wardrobe(scene, x, y, yaw, doors=3, height=2.13, wood="ashgrey"):

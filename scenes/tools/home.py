@@ -74,7 +74,7 @@ def living_room(scene):
     items.small_plant(scene, 2.937, 0.257, top)
     items.vase(scene, 1.277, 0.243, top, "cobalt")
     tops = put.shelf(scene, 4.697, 1.043, 180, 1.2)
-    bookshelf(scene, 4.697, 1.043, tops, 0.6)
+    items.fill_shelf(scene, 4.697, 1.043, 180, tops, 1.2)
     put.plant(scene, 0.437, 0.427)
     put.plant(scene, 4.327, 0.293, "sword_plant", "teal_shell")
     put.floor_lamp(scene, 0.407, 3.607)
@@ -85,18 +85,6 @@ def living_room(scene):
     shell.picture(scene, 3.453, 0.027, 1.603, 90, 0.45, 0.6, "portrait")
     shell.clock(scene, 0.013, 3.453, 1.913, 0)
     items.pendant(scene, 2.113, 1.753, 2.053)
-
-
-def bookshelf(scene, x, y, tops, half):
-    """Rows of books on a shelf at an east wall (it looks to -x), other things between."""
-    left = y + half - 0.04
-    for i, (top, count) in enumerate(zip(tops, (12, 9, 13, 8, 10))):
-        items.books(scene, x, left, top, 180, count, i)
-    put.box(scene, x - 0.15, y - half + 0.2, tops[0], 180, 0.22, 0.3, 0.2)
-    items.books(scene, x, y - half + 0.36, tops[1], 180, 7, 5)
-    items.cup(scene, x - 0.15, y - half + 0.12, tops[2], 80, "cherry")
-    items.bowl(scene, x - 0.16, y - half + 0.25, tops[3], "sun")
-    items.book_pile(scene, x - 0.15, y - half + 0.48, tops[3], 100, 4, 2)
 
 
 def kitchen(scene):
@@ -144,7 +132,7 @@ def kitchen(scene):
     items.wine(scene, 3.893, 4.457, top)
     items.bowl(scene, 4.137, 4.423, top, "cobalt")
     items.small_plant(scene, 4.427, 4.407, top, "cobalt", 70)
-    put.tv_on_wall(scene, 4.713, 6.353, 1.557, 180, 0.82)
+    put.tv_on_wall(scene, 4.713, 6.353, 1.403, 180, 0.82)
     shell.picture(scene, 0.953, 4.225, 1.597, 90, 0.8, 0.55, "landscape", "oak")
     shell.picture(scene, 4.093, 4.225, 1.597, 90, 0.45, 0.6, "portrait", "dark")
     put.bin(scene, 4.517, 6.553)
@@ -187,7 +175,7 @@ def bedroom(scene):
             items.book_pile(scene, x + 0.017, 7.093, top, 80, 2, 4)
     items.cushion(scene, 8.003, 6.757, 0.687, -90, "ochre_cloth", 48)
     put.wardrobe(scene, 6.923, 2.339, 90)
-    put.tv_on_wall(scene, 8.407, 2.325, 1.603, 90, 0.98, "screen")
+    put.tv_on_wall(scene, 8.407, 2.325, 1.453, 90, 0.98, "screen")
     top = put.desk(scene, 9.599, 3.493, 180)
     items.monitor(scene, 9.353, 3.687, top, 176)
     items.laptop(scene, 9.237, 3.177, top, 166)
@@ -231,9 +219,9 @@ def bathroom(scene):
 
 def home():
     scene = Scene("home", ABOUT, (4.8, 3.7, 1.1), 10)
-    scene.light("living", 'pos="2.1 2.4 2.4" dir="0.04 0.02 -1" cutoff="88" exponent="0" castshadow="true" ambient="0.04 0.04 0.04" '
-                'diffuse="0.19 0.18 0.165" specular="0.2 0.2 0.2" attenuation="1 0.02 0.01"')
-    scene.light("bedroom", 'pos="7.5 4.6 2.4" dir="-0.04 0.02 -1" cutoff="88" exponent="0" castshadow="true" ambient="0.04 0.04 0.04" '
+    scene.light("living", 'pos="2.113 1.753 2.03" dir="0.01 0.02 -1" cutoff="82" exponent="1" castshadow="true" ambient="0.04 0.04 0.04" '
+                'diffuse="0.24 0.23 0.21" specular="0.2 0.2 0.2" attenuation="1 0.02 0.01"')
+    scene.light("bedroom", 'pos="7.5 4.6 2.4" dir="-0.04 0.02 -1" cutoff="88" exponent="0" castshadow="false" ambient="0.04 0.04 0.04" '
                 'diffuse="0.19 0.18 0.165" specular="0.2 0.2 0.2" attenuation="1 0.02 0.01"')
     scene.light("daylight", 'directional="true" pos="4 6 2" dir="0.75 -0.5 -0.55" castshadow="false" diffuse="0.26 0.27 0.29" specular="0 0 0"')
     scene.light("bounce", 'directional="true" pos="4 3 0.1" dir="-0.55 0.45 0.75" castshadow="false" diffuse="0.30 0.285 0.26" specular="0 0 0"')

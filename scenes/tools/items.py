@@ -4,6 +4,8 @@
 
 import math
 
+from scene_xml import spot
+
 BOOKS = ["book_red", "book_blue", "book_green", "book_sand", "book_black", "book_orange"]
 
 
@@ -74,6 +76,20 @@ def books(scene, x, y, z, yaw, count, seed=0, deep=0.19):
         body.box(0.04 + back / 2, at + thick / 2, 0, back, thick - 0.001, high, BOOKS[(seed + i * 5 + k) % len(BOOKS)])
         at += thick
     return at
+
+
+def fill_shelf(scene, x, y, yaw, tops, width, counts=(12, 9, 13, 8, 10)):
+    """Rows of books on the boards of a shelf, other things at their right ends."""
+    left, right = -width / 2 + 0.04, width / 2
+    for i, (top, count) in enumerate(zip(tops, counts)):
+        books(scene, *spot(x, y, yaw, 0, left), top, yaw, count, i)
+    carton = scene.body("box", *spot(x, y, yaw, 0.15, right - 0.2), tops[0], yaw, item=True)
+    carton.box(0, 0, 0, 0.22, 0.3, 0.2, "cardboard").box(0, 0, 0.2, 0.228, 0.308, 0.02, "cardboard")
+    books(scene, *spot(x, y, yaw, 0, right - 0.24), tops[1], yaw, 5, 5)
+    cup(scene, *spot(x, y, yaw, 0.15, right - 0.12), tops[2], yaw - 100, "cherry")
+    bowl(scene, *spot(x, y, yaw, 0.16, right - 0.2), tops[3], "sun")
+    if len(tops) > 4:
+        wine(scene, *spot(x, y, yaw, 0.15, right - 0.16), tops[4])
 
 
 def book_pile(scene, x, y, z, yaw, count=3, seed=0):

@@ -34,6 +34,7 @@ _SCALED = {"sofa_seat": ("soft_block", "0.62 0.76 0.17"), "sofa_back": ("soft_bl
 # material: texture or "", rgb, more
 _MATERIALS = {
     "planks": ("planks", "1 1 1", 'texuniform="true" texrepeat="0.9 1.8" specular="0.15" shininess="0.3"'),
+    "planks_grey": ("planks", "0.86 0.92 1", 'texuniform="true" texrepeat="0.7 1.4" specular="0.15" shininess="0.3"'),
     "tiles_floor": ("tiles_floor", "1 1 1", 'texuniform="true" texrepeat="3 3" specular="0.15" shininess="0.4"'),
     "tiles_wall": ("tiles_wall", "1 1 1", 'texuniform="true" texrepeat="2.5 2.5" emission="0.12" specular="0.1"'),
     "tiles_blue": ("tiles_blue", "1 1 1", 'texuniform="true" texrepeat="3.3 3.3" specular="0.1"'),

@@ -20,6 +20,12 @@ def numbers(*values):
     return " ".join(decimal(v) for v in values)
 
 
+def spot(x, y, yaw, out, along):
+    """World x, y of what lies `out` (local x) and `along` (local y) from a thing at x, y, yaw."""
+    a = math.radians(yaw)
+    return x + out * math.cos(a) - along * math.sin(a), y + out * math.sin(a) + along * math.cos(a)
+
+
 class Body:
     """One object. Local frame: front towards +x, z up, origin on what it stands on or hangs from."""
 
@@ -97,7 +103,7 @@ class Scene:
         return "\n".join(lines + ["  </worldbody>", "</mujoco>"]) + "\n"
 
     def classes(self):
-        lines = [f"# Classes of home.xml and cottage.xml, ids from 1 in this order; 0 is background.", "classes:"]
+        lines = ["# Classes of home.xml and cottage.xml, ids from 1 in this order; 0 is background.", "classes:"]
         for name, (colour, detect) in CLASSES.items():
             lines.append(f'  - {{name: {name}, colour: "{colour}", detect: {str(detect).lower()}, bodies: ["{name}_*"]}}')
         return "\n".join(lines) + "\n"
