@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the mapscore authors
 # SPDX-License-Identifier: MIT
-"""Writes scenes/cottage.xml and its class file: a great room with the kitchen, hall, bedroom, bathroom; 53 m2 within the outer walls."""
+"""Writes scenes/cottage.xml and its class file: a great room with the kitchen, hall, bedroom,
+bathroom; 53 m2 within the outer walls."""
 
 import pathlib
 import sys
@@ -13,10 +14,10 @@ import shell
 from scene_xml import Scene
 from shell import DOOR
 
-ABOUT = """A cottage of 7.9 m x 6.7 m: in the north one great room, kitchen in its east, sofa in its west, most of it askew;
-     in the south bedroom, hall with the front door, bathroom. z = 0 is the floor, the ceiling is at 2.507. One body is one
-     object, its class is its name up to the last _number; classes as in home.xml.
-     Written by scenes/tools/cottage.py: edit that, not this."""
+ABOUT = """A cottage of 7.9 m x 6.7 m: in the north one great room, kitchen in its east, sofa in its
+     west, most of it askew; in the south bedroom, hall with the front door, bathroom. z = 0 is the
+     floor, the ceiling is at 2.507. One body is one object, its class is its name up to the last _number;
+     classes as in home.xml. Written by scenes/tools/cottage.py: edit that, not this."""
 
 
 def shell_of(scene):
@@ -26,17 +27,30 @@ def shell_of(scene):
     shell.floor(scene, 3.572, 5.168, -0.105, 2.866, "planks_grey")
     shell.floor(scene, 5.168, 8.041, -0.105, 2.866, "tiles_floor")
     shell.ceiling(scene, -0.099, 8.041, -0.105, 6.835)
-    west, north, bed, bath = (3.523, 4.717, 0.853, 2.147), (4.303, 6.107, 0.953, 2.147), (1.303, 2.307, 0.953, 2.147), (1.903, 2.507, 1.503, 2.147)
+    west, north, bed, bath = (
+        (3.523, 4.717, 0.853, 2.147),
+        (4.303, 6.107, 0.953, 2.147),
+        (1.303, 2.307, 0.953, 2.147),
+        (1.903, 2.507, 1.503, 2.147),
+    )
     shell.wall(scene, "y", -0.039, 0.12, -0.105, 6.835, "paint", [bed, west], (1,))
     shell.wall(scene, "y", 7.981, 0.12, -0.105, 6.835, "paint_sky", [bath], (-1,))
     shell.wall(scene, "x", -0.045, 0.12, 0.021, 7.921, "paint", (), ())
     shell.wall(scene, "x", 6.775, 0.12, 0.021, 7.921, "paint_sage", [north], (-1,))
-    door_hall, door_bed, door_bath = (3.863, 4.863, 0, DOOR), (1.603, 2.583, 0, DOOR), (1.003, 1.983, 0, DOOR)
+    door_hall, door_bed, door_bath = (
+        (3.863, 4.863, 0, DOOR),
+        (1.603, 2.583, 0, DOOR),
+        (1.003, 1.983, 0, DOOR),
+    )
     shell.wall(scene, "x", 2.866, 0.098, 0.021, 7.921, "paint", [door_hall])
     shell.wall(scene, "y", 3.572, 0.098, 0.015, 2.817, "paint_clay", [door_bed])
     shell.wall(scene, "y", 5.168, 0.098, 0.015, 2.817, "paint", [door_bath])
     scene.section("windows, curtains, radiators, doors")
-    for at, (a, b, sill, lintel), outside in ((-0.039, west, -1), (-0.039, bed, -1), (7.981, bath, 1)):
+    for at, (a, b, sill, lintel), outside in (
+        (-0.039, west, -1),
+        (-0.039, bed, -1),
+        (7.981, bath, 1),
+    ):
         shell.window(scene, "y", at, 0.12, a, b, sill, lintel, outside)
     shell.window(scene, "x", 6.775, 0.12, *north, 1)
     shell.curtains(scene, "x", 6.715, north[0], north[1], -1, "drape_blue")
@@ -113,7 +127,11 @@ def kitchen_place(scene):
     items.fruit_bowl(scene, 5.647, 5.123, height)
     for px, py in ((5.373, 5.247), (5.837, 4.893), (5.413, 4.887)):
         items.plate(scene, px, py, height)
-    for px, py, yaw, glaze in ((5.577, 5.387, 20, "cobalt"), (5.943, 5.107, 130, "porcelain"), (5.577, 4.763, -70, "mint")):
+    for px, py, yaw, glaze in (
+        (5.577, 5.387, 20, "cobalt"),
+        (5.943, 5.107, 130, "porcelain"),
+        (5.577, 4.763, -70, "mint"),
+    ):
         items.cup(scene, px, py, height, yaw, glaze)
     items.wine(scene, 5.833, 5.293, height)
     items.water(scene, 5.493, 5.053, height)
@@ -161,7 +179,9 @@ def bedroom(scene):
 def bathroom(scene):
     scene.section("bathroom, tiled to 2.1 m on two walls")
     walls = scene.body("wall", fixed=True)
-    walls.panel(6.569, 0.015, 1.051, 2.702, 2.1, 0.008, "tiles_blue", "+y").panel(6.569, 2.817, 1.051, 2.702, 2.1, 0.008, "tiles_wall", "-y")
+    walls.panel(6.569, 0.015, 1.051, 2.702, 2.1, 0.008, "tiles_blue", "+y").panel(
+        6.569, 2.817, 1.051, 2.702, 2.1, 0.008, "tiles_wall", "-y"
+    )
     fixtures.bath(scene, 7.043, 0.027, 90)
     fixtures.washstand(scene, 6.383, 2.805, -90)
     fixtures.toilet(scene, 7.911, 1.507, 180)
@@ -180,16 +200,16 @@ def bathroom(scene):
 
 def cottage():
     scene = Scene("cottage", ABOUT, (4.0, 3.4, 1.1), 9)
-    scene.light("dining", 'pos="5.623 5.087 1.64" dir="-0.01 -0.02 -1" cutoff="82" exponent="1" castshadow="true" ambient="0.04 0.04 0.04" '
-                'diffuse="0.26 0.25 0.22" specular="0.2 0.2 0.2" attenuation="1 0.02 0.01"')
-    scene.light("living", 'pos="1.957 4.353 2.35" dir="0.02 -0.02 -1" cutoff="88" exponent="0" castshadow="false" ambient="0.04 0.04 0.04" '
-                'diffuse="0.20 0.19 0.17" specular="0.2 0.2 0.2" attenuation="1 0.02 0.01"')
-    scene.light("daylight", 'directional="true" pos="4 6 2" dir="0.55 -0.75 -0.55" castshadow="false" diffuse="0.26 0.27 0.29" specular="0 0 0"')
-    scene.light("bounce", 'directional="true" pos="4 3 0.1" dir="-0.5 0.5 0.75" castshadow="false" diffuse="0.30 0.285 0.26" specular="0 0 0"')
+    scene.lamp_light("dining", 5.623, 5.087, 1.64, (0.26, 0.25, 0.22), True, 82, 1)
+    scene.lamp_light("living", 1.957, 4.353, 2.35, (0.20, 0.19, 0.17), False, 88, 0)
+    scene.even_light("daylight", (0.55, -0.75, -0.55), (0.26, 0.27, 0.29))
+    scene.even_light("bounce", (-0.5, 0.5, 0.75), (0.30, 0.285, 0.26))
     for place in (shell_of, living_place, kitchen_place, hall, bedroom, bathroom):
         place(scene)
     return scene
 
 
 if __name__ == "__main__":
-    cottage().write(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent)
+    cottage().write(
+        sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent
+    )

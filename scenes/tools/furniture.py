@@ -1,6 +1,10 @@
 # SPDX-FileCopyrightText: 2026 the mapscore authors
 # SPDX-License-Identifier: MIT
-"""What stands on the floor. Front towards +x at yaw 0; the origin lies on the floor, in the middle or, where told, at the wall."""
+"""What stands on the floor.
+
+Front towards +x at yaw 0; the origin lies on the floor, in the middle or, where told, at the
+wall.
+"""
 
 import math
 
@@ -24,7 +28,9 @@ def shell_chair(scene, x, y, yaw, shell="teal_shell"):
     body.mesh("shell_chair", 0, 0, 0.455, shell)
     for sx in (-1, 1):
         for sy in (-1, 1):
-            body.bar((sx * 0.09 - 0.02, sy * 0.1, 0.44), (sx * 0.2 - 0.02, sy * 0.2, 0.012), 0.012, "oak")
+            body.bar(
+                (sx * 0.09 - 0.02, sy * 0.1, 0.44), (sx * 0.2 - 0.02, sy * 0.2, 0.012), 0.012, "oak"
+            )
     body.bar((-0.11, -0.1, 0.43), (0.07, 0.1, 0.43), 0.008, "dark")
     body.bar((-0.11, 0.1, 0.43), (0.07, -0.1, 0.43), 0.008, "dark")
 
@@ -40,7 +46,9 @@ def office_chair(scene, x, y, yaw, cloth="black_cloth"):
     body.box(0, 0, 0.43, 0.2, 0.2, 0.03, "dark")
     body.mesh("chair_seat", 0.015, 0, 0.455, cloth)
     body.mesh("chair_back", -0.235, 0, 0.6, cloth)
-    body.bar((-0.06, 0, 0.445), (-0.27, 0, 0.47), 0.02, "dark").bar((-0.27, 0, 0.47), (-0.275, 0, 0.72), 0.02, "dark")
+    body.bar((-0.06, 0, 0.445), (-0.27, 0, 0.47), 0.02, "dark").bar(
+        (-0.27, 0, 0.47), (-0.275, 0, 0.72), 0.02, "dark"
+    )
     for side in (-1, 1):
         body.bar((-0.02, side * 0.2, 0.47), (-0.02, side * 0.275, 0.49), 0.013, "dark")
         body.bar((-0.02, side * 0.275, 0.49), (-0.02, side * 0.275, 0.67), 0.013, "dark")
@@ -53,7 +61,9 @@ def bar_stool(scene, x, y, yaw, cloth="red_cloth"):
     body.cylinder(0, 0, 0.618, 0.18, 0.06, cloth).mesh("chair_rail", -0.2, 0, 0.76, cloth)
     for side in (-1, 1):
         body.bar((-0.14, side * 0.08, 0.64), (-0.2, side * 0.08, 0.8), 0.01, "steel")
-    body.bar((0.14, -0.1, 0.28), (0.14, 0.1, 0.28), 0.011, "steel").bar((0, 0, 0.28), (0.14, 0, 0.28), 0.011, "steel")
+    body.bar((0.14, -0.1, 0.28), (0.14, 0.1, 0.28), 0.011, "steel").bar(
+        (0, 0, 0.28), (0.14, 0, 0.28), 0.011, "steel"
+    )
 
 
 def table(scene, x, y, yaw, length, width, height, wood="oak", leg=0.06):
@@ -63,23 +73,31 @@ def table(scene, x, y, yaw, length, width, height, wood="oak", leg=0.06):
     body.box(0, 0, height - 0.11, length - 0.16, width - 0.16, 0.076, wood)
     for sx in (-1, 1):
         for sy in (-1, 1):
-            body.box(sx * (length / 2 - 0.05), sy * (width / 2 - 0.05), 0, leg, leg, height - 0.034, wood)
+            body.box(
+                sx * (length / 2 - 0.05), sy * (width / 2 - 0.05), 0, leg, leg, height - 0.034, wood
+            )
     return height
 
 
 def round_table(scene, x, y, radius, height, wood="walnut"):
     body = scene.body("table", x, y, 0)
-    body.cylinder(0, 0, height - 0.028, radius, 0.028, wood).cylinder(0, 0, 0.021, 0.035, height - 0.049, "dark")
+    body.cylinder(0, 0, height - 0.028, radius, 0.028, wood).cylinder(
+        0, 0, 0.021, 0.035, height - 0.049, "dark"
+    )
     body.cylinder(0, 0, 0, 0.6 * radius, 0.021, "dark")
     return height
 
 
 def coffee_table(scene, x, y, yaw, length=1.1, width=0.6, wood="walnut"):
     body = scene.body("table", x, y, 0, yaw)
-    body.box(0, 0, 0.387, length, width, 0.032, wood).box(0, 0, 0.14, length - 0.12, width - 0.1, 0.02, wood)
+    body.box(0, 0, 0.387, length, width, 0.032, wood).box(
+        0, 0, 0.14, length - 0.12, width - 0.1, 0.02, wood
+    )
     for sx in (-1, 1):
         for sy in (-1, 1):
-            body.box(sx * (length / 2 - 0.04), sy * (width / 2 - 0.04), 0, 0.045, 0.045, 0.387, wood)
+            body.box(
+                sx * (length / 2 - 0.04), sy * (width / 2 - 0.04), 0, 0.045, 0.045, 0.387, wood
+            )
     return 0.419
 
 
@@ -90,7 +108,9 @@ def desk(scene, x, y, yaw, length=1.4, wood="birch"):
     body.box(0.31, -length / 2 + 0.035, 0, 0.56, 0.03, 0.707, wood)
     body.box(0.31, length / 2 - 0.22, 0.03, 0.54, 0.4, 0.677, wood)
     for z in (0.06, 0.28, 0.5):
-        body.box(0.585, length / 2 - 0.22, z, 0.014, 0.38, 0.19, "front").box(0.6, length / 2 - 0.22, z + 0.14, 0.018, 0.12, 0.012, "steel")
+        body.box(0.585, length / 2 - 0.22, z, 0.014, 0.38, 0.19, "front").box(
+            0.6, length / 2 - 0.22, z + 0.14, 0.018, 0.12, 0.012, "steel"
+        )
     return 0.737
 
 
@@ -98,10 +118,14 @@ def sofa(scene, x, y, yaw, seats=3, cloth="sofa_cloth", light="sofa_light"):
     """Origin in the middle of its floor space; the back towards -x."""
     width = 0.765 * seats
     body = scene.body("sofa", x, y, 0, yaw)
-    body.box(0, 0, 0.09, 0.84, width + 0.34, 0.2, cloth).box(-0.35, 0, 0.29, 0.16, width + 0.34, 0.5, cloth)
+    body.box(0, 0, 0.09, 0.84, width + 0.34, 0.2, cloth).box(
+        -0.35, 0, 0.29, 0.16, width + 0.34, 0.5, cloth
+    )
     for i in range(seats):
         at = 0.765 * (i - (seats - 1) / 2)
-        body.mesh("sofa_seat", 0.085, at, 0.365, light).mesh("sofa_back", -0.2, at, 0.62, light, euler=(0, -11, 0))
+        body.mesh("sofa_seat", 0.085, at, 0.365, light).mesh(
+            "sofa_back", -0.2, at, 0.62, light, euler=(0, -11, 0)
+        )
     for side in (-1, 1):
         body.mesh("sofa_arm", 0, side * (width / 2 + 0.1), 0.42, cloth)
         for sx in (-0.36, 0.36):
@@ -117,21 +141,31 @@ def bed(scene, x, y, yaw, double=True, wood="oak"):
     """The head towards -x, at the origin; 2.05 m long. The duvet belongs to it."""
     width = 1.62 if double else 0.92
     body = scene.body("bed", x, y, 0, yaw)
-    body.box(0.02, 0, 0, 0.045, width + 0.1, 0.98, wood).box(2.085, 0, 0.09, 0.035, width + 0.06, 0.3, wood)
+    body.box(0.02, 0, 0, 0.045, width + 0.1, 0.98, wood).box(
+        2.085, 0, 0.09, 0.035, width + 0.06, 0.3, wood
+    )
     for side in (-1, 1):
-        body.box(1.055, side * (width / 2 + 0.012), 0.12, 2.025, 0.028, 0.2, wood).box(2.07, side * (width / 2 - 0.03), 0, 0.06, 0.06, 0.09, "dark")
+        body.box(1.055, side * (width / 2 + 0.012), 0.12, 2.025, 0.028, 0.2, wood).box(
+            2.07, side * (width / 2 - 0.03), 0, 0.06, 0.06, 0.09, "dark"
+        )
     body.box(1.05, 0, 0.16, 2.0, width - 0.01, 0.14, wood)
-    body.mesh("mattress" if double else "mattress_single", 1.05, 0, 0.40 if double else 0.39, "linen")
+    body.mesh(
+        "mattress" if double else "mattress_single", 1.05, 0, 0.40 if double else 0.39, "linen"
+    )
     body.mesh("duvet" if double else "duvet_single", 1.36, 0, 0.492 if double else 0.472, "checks")
     for side in (-0.42, 0.4) if double else (0.01,):
-        scene.body("pillow", *spot(x, y, yaw, 0.31, side), 0.555 if double else 0.535, yaw, item=True).mesh("pillow", 0, 0, 0, "linen", euler=(0, -14, 0))
+        scene.body(
+            "pillow", *spot(x, y, yaw, 0.31, side), 0.555 if double else 0.535, yaw, item=True
+        ).mesh("pillow", 0, 0, 0, "linen", euler=(0, -14, 0))
 
 
 def wardrobe(scene, x, y, yaw, doors=3, height=2.13, wood="ashgrey"):
     """The back at the wall (origin), doors along y."""
     width = 0.5 * doors
     body = scene.body("wardrobe", x, y, 0, yaw)
-    body.box(0.29, 0, 0.06, 0.58, width, height - 0.06, wood).box(0.28, 0, 0, 0.52, width - 0.04, 0.06, "plinth")
+    body.box(0.29, 0, 0.06, 0.58, width, height - 0.06, wood).box(
+        0.28, 0, 0, 0.52, width - 0.04, 0.06, "plinth"
+    )
     for i in range(doors):
         at = 0.5 * (i - (doors - 1) / 2)
         body.box(0.59, at, 0.075, 0.02, 0.492, height - 0.09, "front" if i != 1 else wood)
@@ -157,20 +191,38 @@ def shelf(scene, x, y, yaw, width=0.9, boards=5, gap=0.36, wood="oak", deep=0.3)
 def board(scene, x, y, yaw, width=1.7, wood="walnut"):
     """A low sideboard for a tv, the back at the wall. Returns its top."""
     body = scene.body("cabinet", x, y, 0, yaw)
-    body.box(0.21, 0, 0.09, 0.4, width, 0.37, wood).box(0.2, 0, 0.46, 0.42, width + 0.03, 0.024, "oak")
+    body.box(0.21, 0, 0.09, 0.4, width, 0.37, wood).box(
+        0.2, 0, 0.46, 0.42, width + 0.03, 0.024, "oak"
+    )
     for side in (-1, 1):
         for sx in (0.06, 0.36):
             body.cylinder(sx, side * (width / 2 - 0.08), 0, 0.02, 0.09, "dark")
     for i in range(3):
-        body.box(0.418, width / 3 * (i - 1), 0.11, 0.016, width / 3 - 0.012, 0.33, "oak" if i != 1 else wood)
-        body.ball(0.438, width / 3 * (i - 1) + (0.2 if i == 0 else -0.2 if i == 2 else 0), 0.275, 0.014, "steel")
+        body.box(
+            0.418,
+            width / 3 * (i - 1),
+            0.11,
+            0.016,
+            width / 3 - 0.012,
+            0.33,
+            "oak" if i != 1 else wood,
+        )
+        body.ball(
+            0.438,
+            width / 3 * (i - 1) + (0.2 if i == 0 else -0.2 if i == 2 else 0),
+            0.275,
+            0.014,
+            "steel",
+        )
     return 0.484
 
 
 def chest(scene, x, y, yaw, width=0.46, drawers=2, height=0.5, deep=0.4, wood="oak"):
     """Bedside cabinet or chest of drawers, the back at the wall. Returns its top."""
     body = scene.body("cabinet", x, y, 0, yaw)
-    body.box(deep / 2, 0, 0.05, deep - 0.02, width, height - 0.074, wood).box(deep / 2, 0, height - 0.024, deep + 0.014, width + 0.02, 0.024, wood)
+    body.box(deep / 2, 0, 0.05, deep - 0.02, width, height - 0.074, wood).box(
+        deep / 2, 0, height - 0.024, deep + 0.014, width + 0.02, 0.024, wood
+    )
     body.box(deep / 2 - 0.01, 0, 0, deep - 0.06, width - 0.04, 0.05, "plinth")
     each = (height - 0.1) / drawers
     for i in range(drawers):
@@ -196,7 +248,9 @@ def tv_on_wall(scene, x, y, z, yaw, width=0.96, picture="film"):
     """z: the middle of the screen."""
     height = 0.575 * width
     body = scene.body("tv", x, y, z, yaw)
-    body.box(0.025, 0, -0.12, 0.046, 0.24, 0.24, "dark").box(0.066, 0, -height / 2, 0.038, width, height, "black")
+    body.box(0.025, 0, -0.12, 0.046, 0.24, 0.24, "dark").box(
+        0.066, 0, -height / 2, 0.038, width, height, "black"
+    )
     body.panel(0.085, 0, 0.006, width - 0.026, height - 0.036, 0.003, picture)
 
 
@@ -209,11 +263,13 @@ def floor_lamp(scene, x, y):
 def plant(scene, x, y, kind="ficus", pot="terracotta", yaw=0):
     body = scene.body("plant", x, y, 0, yaw)
     body.mesh("flower_pot", 0, 0, 0, pot).cylinder(0, 0, 0.255, 0.15, 0.02, "soil")
-    body.mesh(kind, 0, 0, 0.272, "leaf" if kind == "ficus" else "leaf_dark")
+    body.mesh(kind, 0, 0, 0.272, "leaf" if kind == "ficus" else "leaf_dark", soft=True)
 
 
 def bin(scene, x, y, radius=0.13, height=0.36):
-    scene.body("bin", x, y, 0).cylinder(0, 0, 0, radius, height, "steel").cylinder(0, 0, height, radius + 0.008, 0.022, "dark")
+    scene.body("bin", x, y, 0).cylinder(0, 0, 0, radius, height, "steel").cylinder(
+        0, 0, height, radius + 0.008, 0.022, "dark"
+    )
 
 
 def basket(scene, x, y):
@@ -222,4 +278,6 @@ def basket(scene, x, y):
 
 
 def box(scene, x, y, z, yaw, dx, dy, dz, material="cardboard"):
-    scene.body("box", x, y, z, yaw, item=z > 0).box(0, 0, 0, dx, dy, dz, material).box(0, 0, dz, dx + 0.008, dy + 0.008, 0.02, material)
+    scene.body("box", x, y, z, yaw, item=z > 0).box(0, 0, 0, dx, dy, dz, material).box(
+        0, 0, dz, dx + 0.008, dy + 0.008, 0.02, material
+    )

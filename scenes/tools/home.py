@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the mapscore authors
 # SPDX-License-Identifier: MIT
-"""Writes scenes/home.xml and its class file: living room, kitchen, corridor, bedroom, bathroom; 71 m2 within the outer walls."""
+"""Writes scenes/home.xml and its class file: living room, kitchen, corridor, bedroom, bathroom.
+
+71 m2 within the outer walls.
+"""
 
 import pathlib
 import sys
@@ -13,9 +16,10 @@ import shell
 from scene_xml import Scene
 from shell import DOOR
 
-ABOUT = """A home of 9.6 m x 7.4 m: living room in the south-west, kitchen with the dining place in the north-west, a corridor
-     from the front door in the south to the north wall, bathroom in the south-east, bedroom with a desk in the north-east.
-     z = 0 is the floor, the ceiling is at 2.507. One body is one object, its class is its name up to the last _number.
+ABOUT = """A home of 9.6 m x 7.4 m: living room in the south-west, kitchen with the dining place in
+     the north-west, a corridor from the front door in the south to the north wall, bathroom in the
+     south-east, bedroom with a desk in the north-east. z = 0 is the floor, the ceiling is at 2.507.
+     One body is one object, its class is its name up to the last _number.
      Written by scenes/tools/home.py: edit that, not this."""
 
 
@@ -30,7 +34,9 @@ def shell_of(scene):
     window_living, window_dining = (1.407, 3.013, 0.853, 2.147), (4.807, 5.913, 1.003, 2.147)
     window_bed, window_bath = (4.607, 6.113, 0.853, 2.147), (0.807, 1.513, 1.503, 2.147)
     window_sink = (1.903, 2.873, 1.103, 2.147)
-    shell.wall(scene, "y", -0.047, 0.12, -0.093, 7.547, "paint", [window_living, window_dining], (1,))
+    shell.wall(
+        scene, "y", -0.047, 0.12, -0.093, 7.547, "paint", [window_living, window_dining], (1,)
+    )
     shell.wall(scene, "y", 9.673, 0.12, -0.093, 7.547, "paint", [window_bath, window_bed], (-1,))
     shell.wall(scene, "x", -0.033, 0.12, 0.013, 9.613, "paint_clay", (), ())
     shell.wall(scene, "x", 7.487, 0.12, 0.013, 9.613, "paint", [window_sink], (-1,))
@@ -41,7 +47,12 @@ def shell_of(scene):
     shell.wall(scene, "x", 4.176, 0.098, 0.013, 4.713, "paint_sage", [(2.003, 3.403, 0, DOOR)])
     shell.wall(scene, "x", 2.276, 0.098, 6.111, 9.613, "paint_sky")
     scene.section("windows, curtains, radiators, doors")
-    for at, (a, b, sill, lintel), outside in ((-0.047, window_living, -1), (-0.047, window_dining, -1), (9.673, window_bed, 1), (9.673, window_bath, 1)):
+    for at, (a, b, sill, lintel), outside in (
+        (-0.047, window_living, -1),
+        (-0.047, window_dining, -1),
+        (9.673, window_bed, 1),
+        (9.673, window_bath, 1),
+    ):
         shell.window(scene, "y", at, 0.12, a, b, sill, lintel, outside)
     shell.window(scene, "x", 7.487, 0.12, *window_sink, 1)
     shell.curtains(scene, "y", 0.013, window_living[0], window_living[1], 1)
@@ -49,7 +60,12 @@ def shell_of(scene):
     shell.radiator(scene, 0.013, 2.211, 0, 1.1)
     shell.radiator(scene, 9.613, 5.361, 180, 1.1)
     shell.door_closed(scene, 5.413, 0.027, 90, material="walnut")
-    for at, (a, b, _, _) in ((4.762, door_living), (4.762, door_kitchen), (6.062, door_bath), (6.062, door_bed)):
+    for at, (a, b, _, _) in (
+        (4.762, door_living),
+        (4.762, door_kitchen),
+        (6.062, door_bath),
+        (6.062, door_bed),
+    ):
         shell.frame(scene, "y", at, 0.098, a, b)
     shell.door_open(scene, 4.627, 2.585, 180)
     shell.door_open(scene, 6.197, 4.305, 0)
@@ -60,8 +76,20 @@ def living_room(scene):
     scene.section("living room")
     put.rug(scene, 2.113, 1.717, 0, 2.5, 1.7)
     put.sofa(scene, 2.113, 2.763, -90)
-    for x, cloth, yaw in ((1.157, "ochre_cloth", -96), (2.997, "teal_cloth", -82), (2.777, "red_cloth", -101)):
-        items.cushion(scene, x, 2.843 if cloth != "red_cloth" else 2.713, 0.652, yaw, cloth, 63 if cloth != "red_cloth" else 55)
+    for x, cloth, yaw in (
+        (1.157, "ochre_cloth", -96),
+        (2.997, "teal_cloth", -82),
+        (2.777, "red_cloth", -101),
+    ):
+        items.cushion(
+            scene,
+            x,
+            2.843 if cloth != "red_cloth" else 2.713,
+            0.652,
+            yaw,
+            cloth,
+            63 if cloth != "red_cloth" else 55,
+        )
     top = put.coffee_table(scene, 2.113, 1.657, 2)
     items.cup(scene, 1.807, 1.713, top, 140)
     items.cup(scene, 2.437, 1.537, top, 20, "sun", True)
@@ -87,7 +115,7 @@ def living_room(scene):
     items.pendant(scene, 2.113, 1.753, 2.053)
 
 
-def kitchen(scene):
+def kitchen_front(scene):
     scene.section("kitchen: the front along the north wall")
     run = fixtures.KitchenRun(scene, 0.027, 7.427, -90)
     run.fridge()
@@ -105,7 +133,11 @@ def kitchen(scene):
     run.splash(2.86, 4.682)
     top = fixtures.TOP
     items.kettle(scene, 1.447, 7.183, top, -60)
-    for x, y, yaw, glaze in ((1.663, 7.213, -40, "sun"), (1.767, 7.097, 200, "porcelain"), (3.463, 7.013, 250, "cobalt")):
+    for x, y, yaw, glaze in (
+        (1.663, 7.213, -40, "sun"),
+        (1.767, 7.097, 200, "porcelain"),
+        (3.463, 7.013, 250, "cobalt"),
+    ):
         items.cup(scene, x, y, top, yaw, glaze, glaze == "sun")
     items.soap(scene, 2.617, 7.357, top, -90)
     items.wine(scene, 3.427, 7.277, top)
@@ -115,16 +147,29 @@ def kitchen(scene):
     items.pan(scene, 3.123, 7.017, top + 0.0095, -75)
     items.fruit_bowl(scene, 4.387, 7.147, top)
     items.bowl(scene, 4.093, 7.193, top)
+
+
+def dining_place(scene):
     scene.section("kitchen: the dining place")
     height = put.table(scene, 1.087, 5.337, 90, 1.6, 0.86, 0.753)
-    for x, y, yaw in ((1.693, 4.943, 176), (1.717, 5.707, 187), (0.423, 4.937, 3), (0.413, 5.693, -5)):
+    for x, y, yaw in (
+        (1.693, 4.943, 176),
+        (1.717, 5.707, 187),
+        (0.423, 4.937, 3),
+        (0.413, 5.693, -5),
+    ):
         put.dining_chair(scene, x, y, yaw)
     for x, y in ((1.343, 4.943), (1.347, 5.703), (0.827, 4.953)):
         items.plate(scene, x, y, height)
     items.vase(scene, 1.083, 5.367, height, "mint")
     items.wine(scene, 0.947, 5.557, height)
     items.water(scene, 1.203, 5.107, height)
-    for x, y, yaw, glaze in ((1.237, 5.497, 60, "cherry"), (1.097, 4.823, -30, "porcelain"), (0.773, 5.243, 160, "cobalt"), (0.803, 5.763, 110, "mint")):
+    for x, y, yaw, glaze in (
+        (1.237, 5.497, 60, "cherry"),
+        (1.097, 4.823, -30, "porcelain"),
+        (0.773, 5.243, 160, "cobalt"),
+        (0.803, 5.763, 110, "mint"),
+    ):
         items.cup(scene, x, y, height, yaw, glaze)
     items.pendant(scene, 1.087, 5.337, 1.673)
     top = put.chest(scene, 4.107, 4.239, 90, 0.96, 3, 0.83, 0.38, "birch")
@@ -197,7 +242,9 @@ def bedroom(scene):
 def bathroom(scene):
     scene.section("bathroom, tiled to 2.1 m")
     walls = scene.body("wall", fixed=True)
-    walls.panel(7.862, 0.027, 1.051, 3.502, 2.1, 0.008, "tiles_wall", "+y").panel(7.862, 2.227, 1.051, 3.502, 2.1, 0.008, "tiles_wall", "-y")
+    walls.panel(7.862, 0.027, 1.051, 3.502, 2.1, 0.008, "tiles_wall", "+y").panel(
+        7.862, 2.227, 1.051, 3.502, 2.1, 0.008, "tiles_wall", "-y"
+    )
     walls.panel(9.613, 1.127, 0.752, 2.2, 1.5, 0.008, "tiles_blue", "-x")
     fixtures.bath(scene, 9.601, 1.127, 180)
     fixtures.washstand(scene, 7.803, 2.213, -90)
@@ -219,16 +266,16 @@ def bathroom(scene):
 
 def home():
     scene = Scene("home", ABOUT, (4.8, 3.7, 1.1), 10)
-    scene.light("living", 'pos="2.113 1.753 2.03" dir="0.01 0.02 -1" cutoff="82" exponent="1" castshadow="true" ambient="0.04 0.04 0.04" '
-                'diffuse="0.24 0.23 0.21" specular="0.2 0.2 0.2" attenuation="1 0.02 0.01"')
-    scene.light("bedroom", 'pos="7.5 4.6 2.4" dir="-0.04 0.02 -1" cutoff="88" exponent="0" castshadow="false" ambient="0.04 0.04 0.04" '
-                'diffuse="0.19 0.18 0.165" specular="0.2 0.2 0.2" attenuation="1 0.02 0.01"')
-    scene.light("daylight", 'directional="true" pos="4 6 2" dir="0.75 -0.5 -0.55" castshadow="false" diffuse="0.26 0.27 0.29" specular="0 0 0"')
-    scene.light("bounce", 'directional="true" pos="4 3 0.1" dir="-0.55 0.45 0.75" castshadow="false" diffuse="0.30 0.285 0.26" specular="0 0 0"')
-    for room in (shell_of, living_room, kitchen, corridor, bedroom, bathroom):
+    scene.lamp_light("living", 2.113, 1.753, 2.03, (0.24, 0.23, 0.21), True, 82, 1)
+    scene.lamp_light("bedroom", 7.843, 4.693, 2.08, (0.19, 0.18, 0.165), False, 88, 0)
+    scene.even_light("daylight", (0.75, -0.5, -0.55), (0.26, 0.27, 0.29))
+    scene.even_light("bounce", (-0.55, 0.45, 0.75), (0.30, 0.285, 0.26))
+    for room in (shell_of, living_room, kitchen_front, dining_place, corridor, bedroom, bathroom):
         room(scene)
     return scene
 
 
 if __name__ == "__main__":
-    home().write(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent)
+    home().write(
+        sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent
+    )

@@ -1,11 +1,15 @@
 # SPDX-FileCopyrightText: 2026 the mapscore authors
 # SPDX-License-Identifier: MIT
-"""Writes MJCF one object a block, and the class file beside it. Lengths in metres, angles in degrees; sizes are whole ones."""
+"""Writes MJCF one object a block, and the class file beside it.
+
+Lengths in metres, angles in degrees; sizes are whole ones.
+"""
 
 import math
 import pathlib
+import re
 
-from materials import ASSETS, CLASSES
+from materials import CLASSES, asset_lines
 from solid import decimal
 
 LICENCE = "SPDX-FileCopyrightText: 2026 the mapscore authors\n     SPDX-License-Identifier: MIT"
@@ -27,7 +31,10 @@ def spot(x, y, yaw, out, along):
 
 
 class Body:
-    """One object. Local frame: front towards +x, z up, origin on what it stands on or hangs from."""
+    """One object.
+
+    Local frame: front towards +x, z up, origin on what it stands on or hangs from.
+    """
 
     def __init__(self, name, place, yaw, item):
         self.name, self.place, self.yaw, self.item, self.lines = name, place, yaw, item, []
@@ -45,31 +52,55 @@ class Body:
 
     def cylinder(self, x, y, z, radius, height, material, euler=None):
         turn = f' euler="{numbers(*euler)}"' if euler else ""
-        return self.geom('type="cylinder"', (x, y, z + height / 2), (radius, height / 2), material, turn)
+        return self.geom(
+            'type="cylinder"', (x, y, z + height / 2), (radius, height / 2), material, turn
+        )
 
     def bar(self, a, b, radius, material, kind="capsule"):
-        self.lines.append(f'<geom type="{kind}" fromto="{numbers(*a, *b)}" size="{numbers(radius)}" material="{material}"/>')
+        self.lines.append(
+            f'<geom type="{kind}" fromto="{numbers(*a, *b)}" size="{numbers(radius)}" '
+            f'material="{material}"/>'
+        )
         return self
 
     def ball(self, x, y, z, radius, material):
         return self.geom('type="sphere"', (x, y, z), (radius,), material)
 
-    def mesh(self, mesh, x, y, z, material, yaw=0.0, euler=None):
-        euler = euler or ((0, 0, yaw) if yaw else None)
+    def mesh(self, mesh, x, y, z, material, euler=None, soft=False):
+        """soft: gives way to a robot, as leaves do."""
         turn = f' euler="{numbers(*euler)}"' if euler else ""
-        return self.geom(f'type="mesh" mesh="{mesh}"', (x, y, z), None, material, turn)
+        kind = 'class="item" type="mesh"' if soft else 'type="mesh"'
+        return self.geom(f'{kind} mesh="{mesh}"', (x, y, z), None, material, turn)
 
     def panel(self, x, y, z, width, height, thick, material, facing="+x"):
-        """An upright plate whose picture is seen from `facing`; z: the middle; (x, y): the middle of its BACK."""
-        right, out = {"+x": ((0, 1, 0), (1, 0)), "-x": ((0, -1, 0), (-1, 0)), "+y": ((-1, 0, 0), (0, 1)), "-y": ((1, 0, 0), (0, -1))}[facing]
+        """An upright plate whose picture is seen from `facing`.
+
+        Z: the middle; (x, y): the middle of its BACK.
+        """
+        right, out = {
+            "+x": ((0, 1, 0), (1, 0)),
+            "-x": ((0, -1, 0), (-1, 0)),
+            "+y": ((-1, 0, 0), (0, 1)),
+            "-y": ((1, 0, 0), (0, -1)),
+        }[facing]
         pos = (x + out[0] * thick / 2, y + out[1] * thick / 2, z)
-        return self.geom('type="box"', pos, (width / 2, height / 2, thick / 2), material, f' xyaxes="{numbers(*right, 0, 0, 1)}"')
+        return self.geom(
+            'type="box"',
+            pos,
+            (width / 2, height / 2, thick / 2),
+            material,
+            f' xyaxes="{numbers(*right, 0, 0, 1)}"',
+        )
 
     def block(self):
         turn = f' euler="0 0 {decimal(self.yaw)}"' if self.yaw else ""
         place = f' pos="{numbers(*self.place)}"' if any(self.place) or turn else ""
         kind = ' childclass="item"' if self.item else ""
-        return [f'    <body name="{self.name}"{place}{turn}{kind}>'] + [f"      {line}" for line in self.lines] + ["    </body>"]
+        return (
+            [f'    <body name="{self.name}"{place}{turn}{kind}>']
+            + [f"      {line}" for line in self.lines]
+            + ["    </body>"]
+        )
 
 
 class Scene:
@@ -82,11 +113,28 @@ class Scene:
     def section(self, text):
         self.parts += ["", f"    <!-- {text} -->"]
 
-    def light(self, name, text):
-        self.lights.append(f'    <light name="{name}" {text}/>')
+    def lamp_light(self, name, x, y, z, colour, shadow, cutoff, exponent):
+        """Light of a lamp at x, y, z, downwards."""
+        self.lights.append(
+            f'    <light name="{name}" pos="{numbers(x, y, z)}" dir="0.01 0.02 -1" '
+            f'cutoff="{cutoff}" exponent="{exponent}" castshadow="{str(shadow).lower()}" '
+            f'ambient="0.04 0.04 0.04" diffuse="{numbers(*colour)}" specular="0.2 0.2 0.2" '
+            'attenuation="1 0.02 0.01"/>'
+        )
+
+    def even_light(self, name, direction, colour):
+        """Light from one side in all rooms, without shadows: day, and what walls throw back."""
+        self.lights.append(
+            f'    <light name="{name}" directional="true" pos="4 4 1" dir="{numbers(*direction)}" '
+            f'castshadow="false" diffuse="{numbers(*colour)}" specular="0 0 0"/>'
+        )
 
     def body(self, kind, x=0.0, y=0.0, z=0.0, yaw=0.0, item=False, fixed=False):
-        """A new object of a class. x and y go to odd millimetres unless `fixed` (the shell, whose geoms bear the coordinates)."""
+        """A new object of a class.
+
+        x and y go to odd millimetres unless `fixed` (the shell, whose geoms bear the
+        coordinates).
+        """
         assert kind in CLASSES, kind
         self.count[kind] = self.count.get(kind, 0) + 1
         place = (x, y, z) if fixed else (odd_mm(x), odd_mm(y), z)
@@ -95,17 +143,33 @@ class Scene:
         return body
 
     def mjcf(self):
-        lines = [f"<!-- {LICENCE}\n\n     {self.about} -->", f'<mujoco model="{self.model}">', HEAD.format(
-            extent=numbers(self.extent), centre=numbers(*self.centre), znear=numbers(0.1 / self.extent), zfar=numbers(20 / self.extent))]
-        lines += [ASSETS, "  <worldbody>"] + self.lights
+        lines = [
+            f"<!-- {LICENCE}\n\n     {self.about} -->",
+            f'<mujoco model="{self.model}">',
+            HEAD.format(
+                extent=numbers(self.extent),
+                centre=numbers(*self.centre),
+                znear=numbers(0.1 / self.extent),
+                zfar=numbers(20 / self.extent),
+            ),
+        ]
+        objects = []
         for part in self.parts:
-            lines += [part] if isinstance(part, str) else part.block()
+            objects += [part] if isinstance(part, str) else part.block()
+        used = set(re.findall(r'"([^"]*)"', "".join(objects)))
+        lines += asset_lines(used) + ["  <worldbody>"] + self.lights + objects
         return "\n".join(lines + ["  </worldbody>", "</mujoco>"]) + "\n"
 
     def classes(self):
-        lines = ["# Classes of home.xml and cottage.xml, ids from 1 in this order; 0 is background.", "classes:"]
+        lines = [
+            "# Classes of home.xml and cottage.xml, ids from 1 in this order; 0 is background.",
+            "classes:",
+        ]
         for name, (colour, detect) in CLASSES.items():
-            lines.append(f'  - {{name: {name}, colour: "{colour}", detect: {str(detect).lower()}, bodies: ["{name}_*"]}}')
+            lines.append(
+                f'  - {{name: {name}, colour: "{colour}", detect: {str(detect).lower()}, '
+                f'bodies: ["{name}_*"]}}'
+            )
         return "\n".join(lines) + "\n"
 
     def write(self, folder):

@@ -7,15 +7,22 @@ DOOR = 2.053  # of door openings
 
 
 def floor(scene, x0, x1, y0, y1, material):
-    scene.body("floor", fixed=True).box((x0 + x1) / 2, (y0 + y1) / 2, -0.1, x1 - x0, y1 - y0, 0.1, material)
+    scene.body("floor", fixed=True).box(
+        (x0 + x1) / 2, (y0 + y1) / 2, -0.1, x1 - x0, y1 - y0, 0.1, material
+    )
 
 
 def ceiling(scene, x0, x1, y0, y1):
-    scene.body("ceiling", fixed=True).box((x0 + x1) / 2, (y0 + y1) / 2, HEIGHT, x1 - x0, y1 - y0, 0.1, "ceiling")
+    scene.body("ceiling", fixed=True).box(
+        (x0 + x1) / 2, (y0 + y1) / 2, HEIGHT, x1 - x0, y1 - y0, 0.1, "ceiling"
+    )
 
 
 def wall(scene, axis, at, thick, start, end, material, gaps=(), skirting=(-1, 1)):
-    """Along `axis` ('x' or 'y') from start to end, its middle at `at` across. gaps: (start, end, sill, lintel); skirting: its sides."""
+    """Along `axis` ('x' or 'y') from start to end, its middle at `at` across.
+
+    gaps: (start, end, sill, lintel); skirting: its sides.
+    """
     body = scene.body("wall", fixed=True)
 
     def part(a, b, low, high):
@@ -28,8 +35,10 @@ def wall(scene, axis, at, thick, start, end, material, gaps=(), skirting=(-1, 1)
             body.box(at, middle, low, thick, length, high - low, material)
         for side in skirting if low == 0 else ():
             out = at + side * (thick / 2 + 0.006)
-            x, y, dx, dy = (middle, out, length, 0.012) if axis == "x" else (out, middle, 0.012, length)
-            body.box(x, y, 0, dx, dy, 0.083, "white")
+            x, y, dx, dy = (
+                (middle, out, length, 0.012) if axis == "x" else (out, middle, 0.012, length)
+            )
+            body.box(x, y, 0, dx, dy, 0.083 if axis == "y" else 0.081, "white")
 
     here = start
     for a, b, sill, lintel in sorted(gaps):
@@ -41,7 +50,10 @@ def wall(scene, axis, at, thick, start, end, material, gaps=(), skirting=(-1, 1)
 
 
 def window(scene, axis, at, thick, a, b, sill, lintel, outside):
-    """Frame in the gap a..b of a wall, and the garden 20 cm behind it; outside: +1 or -1 across the wall."""
+    """Frame in the gap a..b of a wall, and the garden 20 cm behind it.
+
+    Outside: +1 or -1 across the wall.
+    """
     frame = scene.body("window", fixed=True)
     bar, deep = 0.055, 0.052
 
@@ -55,16 +67,25 @@ def window(scene, axis, at, thick, a, b, sill, lintel, outside):
     for lo, hi in ((a, a + bar), ((a + b) / 2 - 0.037, (a + b) / 2 + 0.037), (b - bar, b)):
         part(lo, hi, sill + bar, lintel - bar)
     ledge = at - outside * (thick / 2 + 0.03)
-    x, y, dx, dy = ((a + b) / 2, ledge, b - a + 0.12, 0.2) if axis == "x" else (ledge, (a + b) / 2, 0.2, b - a + 0.12)
+    x, y, dx, dy = (
+        ((a + b) / 2, ledge, b - a + 0.12, 0.2)
+        if axis == "x"
+        else (ledge, (a + b) / 2, 0.2, b - a + 0.12)
+    )
     frame.box(x, y, sill - 0.033, dx, dy, 0.03, "white")
     back = at + outside * (thick / 2 + 0.2)
     facing = {("x", 1): "-y", ("x", -1): "+y", ("y", 1): "-x", ("y", -1): "+x"}[(axis, outside)]
     x, y = ((a + b) / 2, back) if axis == "x" else (back, (a + b) / 2)
-    scene.body("sky", fixed=True).panel(x, y, (sill + lintel) / 2, b - a + 1.0, lintel - sill + 0.8, 0.04, "garden", facing)
+    scene.body("sky", fixed=True).panel(
+        x, y, (sill + lintel) / 2, b - a + 1.0, lintel - sill + 0.8, 0.04, "garden", facing
+    )
 
 
 def curtains(scene, axis, at, a, b, inside, material="drape", z=2.36):
-    """A pair at the ends of a..b on a rod; inside: +1 or -1, towards the room, `at` is the wall's face."""
+    """A pair at the ends of a..b on a rod.
+
+    Inside: +1 or -1, towards the room, `at` is the wall's face.
+    """
     for side, where in ((-1, a - 0.1), (1, b + 0.1)):
         x, y, yaw = (where, at + inside * 0.1, 90) if axis == "x" else (at + inside * 0.1, where, 0)
         scene.body("curtain", x, y, z - 0.02, yaw=yaw, item=True).mesh("curtain", 0, 0, 0, material)
@@ -104,7 +125,12 @@ def leaf(body, x, y, width, material, both=False):
         for low, high in ((0.16, 0.86), (1.09, 1.87)):
             body.box(face, y + width / 2, low, 0.008, width - 0.3, high - low, "birch")
         edge = y + width - 0.07
-        body.bar((face + side * 0.045, edge, 1.03), (face + side * 0.045, edge - 0.12, 1.03), 0.009, "steel")
+        body.bar(
+            (face + side * 0.045, edge, 1.03),
+            (face + side * 0.045, edge - 0.12, 1.03),
+            0.009,
+            "steel",
+        )
         body.bar((face, edge, 1.03), (face + side * 0.045, edge, 1.03), 0.009, "steel")
 
 
@@ -112,7 +138,11 @@ def frame(scene, axis, at, thick, a, b, material="white"):
     """The lining of an opening a..b in a wall (a door's frame without its leaf)."""
     body = scene.body("door", fixed=True)
     deep, bar = thick + 0.024, 0.027
-    for lo, hi, low, high in ((a, a + bar, 0.001, DOOR), (b - bar, b, 0.001, DOOR), (a, b, DOOR - bar - 0.001, DOOR - 0.001)):
+    for lo, hi, low, high in (
+        (a, a + bar, 0.001, DOOR),
+        (b - bar, b, 0.001, DOOR),
+        (a, b, DOOR - bar - 0.001, DOOR - 0.001),
+    ):
         middle, length = (lo + hi) / 2, hi - lo
         if high < DOOR or low < 0.01:
             x, y, dx, dy = (middle, at, length, deep) if axis == "x" else (at, middle, deep, length)

@@ -1,12 +1,17 @@
 # SPDX-FileCopyrightText: 2026 the mapscore authors
 # SPDX-License-Identifier: MIT
-"""Triangle meshes of turned, swept and padded things, and their OBJ files. Metres, z up, faces wind outwards."""
+"""Triangle meshes of turned, swept and padded things, and their OBJ files.
+
+Metres, z up, faces wind outwards.
+"""
 
 import math
 
 import numpy as np
 
-CREASE = math.cos(math.radians(38))  # sharper turns of a profile get vertices, and normals, of their own
+CREASE = math.cos(
+    math.radians(38)
+)  # sharper turns of a profile get vertices, and normals, of their own
 
 
 class Solid:
@@ -32,7 +37,11 @@ class Solid:
         lines = ["# mapscore scenes/tools/meshes.py, MIT"]
         lines += ["v " + " ".join(decimal(c) for c in p) for p in self.vertices]
         lines += ["vt " + " ".join(decimal(c, 3) for c in uv) for uv in self.uvs]
-        lines += ["f " + " ".join(f"{i + 1}/{i + 1}" for i in face) for face in self.faces if len(set(face)) == 3]
+        lines += [
+            "f " + " ".join(f"{i + 1}/{i + 1}" for i in face)
+            for face in self.faces
+            if len(set(face)) == 3
+        ]
         path.write_text("\n".join(lines) + "\n")
 
 
@@ -44,11 +53,19 @@ def decimal(value, digits=4):
 
 
 def grid_faces(rows, columns):
-    """Two triangles a cell; rows run along the first axis, the normal is column direction x row direction."""
+    """Two triangles a cell.
+
+    Rows run along the first axis, the normal is column direction x row direction.
+    """
     faces = []
     for i in range(rows - 1):
         for j in range(columns - 1):
-            a, b, c, d = i * columns + j, i * columns + j + 1, (i + 1) * columns + j + 1, (i + 1) * columns + j
+            a, b, c, d = (
+                i * columns + j,
+                i * columns + j + 1,
+                (i + 1) * columns + j + 1,
+                (i + 1) * columns + j,
+            )
             faces += [(a, b, c), (a, c, d)]
     return faces
 
@@ -68,7 +85,10 @@ def smooth_runs(profile):
 
 
 def lathe(profile, sides, squash=lambda phi: 1.0):
-    """Turns (radius, z) about z; upwards outside, downwards inside. squash(phi) makes the round oval."""
+    """Turns (radius, z) about z; upwards outside, downwards inside.
+
+    squash(phi) makes the round oval.
+    """
     solid = Solid()
     for run in smooth_runs(profile):
         points, uvs = [], []
@@ -94,17 +114,26 @@ def weld_poles(solid):
 
 
 def loft(sections, capped=True):
-    """Skin over rings of points (all of one length, seen from above anticlockwise, from bottom to top)."""
+    """Skin over rings of points (all of one length, seen from above anticlockwise, from bottom to
+    top)."""
     solid = Solid()
     count = len(sections[0])
     points = [p for ring in sections for p in list(ring) + [ring[0]]]
-    uvs = [(j / count, i / max(1, len(sections) - 1)) for i in range(len(sections)) for j in range(count + 1)]
+    uvs = [
+        (j / count, i / max(1, len(sections) - 1))
+        for i in range(len(sections))
+        for j in range(count + 1)
+    ]
     solid.add(points, uvs, grid_faces(len(sections), count + 1))
     if capped:
         for ring, flip in ((sections[0], True), (sections[-1], False)):
             middle = np.mean(np.array(ring), axis=0)
             fan = [(0, 1 + j, 1 + (j + 1) % count) for j in range(count)]
-            solid.add([middle] + list(ring), [(0.5, 0.5)] * (count + 1), [f[::-1] for f in fan] if flip else fan)
+            solid.add(
+                [middle] + list(ring),
+                [(0.5, 0.5)] * (count + 1),
+                [f[::-1] for f in fan] if flip else fan,
+            )
     return weld_poles(solid)
 
 
@@ -114,8 +143,13 @@ def ring(half_x, half_y, z, count, power=2.0, x=0.0, y=0.0):
     for j in range(count):
         phi = 2 * math.pi * (j + 0.5) / count
         c, s = math.cos(phi), math.sin(phi)
-        points.append((x + half_x * math.copysign(abs(c) ** (2 / power), c),
-                       y + half_y * math.copysign(abs(s) ** (2 / power), s), z))
+        points.append(
+            (
+                x + half_x * math.copysign(abs(c) ** (2 / power), c),
+                y + half_y * math.copysign(abs(s) ** (2 / power), s),
+                z,
+            )
+        )
     return points
 
 
@@ -133,13 +167,20 @@ def tube(path, radius, sides, closed_ends=True):
         side = side - along * (side @ along)
         side /= np.linalg.norm(side)
         other = np.cross(along, side)
-        sections.append([p + radii[i] * (math.cos(a) * side + math.sin(a) * other)
-                         for a in (2 * math.pi * j / sides for j in range(sides))])
+        sections.append(
+            [
+                p + radii[i] * (math.cos(a) * side + math.sin(a) * other)
+                for a in (2 * math.pi * j / sides for j in range(sides))
+            ]
+        )
     return loft(sections, closed_ends)
 
 
 def sheet(rows, columns, point, thickness):
-    """A closed sheet: point(u, v) in its middle, u along columns, v along rows, both 0..1; a face on each side."""
+    """A closed sheet: point(u, v) in its middle, u along columns, v along rows, both 0..1.
+
+    A face on each side.
+    """
     us, vs = np.linspace(0, 1, columns), np.linspace(0, 1, rows)
     middle = np.array([[point(u, v) for u in us] for v in vs], float)
     du, dv = np.gradient(middle, axis=1), np.gradient(middle, axis=0)
@@ -151,7 +192,9 @@ def sheet(rows, columns, point, thickness):
     solid.add(front.reshape(-1, 3), uvs, grid_faces(rows, columns))
     solid.add(back.reshape(-1, 3), uvs, [f[::-1] for f in grid_faces(rows, columns)])
     rim = [(0, j) for j in range(columns)] + [(i, columns - 1) for i in range(1, rows)]
-    rim += [(rows - 1, j) for j in range(columns - 2, -1, -1)] + [(i, 0) for i in range(rows - 2, -1, -1)]
+    rim += [(rows - 1, j) for j in range(columns - 2, -1, -1)] + [
+        (i, 0) for i in range(rows - 2, -1, -1)
+    ]
     edge = [back[i][j] for i, j in rim] + [front[i][j] for i, j in rim]
     edge_uvs = [(us[j], vs[i]) for i, j in rim] * 2
     return solid.add(edge, edge_uvs, grid_faces(2, len(rim)))
