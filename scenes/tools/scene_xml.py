@@ -186,7 +186,7 @@ HEAD = """  <compiler angle="degree" meshdir="meshes" texturedir="textures"/>
     <global offwidth="1280" offheight="960"/>
     <map znear="{znear}" zfar="{zfar}" shadowclip="0.7" shadowscale="0.9"/>
     <quality shadowsize="2048"/>
-    <headlight ambient="0.36 0.36 0.37" diffuse="0.12 0.12 0.12" specular="0 0 0"/>
+    <headlight ambient="0.43 0.43 0.44" diffuse="0.12 0.12 0.12" specular="0 0 0"/>
   </visual>
 
   <default>
