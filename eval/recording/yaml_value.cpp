@@ -34,6 +34,10 @@ YamlValue YamlValue::at(const std::string& key) const {
   return {file_, path_.empty() ? key : path_ + "." + key, child};
 }
 
+bool YamlValue::has(const std::string& key) const {
+  return node_.IsMap() && node_[key].IsDefined();
+}
+
 void YamlValue::only(std::initializer_list<std::string_view> keys) const {
   if (!node_.IsMap()) refuse("expected a map");
   std::set<std::string> seen;

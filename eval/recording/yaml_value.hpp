@@ -23,6 +23,7 @@ class YamlValue {
 
   /// Value of a key that must be there.
   [[nodiscard]] YamlValue at(const std::string& key) const;
+  [[nodiscard]] bool has(const std::string& key) const;
   /// Refuses keys beyond `keys`, and a key that stands twice.
   void only(std::initializer_list<std::string_view> keys) const;
   [[nodiscard]] std::vector<YamlValue> items() const;

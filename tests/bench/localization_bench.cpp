@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 // Particle filter in a synthetic home of 10 m x 7 m at 5 cm: four rooms and their furniture.
 // Counter `bar_ms` is the most that a step may take on one thread.
