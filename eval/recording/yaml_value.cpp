@@ -35,7 +35,7 @@ YamlValue YamlValue::at(const std::string& key) const {
 }
 
 bool YamlValue::has(const std::string& key) const {
-  return node_.IsMap() && node_[key];
+  return node_.IsMap() && node_[key].IsDefined();
 }
 
 void YamlValue::only(std::initializer_list<std::string_view> keys) const {

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/localization/laser_scan.hpp"
+#include "core/localization/occupancy_grid.hpp"
+
+#include <cstddef>
+#include <span>
+#include <variant>
+#include <vector>
+
+namespace mapscore {
+
+/// Likelihood field: Thrun, Burgard, Fox (2005), section 6.4, table 6.3.
+struct LikelihoodFieldParams {
+  std::size_t beams = 360;           ///< of a scan, at most
+  double sigma_hit_m = 0.05;         ///< of the distance from an end point to the nearest obstacle
+  double z_hit = 0.9, z_rand = 0.1;  ///< shares; sum 1
+  /// Exponent of the scan's likelihood. Beams are not independent: their errors come from the map's
+  /// cells and from what the map does not hold, which neighbouring beams, and scans in a row,
+  /// share. `temper` times the beams is how many independent ones a scan is worth.
+  double temper = 0.02;
+};
+
+/// Beam model: the same, section 6.3, table 6.1.
+struct BeamModelParams {
+  std::size_t beams = 60;
+  double sigma_hit_m = 0.06;
+  double lambda_short_per_m = 1.0;  ///< rate at which unexpected obstacles end a beam
+  double z_hit = 0.8, z_short = 0.05, z_max = 0.05, z_rand = 0.1;  ///< shares; sum 1
+  double temper = 0.04;
+};
+
+/// ln p(scan | pose, map) of the likelihood field, up to a constant:
+///
+///   temper * sum over beams of ln(z_hit N(d; 0, sigma_hit) + z_rand / range_max)
+///
+/// d the distance from the cell of the beam's end point to the nearest occupied cell, centre to
+/// centre. Beams that hit nothing are left out. An end point beyond the grid counts as far from all
+/// obstacles. Logarithms are made once per cell, in single precision. Immutable, safe to share.
+class LikelihoodField {
+ public:
+  /// Throws Error naming the parameter that is out of range. `range_max_m` is the lidar's.
+  LikelihoodField(const OccupancyGrid& grid, const LikelihoodFieldParams& params,
+                  double range_max_m);
+
+  /// One number for each pose T_map_base. Throws Error as beams_of.
+  void log_likelihoods(const LaserScan& scan, std::span<const PlanarPose> poses,
+                       std::span<double> results) const;
+
+ private:
+  GridFrame frame_;
+  LikelihoodFieldParams params_;
+  std::vector<float> log_p_;  ///< by cell, within a border one cell wide
+};
+
+/// ln p(scan | pose, map) of the beam model, up to a constant: temper * sum over beams of ln p(z),
+/// with z* the cast ray's length plus half a cell, since the surface lies anywhere between a cell's
+/// near and far side (range_max when it meets nothing), and
+///
+///   p(z) = z_hit N(z; z*, sigma_hit) / P(0 <= N <= range_max)
+///        + z_short lambda exp(-lambda z) / (1 - exp(-lambda z*))    for z <= z*
+///        + z_rand / range_max                                       for z < range_max
+///   p(range_max) = z_max, plus z_hit when z* = range_max
+///
+/// Casts a ray for each pose and beam. Keeps a copy of the grid. Immutable, safe to share.
+class BeamModel {
+ public:
+  /// Throws Error naming the parameter that is out of range. `range_max_m` is the lidar's.
+  BeamModel(const OccupancyGrid& grid, const BeamModelParams& params, double range_max_m);
+
+  /// One number for each pose T_map_base. Throws Error as beams_of.
+  void log_likelihoods(const LaserScan& scan, std::span<const PlanarPose> poses,
+                       std::span<double> results) const;
+
+  /// p(z) of one beam, given the expected range (metres).
+  [[nodiscard]] double probability(double range_m, bool hit, double expected_m) const;
+
+ private:
+  OccupancyGrid grid_;
+  BeamModelParams params_;
+  double range_max_m_;
+};
+
+/// The model of a study, chosen at run time.
+using ScanModel = std::variant<LikelihoodField, BeamModel>;
+
+}  // namespace mapscore
