@@ -21,6 +21,8 @@ class RandomStream {
   [[nodiscard]] std::uint64_t bits();
   /// Uniform in [0, 1).
   [[nodiscard]] double uniform();
+  /// Passes over so many draws of bits() or uniform(), at the cost of one.
+  void skip(std::uint64_t draws) { state_ += draws * 0x9e3779b97f4a7c15ULL; }
   /// Standard normal.
   [[nodiscard]] double normal();
 

@@ -4,6 +4,7 @@
 #include "eval/experiment/plan.hpp"
 
 #include "core/error.hpp"
+#include "eval/experiment/sensor_doses.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -32,6 +33,8 @@ Study determining(Study config) {
   config.cameras = none.cameras;
   config.sweep.clear();
   config.picture_view.reset();
+  config.faults.depth = resolved(config.faults.depth);
+  config.faults.labels = resolved(config.faults.labels);
   config.base_folder.clear();
   for (MethodSettings& method : config.methods) method.name = "method";
   return config;

@@ -5,6 +5,8 @@
 
 #include "core/mapping/pose_belief.hpp"
 #include "core/segmentation/segmentation.hpp"
+#include "sim/faults/depth_dose.hpp"
+#include "sim/faults/label_dose.hpp"
 #include "sim/faults/pose_fault.hpp"
 
 #include <array>
@@ -124,11 +126,36 @@ struct PoseNoiseSettings {
   bool operator==(const PoseNoiseSettings&) const = default;
 };
 
+/// A ready-made depth camera, and what differs from it; members as those of sim::DepthDose.
+struct DepthFaultSettings {
+  sim::DepthPreset preset = sim::DepthPreset::ideal;
+  double scale = 1;  ///< of every dose
+  std::optional<double> axial, lateral, quantisation, grazing, shadow, flying, range;
+  std::optional<double> axial_base_m, axial_growth_per_m, lateral_px, baseline_m, subpixel_px;
+  std::optional<double> grazing_from_deg, grazing_to_deg, flying_share, range_min_m, range_max_m;
+
+  bool operator==(const DepthFaultSettings&) const = default;
+};
+
+/// A ready-made segmentation, and what differs from it; members as those of sim::LabelDose.
+struct LabelFaultSettings {
+  sim::LabelPreset preset = sim::LabelPreset::ideal;
+  double scale = 1;  ///< of every dose
+  std::optional<double> boundary_px, ragged_px, miss, confusion, scores, holes, islands;
+  std::optional<std::vector<std::vector<double>>> confusion_matrix;  ///< in place of `confusion`
+  std::optional<double> ragged_length_px, miss_area_px, disc_radius_px, island_reach_px;
+  std::optional<double> score_mean, score_concentration;
+
+  bool operator==(const LabelFaultSettings&) const = default;
+};
+
 struct FaultSettings {
   MisregistrationSettings misregistration;
   MountSettings mount;
   PoseNoiseSettings pose;
   double time_offset_ms = 0;  ///< of the depth image that a colour image is paired with
+  DepthFaultSettings depth;
+  LabelFaultSettings labels;
 
   bool operator==(const FaultSettings&) const = default;
 };

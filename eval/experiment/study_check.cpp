@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/experiment/grid.hpp"
 #include "eval/experiment/picture_view.hpp"
+#include "eval/experiment/sensor_doses.hpp"
 
 #include <fmt/format.h>
 
@@ -94,6 +95,18 @@ void check_covariance(const PoseNoiseSettings& pose, const Blame& blame) {
                     least));
 }
 
+/// By the very test of the fault, whose message names the key.
+void check_sensor(const auto& settings, std::string_view path, const Blame& blame) try {
+  sim::check(dose_of(settings));
+} catch (const Error& error) {
+  blame(path, error.what());
+}
+
+void check_confusion(const LabelFaultSettings& labels, const Blame& blame) {
+  if (!labels.confusion_matrix || labels.confusion.value_or(0) == 0) return;
+  blame("faults.labels.confusion_matrix", "stands beside a confusion; keep one of the two");
+}
+
 template <class T>
 void check_distinct(const std::vector<T>& list, std::string_view path, const Blame& blame) {
   std::set<T> seen;
@@ -142,6 +155,9 @@ void check_leaves(const Study& study, const Blame& blame) {
   check_rigid(study.faults.mount, "faults.mount", blame);
   check_covariance(study.faults.pose, blame);
   check_time(study.score, blame);
+  check_confusion(study.faults.labels, blame);
+  check_sensor(study.faults.depth, "faults.depth", blame);
+  check_sensor(study.faults.labels, "faults.labels", blame);
   check_ascending(study.score.tolerances, "score.tolerances", blame);
   check_ascending(study.score.distances_m, "score.distances_m", blame);
 }

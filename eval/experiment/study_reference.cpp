@@ -14,6 +14,7 @@ std::string_view unit_of(std::string_view key) {
   constexpr auto kUnits = std::to_array<Unit>({{"_m_deg", "m, m, deg"},
                                                {"_m_rad", "m and rad, squared"},
                                                {"_per_s", "1/s"},
+                                               {"_per_m", "1/m"},
                                                {"_mps", "m/s"},
                                                {"_dps", "deg/s"},
                                                {"_ms", "ms"},

@@ -23,7 +23,7 @@ class Dumper {
   void key(const Field& field, const T& value) {
     if constexpr (Section<const T> || Choice<T> || std::same_as<T, Methods> ||
                   std::same_as<T, Sweep>) {
-      nest(field.key, [&] { body(value); });
+      nest(field, [&] { body(value); });
     } else if (const std::string leaf = Leaf<T>::text(value); is_written(field, leaf)) {
       line(fmt::format("{}: {}", field.key, leaf));
     }
@@ -47,14 +47,17 @@ class Dumper {
     }
   }
 
-  /// "name:" over an indented body, or "name: {}" where the body is empty.
-  void nest(std::string_view name, const auto& write_body) {
-    line(fmt::format("{}:", name));
+  /// "key:" over an indented body, or "key: {}" where the body is empty.
+  void nest(const Field& field, const auto& write_body) {
+    const std::size_t start = text_.size();
+    line(fmt::format("{}:", field.key));
     const std::size_t before = text_.size();
     ++depth_;
     write_body();
     --depth_;
-    if (text_.size() == before) text_.insert(before - 1, " {}");
+    if (text_.size() > before) return;
+    text_.insert(before - 1, " {}");
+    if (!is_written(field, "{}")) text_.resize(start);
   }
 
   void line(std::string_view content) {

@@ -7,7 +7,10 @@
 #include "core/mapping/pose_belief.hpp"
 #include "eval/experiment/doses.hpp"
 #include "eval/experiment/map_frame.hpp"
+#include "eval/experiment/sensor_doses.hpp"
 #include "eval/score/instance_score.hpp"
+#include "sim/faults/depth_noise.hpp"
+#include "sim/faults/label_noise.hpp"
 
 #include <limits>
 #include <utility>
@@ -86,6 +89,8 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       depth_of_(paired_depth(recording, task.config)),
       T_map_base_(believed_poses(recording, task, depth_of_)),
       reported_covariance_(reported_covariance(task.config.faults.pose)),
+      depth_dose_(dose_of(task.config.faults.depth)),
+      label_dose_(dose_of(task.config.faults.labels)),
       segmentation_(segmentation_params(task.config.methods.front().segmentation)),
       place_voxels_(place_of(task.config, task.config.methods.front()) == Place::voxels),
       blend_(std::get<BlendSettings>(task.config.fusion)),
@@ -133,15 +138,21 @@ TrialResult TrialRun::finish() {
 }
 
 Observation TrialRun::observe(const Frame& frame, Counts& counts) {
-  const std::vector<Detection> detections = detections_of(frame.label, table_);
+  const std::uint64_t seed = trial_seed(task_);
+  const std::vector<Detection> detections =
+      sim::corrupt_detections(frame.label, table_, label_dose_, seed, frame.index);
+  const cv::Mat1w depth =
+      sim::corrupt_depth(frame.depth, true_.depth, depth_dose_, seed, frame.index);
   const RegisteredCloud cloud = register_depth(
-      frame.depth, believed_, pixels_wanted(detections, frame.label.cols, frame.label.rows));
+      depth, believed_, pixels_wanted(detections, frame.label.cols, frame.label.rows));
   const std::vector<Eigen::AlignedBox3d>& true_boxes = boxes_.of(frame);
   Observation observation;
   for (const Detection& detection : detections) {
     Segment found = segment(detection, cloud, map_.edge_m(), segmentation_, place_voxels_);
     account(found);
-    counts[found.class_id].boxes.add(found.box, true_boxes.at(found.instance), 0.5 * map_.edge_m());
+    const bool right = found.class_id == table_.class_of(found.instance);
+    counts[found.class_id].boxes.add(right ? found.box : Eigen::AlignedBox3d(),
+                                     true_boxes.at(found.instance), 0.5 * map_.edge_m());
     observation.push_back({found.class_id, found.score,
                            std::move(place_voxels_ ? found.voxel_centres : found.points)});
   }

@@ -13,6 +13,8 @@
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/store.hpp"
 #include "eval/recording/recording.hpp"
+#include "sim/faults/depth_dose.hpp"
+#include "sim/faults/label_dose.hpp"
 
 #include <memory>
 #include <vector>
@@ -60,7 +62,8 @@ class TrialRun {
  private:
   /// Zero counts of a trial, or of one of its frames.
   [[nodiscard]] Counts no_counts() const;
-  /// Counts the boxes of the detections.
+  /// What the method sees, under the faults of depth and labels. Counts the boxes of the
+  /// detections; one of a wrong class has no box there.
   [[nodiscard]] Observation observe(const Frame& frame, Counts& counts);
   /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
@@ -78,6 +81,8 @@ class TrialRun {
   std::vector<int> depth_of_;     ///< by frame
   std::vector<Pose> T_map_base_;  ///< believed, by frame
   Covariance6 reported_covariance_;
+  sim::DepthDose depth_dose_;
+  sim::LabelDose label_dose_;
   SegmentationParams segmentation_;
   bool place_voxels_;
   BlendSettings blend_;

@@ -64,6 +64,15 @@ faults:
   pose:
     {sigma_xy_m: 0.02, sigma_z_m: 0.01, sigma_roll_pitch_deg: 0.1, sigma_yaw_deg: 1,
      sigma_scale: 2, kind: walk, reported_scale: 0.5}
+  depth:
+    {preset: astra, scale: 0.5, axial: 2, lateral: 3, quantisation: 4, grazing: 5, shadow: 6,
+     flying: 7, range: 8, axial_base_m: 0.01, axial_growth_per_m: 0.02, lateral_px: 0.5,
+     baseline_m: 0.05, subpixel_px: 0.25, grazing_from_deg: 60, grazing_to_deg: 80,
+     flying_share: 0.2, range_min_m: 1, range_max_m: 5}
+  labels:
+    {preset: typical, scale: 0.5, boundary_px: -2, ragged_px: 1, miss: 0.1, confusion: 0.2,
+     scores: 0.5, holes: 0.1, islands: 0.2, ragged_length_px: 4, miss_area_px: 100,
+     disc_radius_px: 2, island_reach_px: 10, score_mean: 0.8, score_concentration: 5}
 score:
   {unit: frame, threshold: 0.3, min_samples: 4, epsilon_m: 0, tolerances: [0, 2],
    distances_m: [0.03]}

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/classes.hpp"
+#include "core/segmentation/detection.hpp"
+#include "sim/faults/label_dose.hpp"
+
+#include <opencv2/core.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace mapscore::sim {
+
+/// Chance that an instance of so many pixels is missed: min(1, miss) A0 / (A0 + area), A0 =
+/// miss_area_px.
+[[nodiscard]] double miss_chance(const LabelDose& dose, double area_px);
+
+/// The label image (instance ids) as a network would have drawn it. Only instances of detected
+/// classes change; in this order: some are missed; boundaries move by boundary_px and waver by
+/// ragged_px; holes are cut, islands added. A pixel whose true owner is detected and not missed
+/// never goes to another instance: touching masks keep their common border. Pixels that several
+/// would grow into go to the one that reaches farthest beyond them (the nearest, where nothing
+/// wavers), ties to the lower id; islands take what is left, the lower id first. Draws come from
+/// streams (seed, "labels.EFFECT", frame, instance); the draws of one effect depend on no dose.
+/// When keeps_masks(dose) `label` itself is returned. Thread-safe. Throws Error on a bad dose.
+[[nodiscard]] cv::Mat1w corrupt_labels(const cv::Mat1w& label, const ClassTable& table,
+                                       const LabelDose& dose, std::uint64_t seed, int frame);
+
+/// Classes and scores as a network would have given them, in place. A wrong class comes with
+/// 1 - its matrix's diagonal, or min(1, confusion) spread evenly over the other detected classes
+/// (none: the class stays). Of a right class the score is drawn from Beta(a + 1, b), of a wrong one
+/// from Beta(a, b + 1), a = c m, b = c (1 - m), c = score_concentration, m = score_mean or the
+/// chance of a right class; with the latter, P(right | score) = score. What is reported is 1 -
+/// min(1, scores) (1 - score). Streams (seed, "labels.class" or "labels.score", frame, instance).
+/// Throws Error on a bad dose, and when the matrix has not a row for each detected class.
+void corrupt_verdicts(std::vector<Detection>& detections, const ClassTable& table,
+                      const LabelDose& dose, std::uint64_t seed, int frame);
+
+/// detections_of the corrupted label image, with corrupted verdicts.
+[[nodiscard]] std::vector<Detection> corrupt_detections(const cv::Mat1w& label,
+                                                        const ClassTable& table,
+                                                        const LabelDose& dose, std::uint64_t seed,
+                                                        int frame);
+
+}  // namespace mapscore::sim
