@@ -5,8 +5,6 @@
 
 #include "sim/sensors/ray_cast.hpp"
 
-#include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +15,12 @@ namespace {
 constexpr double kHighestFloorM = 0.06, kLowestFloorM = -0.04;
 
 }  // namespace
+
+Obstacle obstacle_of(const DriveModel& drive, const mjContact& contact) {
+  const bool first = drive.role[contact.geom[0]] == GeomRole::scene;
+  return {drive.scene_body[contact.geom[first ? 0 : 1]], contact.pos[0], contact.pos[1],
+          contact.pos[2]};
+}
 
 Clearance::Clearance(const DriveModel& drive)
     : drive_(drive), data_(mj_makeData(drive.probe.get())) {
@@ -41,9 +45,7 @@ std::optional<Obstacle> Clearance::obstacle_at(const PlanarState& place, double 
     if (bumps && (!deepest || contact.dist < deepest->dist)) deepest = &contact;
   }
   if (!deepest) return std::nullopt;
-  const bool first = drive_.role[deepest->geom[0]] == GeomRole::scene;
-  return Obstacle{drive_.scene_body[deepest->geom[first ? 0 : 1]], deepest->pos[0], deepest->pos[1],
-                  deepest->pos[2]};
+  return obstacle_of(drive_, *deepest);
 }
 
 std::optional<double> Clearance::floor_at(const PlanarState& place) {

@@ -6,6 +6,8 @@
 #include "sim/robot/drive_model.hpp"
 #include "sim/robot/waypoint_controller.hpp"
 
+#include <mujoco/mujoco.h>
+
 #include <optional>
 #include <string>
 
@@ -16,6 +18,9 @@ struct Obstacle {
   std::string body;                        ///< of the scene
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;  ///< where it would be touched, in the world
 };
+
+/// The scene's side of a contact with the robot.
+[[nodiscard]] Obstacle obstacle_of(const DriveModel& drive, const mjContact& contact);
 
 /// Where the robot can stand: its bumper, mast and head, wider by the clearance, against the
 /// scene's geoms, and the floor under its wheels. An ideal proximity sensor: it knows exact shapes,

@@ -29,7 +29,7 @@ void DrivePhysics::settle(const PlanarState& start, double floor_m) {
   const std::array<double, 7> pose = {start.x_m, start.y_m, floor_m + kDropM, std::cos(half),
                                       0.0,       0.0,       std::sin(half)};
   std::copy(pose.begin(), pose.end(), data_->qpos + drive_.base_qpos);
-  command({});
+  ramp_steps_ = 0;
   const int steps = static_cast<int>(std::lround(kSettleS / step_s()));
   for (int i = 0; i < steps; ++i) step();
   steps_ = 0;
@@ -38,13 +38,20 @@ void DrivePhysics::settle(const PlanarState& start, double floor_m) {
   for (int side = 0; side < 2; ++side) wheel_zero_rad_[side] = data_->qpos[drive_.wheel_qpos[side]];
 }
 
-void DrivePhysics::command(const VelocityCommand& command) {
+void DrivePhysics::command(const VelocityCommand& command, int steps) {
   const double half_turn = 0.5 * drive_.wheels.track_m * command.omega_radps;
-  data_->ctrl[drive_.wheel_actuator[0]] = (command.v_mps - half_turn) / drive_.wheels.radius_m;
-  data_->ctrl[drive_.wheel_actuator[1]] = (command.v_mps + half_turn) / drive_.wheels.radius_m;
+  const std::array<double, 2> speed_mps = {command.v_mps - half_turn, command.v_mps + half_turn};
+  for (int side = 0; side < 2; ++side) {
+    const double speed_radps = speed_mps[side] / drive_.wheels.radius_m;
+    wheel_step_radps_[side] = (speed_radps - data_->ctrl[drive_.wheel_actuator[side]]) / steps;
+  }
+  ramp_steps_ = steps;
 }
 
 void DrivePhysics::step() {
+  for (int side = 0; side < 2 && ramp_steps_ > 0; ++side)
+    data_->ctrl[drive_.wheel_actuator[side]] += wheel_step_radps_[side];
+  --ramp_steps_;
   mj_step(drive_.model.get(), data_.get());
   ++steps_;
   check_state();
@@ -88,6 +95,18 @@ void DrivePhysics::observe_contacts() {
     airborne_s_[side] = grounded[side] ? 0.0 : airborne_s_[side] + step_s();
     health_.longest_airborne_s = std::max(health_.longest_airborne_s, airborne_s_[side]);
   }
+}
+
+std::optional<Obstacle> DrivePhysics::touched() const {
+  constexpr double kSteepest = 0.9;  // a normal with a larger z belongs to a floor
+  const mjContact* most = nullptr;
+  for (int i = 0; i < data_->ncon; ++i) {
+    const mjContact& contact = data_->contact[i];
+    const double limit = most ? std::abs(most->frame[2]) : kSteepest;
+    if (std::abs(contact.frame[2]) < limit) most = &contact;
+  }
+  if (!most) return std::nullopt;
+  return obstacle_of(drive_, *most);
 }
 
 double DrivePhysics::time_s() const {

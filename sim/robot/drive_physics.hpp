@@ -3,12 +3,13 @@
 
 #pragma once
 
+#include "sim/robot/clearance.hpp"
 #include "sim/robot/drive_model.hpp"
 #include "sim/robot/waypoint_controller.hpp"
 
 #include <array>
 #include <cstddef>
-#include <string>
+#include <optional>
 
 namespace mapscore::sim {
 
@@ -29,8 +30,9 @@ class DrivePhysics {
   /// wheel angles then count from here.
   void settle(const PlanarState& start, double floor_m);
 
-  /// Turns a command of the base into wheel speeds, for the steps that follow.
-  void command(const VelocityCommand& command);
+  /// Turns a command of the base into wheel speeds, which the motors get to evenly over the `steps`
+  /// that follow: a jump would make the wheels spin.
+  void command(const VelocityCommand& command, int steps);
   /// One time step. Throws Error when the state is not finite any more, or the robot tips over or
   /// falls.
   void step();
@@ -40,6 +42,8 @@ class DrivePhysics {
   [[nodiscard]] Pose T_world_base() const;
   [[nodiscard]] PlanarState planar() const;  ///< heading of the x axis, seen from above
   [[nodiscard]] WheelTicks ticks(int ticks_per_turn) const;
+  /// What the robot touches most from the side, with any part; nothing where it only stands.
+  [[nodiscard]] std::optional<Obstacle> touched() const;
   [[nodiscard]] const DriveHealth& health() const { return health_; }
 
  private:
@@ -50,6 +54,8 @@ class DrivePhysics {
   DataPtr data_;
   std::size_t steps_ = 0;
   std::array<double, 2> wheel_zero_rad_{}, airborne_s_{};
+  std::array<double, 2> wheel_step_radps_{};  ///< change of the wheels' speed with each step
+  int ramp_steps_ = 0;                        ///< for which it goes on
   DriveHealth health_;
 };
 

@@ -58,7 +58,8 @@ class Patience {
   Patience(const std::vector<Drive::Waypoint>& waypoints, const ControllerParams& params)
       : waypoints_(waypoints), params_(params) {}
 
-  void observe(double time_s, std::size_t target, const PlanarState& robot) {
+  /// True when it is time to give up.
+  bool lost(double time_s, std::size_t target, const PlanarState& robot) {
     if (target != target_) start(time_s, target);
     const bool moved = std::hypot(robot.x_m - last_.x_m, robot.y_m - last_.y_m) > kStuckM ||
                        turn_between(last_.yaw_rad, robot.yaw_rad) > kStuckRad;
@@ -66,11 +67,7 @@ class Patience {
       last_ = robot;
       last_s_ = time_s;
     }
-    if (time_s - last_s_ > kStuckS || time_s > limit_s_)
-      throw Error(
-          fmt::format("trajectory: {} cannot be reached: the robot is stuck at ({:.2f}, "
-                      "{:.2f} m) on something lower than its bumper; lead it around",
-                      waypoint_text(waypoints_, target), robot.x_m, robot.y_m));
+    return time_s - last_s_ > kStuckS || time_s > limit_s_;
   }
 
  private:
@@ -112,8 +109,8 @@ class DriveRun {
       advance(controller_.command(physics_.planar(), control_s()));
       if (const auto obstacle = ahead()) stop_before(*obstacle);
       if (controller_.target() != target) arrive(target, progress);
-      if (!controller_.done())
-        patience_.observe(physics_.time_s(), controller_.target(), physics_.planar());
+      if (!controller_.done() && patience_.lost(physics_.time_s(), controller_.target(), place_))
+        give_up();
     }
     log_.end_s = physics_.time_s();
     const double rest_s = log_.end_s + kRestS;
@@ -137,7 +134,7 @@ class DriveRun {
 
   void advance(const VelocityCommand& command) {
     command_ = command;
-    physics_.command(command);
+    physics_.command(command, steps_);
     for (int i = 0; i < steps_; ++i) physics_.step();
     const PlanarState before = place_;
     place_ = physics_.planar();
@@ -171,6 +168,15 @@ class DriveRun {
     refuse_blocked(waypoints_, controller_.target(), obstacle,
                    physics_.health().bump_contacts == 0 ? "made the robot stop, standing"
                                                         : "was touched, standing");
+  }
+
+  [[noreturn]] void give_up() {
+    const auto touched = physics_.touched();
+    if (touched) refuse_blocked(waypoints_, controller_.target(), *touched, "holds the robot up");
+    throw Error(
+        fmt::format("trajectory: {} cannot be reached: the robot is stuck at ({:.2f}, {:.2f} m); "
+                    "lead it around",
+                    waypoint_text(waypoints_, controller_.target()), place_.x_m, place_.y_m));
   }
 
   void arrive(std::size_t waypoint, const std::function<void(std::size_t, std::size_t)>& progress) {
