@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "sim/robot/waypoint_controller.hpp"
+
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mapscore::sim {
+namespace {
+
+constexpr double kShortestLegM = 0.02;
+constexpr double kBrakingShare = 0.8;      ///< of the acceleration; the rest is for the lag
+constexpr double kCreepMps = 0.01;         ///< slowest speed that still moves
+constexpr double kCreepRadps = 0.02;       ///< slowest turn that still moves
+constexpr double kStoppedRadps = 0.05;     ///< a turn has ended
+constexpr double kSteepestApproach = 0.6;  ///< rad, towards a leg that the robot is off
+
+void check(const ControllerParams& p) {
+  const auto positive = [](double value, const char* name) {
+    if (!(value > 0) || !std::isfinite(value))
+      throw Error(fmt::format("drive: {} must be above 0", name));
+  };
+  positive(p.speed_mps, "speed_mps");
+  positive(p.turn_rate_radps, "turn_rate");
+  positive(p.acceleration_mps2, "acceleration_mps2");
+  positive(p.turn_acceleration_radps2, "turn_acceleration");
+  positive(p.lookahead_m, "lookahead_m");
+  positive(p.heading_gain_per_s, "heading_gain_per_s");
+  positive(p.position_tolerance_m, "position_tolerance_m");
+  positive(p.yaw_tolerance_rad, "yaw_tolerance");
+}
+
+double wrapped(double angle_rad) {
+  return std::remainder(angle_rad, 2.0 * M_PI);
+}
+
+/// Fastest rate from which `error` can still be braked out.
+double braking_rate(double error, double limit, double acceleration, double creep) {
+  const double rate = std::sqrt(2.0 * kBrakingShare * acceleration * std::abs(error));
+  return std::copysign(std::clamp(rate, creep, std::max(creep, limit)), error);
+}
+
+}  // namespace
+
+WaypointController::WaypointController(std::vector<Drive::Waypoint> waypoints,
+                                       const ControllerParams& params)
+    : waypoints_(std::move(waypoints)), params_(params) {
+  check(params);
+  start_leg(1);
+}
+
+void WaypointController::start_leg(std::size_t target) {
+  target_ = target;
+  if (done()) return;
+  const Drive::Waypoint &from = waypoints_[target - 1], &to = waypoints_[target];
+  const double dx = to.x_m - from.x_m, dy = to.y_m - from.y_m;
+  phase_ = std::hypot(dx, dy) < kShortestLegM ? Phase::align : Phase::face;
+  leg_yaw_rad_ = std::atan2(dy, dx);
+}
+
+double WaypointController::turn_towards(double yaw_rad, const PlanarState& robot, Phase next) {
+  const double error = wrapped(yaw_rad - robot.yaw_rad);
+  if (std::abs(error) > params_.yaw_tolerance_rad || std::abs(command_.omega_radps) > kStoppedRadps)
+    return braking_rate(error, params_.turn_rate_radps, params_.turn_acceleration_radps2,
+                        kCreepRadps);
+  if (phase_ == Phase::align) {
+    start_leg(target_ + 1);
+  } else {
+    phase_ = next;
+  }
+  return 0.0;
+}
+
+VelocityCommand WaypointController::follow(const PlanarState& robot) {
+  const Drive::Waypoint& to = waypoints_[target_];
+  const double c = std::cos(leg_yaw_rad_), s = std::sin(leg_yaw_rad_);
+  const double dx = to.x_m - robot.x_m, dy = to.y_m - robot.y_m;
+  const double left_m = dx * c + dy * s, offset_m = dx * s - dy * c;
+  if (left_m < params_.position_tolerance_m) {
+    if (std::abs(command_.v_mps) <= kCreepMps) phase_ = Phase::align;
+    return {};
+  }
+  const double approach =
+      std::clamp(std::atan(offset_m / params_.lookahead_m), -kSteepestApproach, kSteepestApproach);
+  const double omega =
+      params_.heading_gain_per_s * wrapped(leg_yaw_rad_ - approach - robot.yaw_rad);
+  return {braking_rate(left_m, params_.speed_mps, params_.acceleration_mps2, kCreepMps),
+          std::clamp(omega, -params_.turn_rate_radps, params_.turn_rate_radps)};
+}
+
+VelocityCommand WaypointController::wanted(const PlanarState& robot) {
+  if (done()) return {};
+  if (phase_ == Phase::face) return {0.0, turn_towards(leg_yaw_rad_, robot, Phase::follow)};
+  if (phase_ == Phase::follow) return follow(robot);
+  return {0.0, turn_towards(waypoints_[target_].yaw_rad, robot, Phase::face)};
+}
+
+VelocityCommand WaypointController::slewed(const VelocityCommand& wanted, double step_s) {
+  const double dv = params_.acceleration_mps2 * step_s;
+  const double dw = params_.turn_acceleration_radps2 * step_s;
+  command_.v_mps += std::clamp(wanted.v_mps - command_.v_mps, -dv, dv);
+  command_.omega_radps += std::clamp(wanted.omega_radps - command_.omega_radps, -dw, dw);
+  return command_;
+}
+
+VelocityCommand WaypointController::command(const PlanarState& robot, double step_s) {
+  return slewed(wanted(robot), step_s);
+}
+
+VelocityCommand WaypointController::brake(double step_s) {
+  return slewed({}, step_s);
+}
+
+}  // namespace mapscore::sim

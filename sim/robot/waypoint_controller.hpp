@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "sim/recorder.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace mapscore::sim {
+
+/// What a differential drive is told: forwards and counter-clockwise positive.
+struct VelocityCommand {
+  double v_mps = 0.0, omega_radps = 0.0;
+};
+
+/// Position and heading on the floor, of base_footprint in the world.
+struct PlanarState {
+  double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
+};
+
+/// Limits and gains of the controller. Tolerances are where it takes a target for reached.
+struct ControllerParams {
+  double speed_mps = 0.4, turn_rate_radps = 0.7;
+  double acceleration_mps2 = 0.5, turn_acceleration_radps2 = 1.5;
+  double lookahead_m = 0.3;  ///< an offset e from the leg is steered against by atan(e / lookahead)
+  double heading_gain_per_s = 3.0;
+  double position_tolerance_m = 0.003, yaw_tolerance_rad = 0.003;
+};
+
+/// Drives from waypoint to waypoint: turn on the spot to face the next one, follow the straight leg
+/// to it, turn on the spot to its heading. Legs shorter than 2 cm are turned through, not driven.
+///
+///   speed on a leg      min(speed, sqrt(2 b s)), s the way left, b = 0.8 acceleration
+///   turn on a leg       gain * (leg's heading - atan(e / lookahead) - yaw), e the offset to the
+///   left turn on the spot    min(turn rate, sqrt(2 b |error|)) towards it, the short way, b
+///   likewise
+///
+/// Commands change by at most the accelerations allow.
+class WaypointController {
+ public:
+  /// The robot stands at the first waypoint. Throws Error when a parameter is not above 0.
+  WaypointController(std::vector<Drive::Waypoint> waypoints, const ControllerParams& params);
+
+  /// The next command, `step_s` after the last one.
+  [[nodiscard]] VelocityCommand command(const PlanarState& robot, double step_s);
+  /// Slows down to a stop whatever the waypoints say.
+  [[nodiscard]] VelocityCommand brake(double step_s);
+
+  [[nodiscard]] bool done() const { return target_ >= waypoints_.size(); }
+  /// Index of the waypoint that is driven to; those below are reached.
+  [[nodiscard]] std::size_t target() const { return target_; }
+
+ private:
+  enum class Phase { face, follow, align };
+
+  VelocityCommand wanted(const PlanarState& robot);
+  double turn_towards(double yaw_rad, const PlanarState& robot, Phase next);
+  VelocityCommand follow(const PlanarState& robot);
+  VelocityCommand slewed(const VelocityCommand& wanted, double step_s);
+  void start_leg(std::size_t target);
+
+  std::vector<Drive::Waypoint> waypoints_;
+  ControllerParams params_;
+  std::size_t target_ = 0;
+  Phase phase_ = Phase::face;
+  double leg_yaw_rad_ = 0.0;
+  VelocityCommand command_;
+};
+
+}  // namespace mapscore::sim
