@@ -28,7 +28,14 @@ double inverse_slope(const DepthAt& z, int at, int count, const StepRule& rule) 
   };
   const int before = side(-1), after = side(1);
   if (before == after) return 0.0;
-  return (1.0 / z(at + after) - 1.0 / z(at + before)) / (after - before);
+  const auto slope = [&](int from, int to) {
+    return (1.0 / z(at + to) - 1.0 / z(at + from)) / (to - from);
+  };
+  if (before == 0 || after == 0) return slope(before, after);
+  const double left = slope(before, 0), right = slope(0, after);
+  const bool agree = std::abs(left - right) <= 0.5 * std::max(std::abs(left), std::abs(right));
+  if (agree) return slope(before, after);
+  return std::abs(left) < std::abs(right) ? left : right;
 }
 
 }  // namespace

@@ -25,8 +25,9 @@ struct StepRule {
 
 /// Angle between each pixel's ray and the normal of its surface, radians in [0, pi/2); 0 where
 /// there is no depth. On a plane 1/z is linear in the pixel, so that slopes of 1/z over two pixels
-/// to both sides (one side, one pixel, or none at depth edges) give the normal exactly, but for the
-/// depth's resolution.
+/// to both sides (one pixel, one side or none at depth edges) give the normal exactly, but for the
+/// depth's resolution. Sides that differ by more than half of the steeper (an edge too low to be a
+/// step, a crease) give the flatter.
 [[nodiscard]] cv::Mat1f incidence_angles(const cv::Mat1d& z_m, const CameraModel& camera);
 
 }  // namespace mapscore::sim
