@@ -17,7 +17,8 @@ namespace mapscore::sim {
 struct StepRule {
   double limit;
   explicit StepRule(const CameraModel& camera);
-  /// Between two pixels that both have a depth, `apart` pixels from each other.
+  /// Between two pixels that both have a depth, `apart` pixels from each other. Inverse depths may
+  /// stand in place of depths: the answer is the same.
   [[nodiscard]] bool is_step(double z1_m, double z2_m, int apart = 1) const {
     return (z1_m < z2_m ? z2_m - z1_m : z1_m - z2_m) > apart * limit * (z1_m < z2_m ? z1_m : z2_m);
   }
