@@ -17,7 +17,8 @@ namespace mapscore::sim {
 struct StepRule {
   double limit;
   explicit StepRule(const CameraModel& camera);
-  /// Between two pixels that both have a depth, `apart` pixels from each other.
+  /// Between two pixels that both have a depth, `apart` pixels from each other. Inverse depths may
+  /// stand in place of depths: the answer is the same.
   [[nodiscard]] bool is_step(double z1_m, double z2_m, int apart = 1) const {
     return (z1_m < z2_m ? z2_m - z1_m : z1_m - z2_m) > apart * limit * (z1_m < z2_m ? z1_m : z2_m);
   }
@@ -25,8 +26,9 @@ struct StepRule {
 
 /// Angle between each pixel's ray and the normal of its surface, radians in [0, pi/2); 0 where
 /// there is no depth. On a plane 1/z is linear in the pixel, so that slopes of 1/z over two pixels
-/// to both sides (one side, one pixel, or none at depth edges) give the normal exactly, but for the
-/// depth's resolution.
+/// to both sides (one pixel, one side or none at depth edges) give the normal exactly, but for the
+/// depth's resolution. Sides that differ by more than half of the steeper (an edge too low to be a
+/// step, a crease) give the flatter.
 [[nodiscard]] cv::Mat1f incidence_angles(const cv::Mat1d& z_m, const CameraModel& camera);
 
 }  // namespace mapscore::sim

@@ -127,7 +127,9 @@ cv::Mat1w corrupt_depth(const cv::Mat1w& depth, const CameraModel& camera, const
     return RandomStream(seed, purpose, {static_cast<std::uint64_t>(frame)});
   };
   const cv::Mat1d noise_free_m = metres_of(depth);
-  Seen seen{noise_free_m.clone(), incidence_angles(noise_free_m, camera)};
+  const bool needs_angles = dose.grazing > 0.0 || dose.lateral > 0.0 || dose.axial > 0.0;
+  Seen seen{noise_free_m.clone(),
+            needs_angles ? incidence_angles(noise_free_m, camera) : cv::Mat1f(depth.size(), 0.0F)};
   if (dose.shadow > 0.0)
     seen.z_m.setTo(0.0, projector_shadow(noise_free_m, camera, dose.shadow * dose.baseline_m));
   if (dose.grazing > 0.0) drop_grazing(seen.z_m, seen.incidence_rad, dose, stream("depth.grazing"));

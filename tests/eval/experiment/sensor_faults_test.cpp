@@ -74,12 +74,19 @@ TEST_F(SensorFaults, EveryDoseChangesTheCounts) {
   const Counts plain = result(task("")).counts;
   for (const char* fault :
        {"depth: {axial: 3}", "depth: {lateral: 1}", "depth: {quantisation: 10}",
-        "depth: {grazing: 1, grazing_from_deg: 5, grazing_to_deg: 30}", "depth: {shadow: 3}",
-        "depth: {flying: 5}", "depth: {range: 1, range_max_m: 2.1}", "depth: {preset: astra}",
-        "labels: {boundary_px: 2}", "labels: {boundary_px: -2}", "labels: {ragged_px: 2}",
+        "depth: {grazing: 1, grazing_from_deg: 5, grazing_to_deg: 30}", "depth: {flying: 5}",
+        "depth: {range: 1, range_min_m: 7}", "depth: {preset: astra}", "labels: {boundary_px: 2}",
+        "labels: {boundary_px: -2}", "labels: {ragged_px: 2}",
         "labels: {miss: 1, miss_area_px: 100000}", "labels: {scores: 1, score_mean: 0.5}",
         "labels: {holes: 0.3, disc_radius_px: 1}", "labels: {islands: 0.5, disc_radius_px: 1}"})
     EXPECT_NE(result(task(fault)).counts, plain) << fault;
+}
+
+TEST_F(SensorFaults, TheShadowTakesTheWallBesideTheCrate) {
+  const Counts grown = result(task("labels: {boundary_px: 4}")).counts;
+  const Counts shadowed = result(task("labels: {boundary_px: 4}, depth: {shadow: 3}")).counts;
+  EXPECT_LT(shadowed.at(1).false_leak, grown.at(1).false_leak);
+  EXPECT_EQ(shadowed.at(1).true_predicted, grown.at(1).true_predicted);
 }
 
 TEST_F(SensorFaults, ConfusedClassesComeIntoTheMap) {

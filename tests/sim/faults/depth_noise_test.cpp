@@ -118,16 +118,17 @@ class LateralNoise : public ::testing::TestWithParam<double> {};
 
 TEST_P(LateralNoise, BlursAnEdgeByThePublishedSpread) {
   const double dose = GetParam(), sigma_px = dose * 0.8;
-  const cv::Mat1w depth = plate_before_wall(kCamera, 320, 640, 1.0, 2.0);
+  const CameraModel camera = CameraModel::from_hfov(64, 480, radians(6));
+  const cv::Mat1w depth = plate_before_wall(camera, 32, 64, 1.0, 2.0);
   // Share of rows in which the pixel `beyond` the edge shows the other side.
   std::vector<double> crossed(8, 0.0);
   constexpr int kFrames = 60;
   for (int frame = 0; frame < kFrames; ++frame) {
-    const cv::Mat1w noisy = corrupt_depth(depth, kCamera, {.lateral = dose}, 5, frame);
+    const cv::Mat1w noisy = corrupt_depth(depth, camera, {.lateral = dose}, 5, frame);
     for (int v = 0; v < depth.rows; ++v)
       for (int beyond = 0; beyond < 8; ++beyond)
         crossed[static_cast<std::size_t>(beyond)] +=
-            (noisy(v, 319 - beyond) == 5000) + (noisy(v, 320 + beyond) == 10000);
+            (noisy(v, 31 - beyond) == 5000) + (noisy(v, 32 + beyond) == 10000);
   }
   double sum = 0.0, expected = 0.0;
   for (int beyond = 0; beyond < 8; ++beyond) {
@@ -246,6 +247,13 @@ TEST(DepthGeometry, AnglesOfAPlane) {
         ASSERT_NEAR(angles(v, u), plane.incidence_rad(kCamera, u, v), radians(2.5))
             << tilt_deg << " at " << u << ", " << v;
   }
+}
+
+TEST(DepthGeometry, ALowStepIsNoSteepSurface) {
+  const cv::Mat1w depth = plate_before_wall(kCamera, 200, 400, 2.0, 2.03);
+  const cv::Mat1f angles = incidence_angles(metres_of(depth), kCamera);
+  for (const int u : {198, 199, 200, 201, 398, 399, 400, 401})
+    EXPECT_NEAR(angles(240, u), std::atan(std::abs(u - 319.5) / kCamera.fx_px), 1e-3) << u;
 }
 
 TEST(DepthGeometry, AnglesBesideAnEdgeAreThoseOfTheirOwnSide) {
