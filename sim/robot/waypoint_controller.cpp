@@ -33,6 +33,7 @@ void check(const ControllerParams& p) {
   positive(p.heading_gain_per_s, "heading_gain_per_s");
   positive(p.position_tolerance_m, "position_tolerance_m");
   positive(p.yaw_tolerance_rad, "yaw_tolerance");
+  positive(p.arrival_tolerance_m, "arrival_tolerance_m");
 }
 
 double wrapped(double angle_rad) {
@@ -56,22 +57,31 @@ WaypointController::WaypointController(std::vector<Drive::Waypoint> waypoints,
 
 void WaypointController::start_leg(std::size_t target) {
   target_ = target;
-  if (done()) return;
-  const Drive::Waypoint &from = waypoints_[target - 1], &to = waypoints_[target];
-  const double dx = to.x_m - from.x_m, dy = to.y_m - from.y_m;
+  if (!done()) face_target(waypoints_[target - 1].x_m, waypoints_[target - 1].y_m);
+}
+
+void WaypointController::face_target(double x_m, double y_m) {
+  const double dx = waypoints_[target_].x_m - x_m, dy = waypoints_[target_].y_m - y_m;
   phase_ = std::hypot(dx, dy) < kShortestLegM ? Phase::align : Phase::face;
   leg_yaw_rad_ = std::atan2(dy, dx);
 }
 
-double WaypointController::turn_towards(double yaw_rad, const PlanarState& robot, Phase next) {
+bool WaypointController::at_target(const PlanarState& robot) const {
+  const Drive::Waypoint& to = waypoints_[target_];
+  return std::hypot(to.x_m - robot.x_m, to.y_m - robot.y_m) <= params_.arrival_tolerance_m;
+}
+
+double WaypointController::turn_towards(double yaw_rad, const PlanarState& robot) {
   const double error = wrapped(yaw_rad - robot.yaw_rad);
   if (std::abs(error) > params_.yaw_tolerance_rad || std::abs(command_.omega_radps) > kStoppedRadps)
     return braking_rate(error, params_.turn_rate_radps, params_.turn_acceleration_radps2,
                         kCreepRadps);
-  if (phase_ == Phase::align) {
+  if (phase_ == Phase::face) {
+    phase_ = Phase::follow;
+  } else if (at_target(robot)) {
     start_leg(target_ + 1);
   } else {
-    phase_ = next;
+    face_target(robot.x_m, robot.y_m);
   }
   return 0.0;
 }
@@ -82,7 +92,9 @@ VelocityCommand WaypointController::follow(const PlanarState& robot) {
   const double dx = to.x_m - robot.x_m, dy = to.y_m - robot.y_m;
   const double left_m = dx * c + dy * s, offset_m = dx * s - dy * c;
   if (left_m < params_.position_tolerance_m) {
-    if (std::abs(command_.v_mps) <= kCreepMps) phase_ = Phase::align;
+    if (std::abs(command_.v_mps) > kCreepMps) return {};
+    phase_ = Phase::align;
+    if (!at_target(robot)) face_target(robot.x_m, robot.y_m);
     return {};
   }
   const double approach =
@@ -95,9 +107,9 @@ VelocityCommand WaypointController::follow(const PlanarState& robot) {
 
 VelocityCommand WaypointController::wanted(const PlanarState& robot) {
   if (done()) return {};
-  if (phase_ == Phase::face) return {0.0, turn_towards(leg_yaw_rad_, robot, Phase::follow)};
+  if (phase_ == Phase::face) return {0.0, turn_towards(leg_yaw_rad_, robot)};
   if (phase_ == Phase::follow) return follow(robot);
-  return {0.0, turn_towards(waypoints_[target_].yaw_rad, robot, Phase::face)};
+  return {0.0, turn_towards(waypoints_[target_].yaw_rad, robot)};
 }
 
 VelocityCommand WaypointController::slewed(const VelocityCommand& wanted, double step_s) {

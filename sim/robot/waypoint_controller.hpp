@@ -27,10 +27,12 @@ struct ControllerParams {
   double lookahead_m = 0.3;  ///< an offset e from the leg is steered against by atan(e / lookahead)
   double heading_gain_per_s = 3.0;
   double position_tolerance_m = 0.003, yaw_tolerance_rad = 0.003;
+  double arrival_tolerance_m = 0.04;  ///< farther off a waypoint it is driven to once more
 };
 
 /// Drives from waypoint to waypoint: turn on the spot to face the next one, follow the straight leg
 /// to it, turn on the spot to its heading. Legs shorter than 2 cm are turned through, not driven.
+/// A robot that slipped or was pushed off sets out anew from where it is.
 ///
 ///   speed on a leg      min(speed, sqrt(2 b s)), s the way left, b = 0.8 acceleration
 ///   turn on a leg       gain * (leg's heading - atan(e / lookahead) - yaw), e the offset to the
@@ -56,10 +58,12 @@ class WaypointController {
   enum class Phase { face, follow, align };
 
   VelocityCommand wanted(const PlanarState& robot);
-  double turn_towards(double yaw_rad, const PlanarState& robot, Phase next);
+  double turn_towards(double yaw_rad, const PlanarState& robot);
   VelocityCommand follow(const PlanarState& robot);
   VelocityCommand slewed(const VelocityCommand& wanted, double step_s);
   void start_leg(std::size_t target);
+  void face_target(double x_m, double y_m);
+  bool at_target(const PlanarState& robot) const;
 
   std::vector<Drive::Waypoint> waypoints_;
   ControllerParams params_;

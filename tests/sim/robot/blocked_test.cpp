@@ -69,12 +69,12 @@ TEST(BlockedDrive, NoFloorIsRefused) {
               AllOf(HasSubstr("drive: the robot"), HasSubstr("move the waypoints away")));
 }
 
-// Lower than the bumper, higher than the casters can climb.
+// Lower than the bumper, and its casters cannot climb it sideways.
 TEST(BlockedDrive, ASillThatHoldsTheRobotUpIsNamed) {
   const World world = floor_world(
-      "<body name='sill_1'><geom type='box' pos='0.3 0 0.012' size='0.05 2 0.012'/></body>");
-  EXPECT_THAT(refusal(world, drive_along({{0, 0, 0}, {2, 0, 0}})),
-              AllOf(HasSubstr("waypoint 2"), HasSubstr("`sill_1` holds the robot up at (0.2")));
+      "<body name='sill_1'><geom type='box' pos='1 0 0.0095' size='0.05 2 0.0095'/></body>");
+  EXPECT_THAT(refusal(world, drive_along({{0, 0, 0}, {1, 0, 0}, {1, 0, 1.5}})),
+              AllOf(HasSubstr("waypoint 3"), HasSubstr("`sill_1` holds the robot up at (0.9")));
 }
 
 TEST(BlockedDrive, RobotsThatCannotDriveAreRefused) {

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/pose.hpp"
+#include "sim/world/world.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace mapscore::sim {
+
+/// A planar lidar that turns once around. Beam n points along first_angle_rad + n 2 pi / beams in
+/// the lidar's frame, x forward, counter-clockwise.
+struct LidarSettings {
+  int beams = 360;
+  double first_angle_rad = -3.14159265358979323846;
+  double range_min_m = 0.15, range_max_m = 12.0;
+  std::optional<Pose> T_base_lidar;  ///< default: the robot's site `lidar`
+};
+
+/// One turn: a range a beam, metres. Infinity: nothing within range_max_m. 0: no measurement, as of
+/// anything nearer than range_min_m.
+using LidarRanges = std::vector<float>;
+
+/// Casts rays against the exact surfaces that the renderer draws, at the pose of loading: solid
+/// geoms of groups 0 to 2, glass where its class is opaque, planes from their front alone; never
+/// the robot. Round shapes are exact, not faceted. Immutable and safe to share between threads.
+class Lidar {
+ public:
+  /// Throws Error when a setting is out of range, or the robot has no site `lidar` and no pose is
+  /// given.
+  explicit Lidar(const World& world, const LidarSettings& settings = {});
+
+  [[nodiscard]] const LidarSettings& settings() const { return settings_; }
+  [[nodiscard]] const Pose& T_base_lidar() const { return T_base_lidar_; }
+  [[nodiscard]] double angle_step_rad() const;
+
+  /// One turn at a pose of the base, without noise, all beams from one place. A tilted base tilts
+  /// the lidar's plane.
+  [[nodiscard]] LidarRanges scan(const Pose& T_world_base) const;
+  /// One turn at each pose; the same bytes for any number of `jobs`. Throws Error when jobs < 1.
+  [[nodiscard]] std::vector<LidarRanges> scans(const std::vector<Pose>& T_world_base,
+                                               int jobs) const;
+
+ private:
+  struct Target;
+  class Caster;
+
+  LidarSettings settings_;
+  Pose T_base_lidar_ = Pose::Identity();
+  std::vector<double> directions_;  ///< beams x 3, in the lidar's frame
+  std::shared_ptr<const Target> target_;
+};
+
+}  // namespace mapscore::sim
