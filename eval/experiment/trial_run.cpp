@@ -142,7 +142,7 @@ Observation TrialRun::observe(const Frame& frame, Counts& counts) {
   const std::vector<Detection> detections =
       sim::corrupt_detections(frame.label, table_, label_dose_, seed, frame.index);
   const cv::Mat1w depth =
-      sim::corrupt_depth(frame.depth, true_.depth, depth_dose_, seed, frame.index);
+      sim::corrupt_depth(frame.depth, true_.depth, depth_dose_, seed, frame.depth_index);
   const RegisteredCloud cloud = register_depth(
       depth, believed_, pixels_wanted(detections, frame.label.cols, frame.label.rows));
   const std::vector<Eigen::AlignedBox3d>& true_boxes = boxes_.of(frame);
