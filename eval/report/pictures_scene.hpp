@@ -23,7 +23,7 @@ class ScenePainter {
   /// The scene of a study, or, where it names none, or it is not there or not the one of the
   /// recording any more, the surfaces of the recording.
   ScenePainter(const Study& study, const Recording& recording);
-  /// An MJCF file, with the class file and the robot beside it. Throws Error when it is refused.
+  /// An MJCF file, with the class file beside it. Throws Error when it is refused.
   explicit ScenePainter(const std::filesystem::path& scene);
   /// The exact surfaces of a recording, in the muted colours of their classes. Throws Error when it
   /// has none.
@@ -35,6 +35,9 @@ class ScenePainter {
 
   /// The scene, pale, with the cubes in it. Throws Error when the view cannot be drawn.
   [[nodiscard]] cv::Mat3b paint(sim::View view, std::span<const sim::Cube> cubes);
+
+  /// The scene with everything in the colour of its class, what no class claims grey.
+  [[nodiscard]] cv::Mat3b paint_classes(sim::View view);
 
  private:
   struct State;
