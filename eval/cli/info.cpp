@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "eval/cli/info_scene.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/study_recording.hpp"
@@ -23,30 +24,6 @@ namespace mapscore::eval {
 namespace {
 
 namespace fs = std::filesystem;
-
-void print_classes(const ClassTable& table) {
-  std::cout << fmt::format("{:>4}  {:<16} {:<8} {:<7} {}\n", "id", "class", "colour", "detect",
-                           "instances");
-  for (const SemanticClass& c : table.classes) {
-    int instances = 0;
-    for (const Instance& instance : table.instances)
-      instances += instance.id != 0 && instance.class_id == c.id ? 1 : 0;
-    std::cout << fmt::format("{:>4}  {:<16} {:02X}{:02X}{:02X}   {:<7} {}\n", c.id, c.name,
-                             c.colour.r, c.colour.g, c.colour.b, c.detect ? "yes" : "no",
-                             instances);
-  }
-}
-
-void print_scene(const fs::path& file) {
-  const SceneSurfaces scene = surfaces_of_scene(file);
-  std::cout << fmt::format("{}: scene of {} drawn surfaces\n", file.string(), scene.shapes.size());
-  std::map<std::string, int> kinds;
-  for (const Shape& shape : scene.shapes) ++kinds[name_of(shape.kind)];
-  for (const auto& [kind, count] : kinds) std::cout << fmt::format("  {:<10} {}\n", kind, count);
-  for (const std::string& body : scene.unmatched_bodies)
-    std::cout << fmt::format("  no class matches body '{}'\n", body);
-  print_classes(scene.table);
-}
 
 void print_recording(const fs::path& folder) {
   const Recording recording = Recording::open(folder);
@@ -111,9 +88,10 @@ void print_map(const fs::path& file) {
     std::cout << fmt::format("  and {} labels more\n", labels.size() - kLabels);
 }
 
-void info(const fs::path& file) {
+void info(const fs::path& file, const SceneInfoFlags& flags) {
   if (!fs::exists(file)) throw Error(file.string() + ": there is no such file or folder");
-  if (file.extension() == ".xml") return print_scene(file);
+  if (file.extension() == ".xml") return info_of_scene(file, flags);
+  if (flags.any()) throw Error(file.string() + ": not a scene (.xml), so no flag applies");
   if (has_ending_of_a_map(file)) return print_map(file);
   if (fs::exists(file / "recording.yaml")) return print_recording(file);
   if (fs::exists(store_file(file)) && store_file(file).extension() == ".sqlite")
@@ -129,13 +107,21 @@ void info(const fs::path& file) {
 void add_info(CLI::App& program) {
   auto* verb = program.add_subcommand("info", "What is this scene, recording, map or store");
   const auto file = std::make_shared<std::string>();
+  const auto flags = std::make_shared<SceneInfoFlags>();
   verb->add_option("FILE", *file, "Scene, recording, map or results")->required();
+  verb->add_option("--picture", flags->picture,
+                   "Of a scene: where its picture by class goes [STEM.classes.png beside it]");
+  verb->add_flag("--no-picture", flags->no_picture, "Of a scene: draw none");
+  verb->add_flag("--suggest-classes", flags->suggest_classes,
+                 "Of a scene: print a first class file, made of its bodies' names");
+  verb->add_option("-o,--output", flags->output, "Write the suggestion here; must not exist");
   verb->footer(
       "Examples:\n"
-      "  mapscore info scenes/apartment.xml\n"
+      "  mapscore info scenes/apartment.xml --picture apartment.png\n"
+      "  mapscore info kitchen.xml --suggest-classes -o kitchen.classes.yaml\n"
       "  mapscore info map.pcd\n"
       "  mapscore info results/demo");
-  verb->callback([file] { info(*file); });
+  verb->callback([file, flags] { info(*file, *flags); });
 }
 
 }  // namespace mapscore::eval

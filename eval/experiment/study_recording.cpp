@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/experiment/folder_lock.hpp"
+#include "eval/experiment/own_robot.hpp"
 #include "eval/recording/stamp_list.hpp"
 
 #ifdef MAPSCORE_SIMULATOR
@@ -132,6 +133,10 @@ std::string recording_name(const Study& study, const sim::World& world) {
 
 }  // namespace
 
+sim::World world_of_scene(const std::filesystem::path& scene) {
+  return sim::World::load({scene, std::nullopt, {}}, {});
+}
+
 sim::World world_of(const Study& study) {
   sim::WorldFiles files;
   files.scene = resolve_path(study, study.scene.value());
@@ -167,7 +172,7 @@ Recording recording_of(const Study& study, const std::filesystem::path& results,
 }
 
 SceneSurfaces surfaces_of_scene(const std::filesystem::path& scene) {
-  const sim::World world = world_of(study_of_scene(scene, {}));
+  const sim::World world = world_of_scene(scene);
   return {world.classes(), world.shapes(), world.unmatched_bodies()};
 }
 
@@ -182,6 +187,10 @@ namespace {
 }
 
 }  // namespace
+
+sim::World world_of_scene(const std::filesystem::path&) {
+  refuse();
+}
 
 sim::World world_of(const Study&) {
   refuse();
@@ -216,6 +225,8 @@ Study study_of_scene(const std::filesystem::path& scene,
       throw Error("--set " + override + ": must be path=value, e.g. cameras.width_px=320");
     set_leaf(study, override.substr(0, equals), override.substr(equals + 1));
   }
+  if (const auto own = own_robot(); own && !study.robot && !names_base_footprint(robot_path(study)))
+    study.robot = own->string();
   return study;
 }
 

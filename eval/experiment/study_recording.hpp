@@ -20,6 +20,9 @@ using FrameProgress = std::function<void(int done, int total)>;
 /// the scene is refused.
 [[nodiscard]] sim::World world_of(const Study& study);
 
+/// A scene by itself, with the class file beside it and without a robot. Throws Error as world_of.
+[[nodiscard]] sim::World world_of_scene(const std::filesystem::path& scene);
+
 /// Renders the drive of a study and writes it as a recording. A `trajectory` file (TUM lines: poses
 /// of the colour camera's optical frame in the world) takes the place of the drive. Throws Error
 /// when the program was built without the simulator, the scene is refused, or the folder exists or
@@ -27,7 +30,8 @@ using FrameProgress = std::function<void(int done, int total)>;
 void record_study(const Study& study, const std::filesystem::path& folder, int jobs,
                   const FrameProgress& progress, const std::filesystem::path& trajectory = {});
 
-/// A study of nothing but a scene, to record it along given poses.
+/// A study of nothing but a scene, to record it along given poses. Where no robot.xml with a body
+/// `base_footprint` lies beside the scene and the overrides name no robot, it is the program's own.
 [[nodiscard]] Study study_of_scene(const std::filesystem::path& scene,
                                    const std::vector<std::string>& overrides);
 

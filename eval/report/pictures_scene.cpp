@@ -55,7 +55,7 @@ ScenePainter::ScenePainter(const Study& study, const Recording& recording,
 }
 
 ScenePainter::ScenePainter(const std::filesystem::path& scene)
-    : state_(std::make_unique<State>(world_of(study_of_scene(scene, {})))) {}
+    : state_(std::make_unique<State>(world_of_scene(scene))) {}
 
 ScenePainter::ScenePainter(const Recording& recording)
     : ScenePainter(shapes_at(recording, std::nullopt), recording.info().table) {}
@@ -68,6 +68,11 @@ cv::Mat3b ScenePainter::paint(sim::View view, std::span<const sim::Cube> cubes) 
     if (c.name == "ceiling") view.hidden_classes.push_back(c.name);
   view.ghost_scene = view.open_ceiling = true;
   return state_->renderer.picture(view, cubes);
+}
+
+cv::Mat3b ScenePainter::paint_classes(sim::View view) {
+  view.class_colours = view.open_ceiling = true;
+  return state_->renderer.picture(view);
 }
 
 #else
@@ -98,6 +103,10 @@ ScenePainter::ScenePainter(std::vector<Shape>, const ClassTable&) {
 }
 
 cv::Mat3b ScenePainter::paint(sim::View, std::span<const sim::Cube>) {
+  return {};
+}
+
+cv::Mat3b ScenePainter::paint_classes(sim::View) {
   return {};
 }
 

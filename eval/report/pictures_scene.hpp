@@ -25,7 +25,7 @@ class ScenePainter {
   /// recording any more, the surfaces of the recording; at the time `at_s` where they move.
   ScenePainter(const Study& study, const Recording& recording,
                std::optional<double> at_s = std::nullopt);
-  /// An MJCF file, with the class file and the robot beside it. Throws Error when it is refused.
+  /// An MJCF file, with the class file beside it. Throws Error when it is refused.
   explicit ScenePainter(const std::filesystem::path& scene);
   /// The exact surfaces of a recording, in the muted colours of their classes. Throws Error when it
   /// has none, or they move.
@@ -37,6 +37,9 @@ class ScenePainter {
 
   /// The scene, pale, with the cubes in it. Throws Error when the view cannot be drawn.
   [[nodiscard]] cv::Mat3b paint(sim::View view, std::span<const sim::Cube> cubes);
+
+  /// The scene with everything in the colour of its class, what no class claims grey.
+  [[nodiscard]] cv::Mat3b paint_classes(sim::View view);
 
  private:
   struct State;

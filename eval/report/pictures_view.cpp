@@ -85,7 +85,10 @@ Eigen::Vector3d worst_place(const std::vector<JudgedMap>& maps) {
 }  // namespace
 
 sim::View overview(const std::vector<JudgedMap>& maps) {
-  const Eigen::AlignedBox3d seen = seen_in_world(maps);
+  return overview(seen_in_world(maps));
+}
+
+sim::View overview(const Eigen::AlignedBox3d& seen) {
   const Eigen::Vector3d towards_eye = std::cos(kElevation_rad) * viewing_side(seen) +
                                       std::sin(kElevation_rad) * Eigen::Vector3d::UnitZ();
   sim::View view;

@@ -16,6 +16,9 @@ namespace mapscore::eval {
 /// Looks down on everything that was seen, from the side along which it is longest.
 [[nodiscard]] sim::View overview(const std::vector<JudgedMap>& maps);
 
+/// As overview, of everything in a box (world frame, metres).
+[[nodiscard]] sim::View overview(const Eigen::AlignedBox3d& bounds);
+
 /// Looks at the place with most false and missed voxels of all maps: from above where one of the
 /// cameras was once, or, without any, from the side that the overview looks from.
 [[nodiscard]] sim::View error_view(const std::vector<JudgedMap>& maps,

@@ -112,20 +112,33 @@ class Ghosts {
   std::vector<Eigen::Array3f> textures_;
 };
 
+/// Makes a geom show one colour, lightest where it faces a light.
+void paint(const Colour& colour, mjvGeom& geom) {
+  const std::uint8_t rgb[3] = {colour.r, colour.g, colour.b};
+  for (int channel = 0; channel < 3; ++channel)
+    geom.rgba[channel] = kLitShare * static_cast<float>(rgb[channel]) / 255.0f;
+  geom.rgba[3] = 1.0f;
+  geom.matid = geom.texid = -1;
+  geom.emission = (1.0f - kLitShare) / kLitShare;
+  geom.specular = 0.0f;
+}
+
+/// See View::class_colours.
+mjvGeom in_class_colour(mjvGeom geom, const SemanticClass& semantic_class) {
+  constexpr Colour kGrey{176, 176, 176};
+  paint(semantic_class.id == kBackground ? kGrey : semantic_class.colour, geom);
+  return geom;
+}
+
 mjvGeom box_of(const Cube& cube) {
   const double half = 0.5 * cube.edge_m;
   const mjtNum size[3] = {half, half, half};
   const mjtNum position[3] = {cube.centre_world.x(), cube.centre_world.y(), cube.centre_world.z()};
   mjtNum rotation[9];
   for (int i = 0; i < 9; ++i) rotation[i] = cube.R_world_cube(i / 3, i % 3);
-  const float rgba[4] = {static_cast<float>(cube.colour.r) / 255.0f,
-                         static_cast<float>(cube.colour.g) / 255.0f,
-                         static_cast<float>(cube.colour.b) / 255.0f, 1.0f};
   mjvGeom geom;
-  mjv_initGeom(&geom, mjGEOM_BOX, size, position, rotation, rgba);
-  for (int channel = 0; channel < 3; ++channel) geom.rgba[channel] *= kLitShare;
-  geom.emission = (1.0f - kLitShare) / kLitShare;
-  geom.specular = 0.0f;
+  mjv_initGeom(&geom, mjGEOM_BOX, size, position, rotation, nullptr);
+  paint(cube.colour, geom);
   return geom;
 }
 
@@ -143,9 +156,13 @@ void add_scene(const World& world, const View& view, SceneBuffer& buffer) {
   for (std::size_t i = 0; i < world.drawn().geoms.size(); ++i) {
     const mjvGeom& geom = world.drawn().geoms[i];
     const InstanceId instance = world.geom_instances()[geom.objid];
-    if (hidden[world.classes().class_of(instance)]) continue;
+    const ClassId class_id = world.classes().class_of(instance);
+    if (hidden[class_id]) continue;
     if (view.open_ceiling && covers_room(world.shapes()[i], view)) continue;
-    buffer.add(view.ghost_scene ? ghosts.of(geom) : geom);
+    if (view.class_colours)
+      buffer.add(in_class_colour(geom, world.classes().classes[class_id]));
+    else
+      buffer.add(view.ghost_scene ? ghosts.of(geom) : geom);
   }
 }
 
@@ -162,7 +179,7 @@ cv::Mat3b draw_picture(const World& world, Offscreen& offscreen, const View& vie
   see_as_far_as(view, eye);
   buffer.look_through(eye);
   buffer.show_colours(false);
-  if (view.ghost_scene) buffer.light_plainly();
+  if (view.ghost_scene || view.class_colours) buffer.light_plainly();
   buffer.hide_sky();
   offscreen.draw(camera.width_px, camera.height_px, buffer.scene());
   cv::Mat3b large, picture;

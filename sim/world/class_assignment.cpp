@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <set>
@@ -38,6 +39,22 @@ int matching_rule(const std::vector<ClassRule>& rules, const std::string& body,
     match = static_cast<int>(i);
   }
   return match;
+}
+
+/// Refuses patterns of a class file that match none of the names: most are misspelt.
+void refuse_unknown(const std::vector<ClassRule>& rules, const std::vector<std::string>& names,
+                    const std::filesystem::path& file) {
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    if (rules[i].line == 0) continue;
+    for (const std::string& pattern : rules[i].bodies) {
+      const auto known = [&](const std::string& name) { return matches(pattern, name); };
+      if (std::ranges::any_of(names, known)) continue;
+      throw Error(
+          fmt::format("{}:{}: classes[{}].bodies: pattern `{}` matches no body of the scene; mend "
+                      "or drop it",
+                      file.string(), rules[i].line, i, pattern));
+    }
+  }
 }
 
 /// One rule for each class that the bodies' names give.
@@ -109,15 +126,18 @@ Ownership assign_bodies(const mjModel& model,
   if (class_file) ownership.rules = read_class_file(*class_file);
   RulesByName by_name(ownership.rules);
   ownership.rule_of_body.assign(model.nbody, -1);
+  std::vector<std::string> names;
   for (int body = 0; body < model.nbody; ++body) {
     const std::string name = body_name(model, body);
     if (name.empty() || robot_body[body]) continue;
+    names.push_back(name);
     if (class_file) {
       ownership.rule_of_body[body] = matching_rule(ownership.rules, name, *class_file);
     } else if (body > 0) {
       ownership.rule_of_body[body] = by_name.rule_for(name);
     }
   }
+  if (class_file) refuse_unknown(ownership.rules, names, *class_file);
   set_owners(model, ownership);
   return ownership;
 }

@@ -30,7 +30,7 @@ struct Ownership {
 
 /// Matches the bodies of `model` against the class file. Bodies of `robot_body` are never matched.
 /// Without a class file each named body is its own instance, of the class that its name gives.
-/// Throws Error when a body belongs to two classes.
+/// Throws Error when a body belongs to two classes, or a pattern that the file gives matches none.
 [[nodiscard]] Ownership assign_bodies(const mjModel& model,
                                       const std::optional<std::filesystem::path>& class_file,
                                       const std::vector<bool>& robot_body);

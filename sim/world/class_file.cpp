@@ -60,6 +60,7 @@ class Reader {
     semantic_class.detect = flag(node["detect"], key + ".detect", true);
     result.opaque = flag(node["opaque"], key + ".opaque", false);
     result.bodies = bodies(node, key + ".bodies", semantic_class.name);
+    if (const YAML::Node patterns = node["bodies"]) result.line = patterns.Mark().line + 1;
     return result;
   }
 
@@ -122,8 +123,11 @@ class Reader {
 
   void check_keys(const YAML::Node& node, const std::string& key,
                   const std::vector<std::string>& known) const {
+    std::set<std::string> seen;
     for (const auto& entry : node) {
       const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "?";
+      if (!seen.insert(name).second)
+        refuse(entry.first, key.empty() ? name : key + "." + name, "stands twice; keep one");
       if (std::find(known.begin(), known.end(), name) != known.end()) continue;
       refuse(entry.first, key.empty() ? name : key + "." + name,
              fmt::format("is not a key; known here: {}", fmt::join(known, ", ")));
@@ -142,15 +146,23 @@ class Reader {
 
 }  // namespace
 
+bool matches(const std::string& pattern, const std::string& body) {
+  return body == "world" ? pattern == body : fnmatch(pattern.c_str(), body.c_str(), 0) == 0;
+}
+
 bool ClassRule::matches(const std::string& body) const {
-  return std::any_of(bodies.begin(), bodies.end(), [&](const std::string& pattern) {
-    if (body == "world") return pattern == body;
-    return fnmatch(pattern.c_str(), body.c_str(), 0) == 0;
-  });
+  return std::ranges::any_of(
+      bodies, [&](const std::string& pattern) { return sim::matches(pattern, body); });
 }
 
 std::vector<ClassRule> read_class_file(const std::filesystem::path& file) {
   return Reader(file).read();
+}
+
+std::optional<std::filesystem::path> class_file_beside(const std::filesystem::path& scene) {
+  std::filesystem::path beside = scene;
+  beside.replace_extension(".classes.yaml");
+  return std::filesystem::exists(beside) ? std::optional(beside) : std::nullopt;
 }
 
 std::string class_name_of_body(std::string_view body) {

@@ -102,7 +102,7 @@ std::string content_hash(const mjModel& model, const std::filesystem::path& scen
   Hash hash;
   hash.add_file(scene);
   if (classes) hash.add_file(*classes);
-  hash.add_file(robot);
+  if (!robot.empty()) hash.add_file(robot);
   add_geoms(hash, model);
   add_joints(hash, model);
   add_assets(hash, model);

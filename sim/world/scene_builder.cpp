@@ -41,10 +41,9 @@ std::string facets_name(const Shape& shape) {
 }  // namespace
 
 SceneBuilder::SceneBuilder(const std::filesystem::path& scene, const std::filesystem::path& robot)
-    : scene_(scene),
-      robot_(robot),
-      spec_(parse(scene, "scene")),
-      robot_spec_(parse(robot, "robot")) {
+    : scene_(scene), robot_(robot), spec_(parse(scene, "scene")) {
+  if (robot.empty()) return;
+  robot_spec_ = parse(robot, "robot");
   mjsBody* base = mjs_findBody(robot_spec_.get(), "base_footprint");
   if (!base) {
     throw Error(

@@ -13,7 +13,8 @@
 namespace mapscore::sim {
 
 /// The MJCF scene with the robot's body `base_footprint` attached to its world, names prefixed by
-/// `robot/`; kept open so that meshes can be added before it is compiled again.
+/// `robot/`; kept open so that meshes can be added before it is compiled again. An empty path of the
+/// robot: the scene by itself.
 class SceneBuilder {
  public:
   /// Throws Error when a file is missing or MuJoCo refuses it.
@@ -28,7 +29,7 @@ class SceneBuilder {
 
  private:
   std::filesystem::path scene_, robot_;
-  SpecPtr spec_, robot_spec_;
+  SpecPtr spec_, robot_spec_;  ///< the latter is null where there is no robot
 };
 
 /// Draws the round geoms among `drawn` by the meshes that `add_facets` made of `shapes`, at

@@ -29,13 +29,6 @@ struct PlacedModel {
 
 namespace {
 
-std::optional<std::filesystem::path> class_file_of(const WorldFiles& files) {
-  if (files.classes) return files.classes;
-  std::filesystem::path beside = files.scene;
-  beside.replace_extension(".classes.yaml");
-  return std::filesystem::exists(beside) ? std::optional(beside) : std::nullopt;
-}
-
 PlacedModel compile_and_place(SceneBuilder& builder) {
   PlacedModel placed;
   placed.model = builder.compile();
@@ -44,8 +37,10 @@ PlacedModel compile_and_place(SceneBuilder& builder) {
   return placed;
 }
 
+/// `root` below 0: none.
 std::vector<bool> bodies_under(const mjModel& model, int root) {
   std::vector<bool> under(model.nbody, false);
+  if (root < 0) return under;
   for (int body = root; body < model.nbody; ++body) {  // parents come first
     under[body] = body == root || under[model.body_parentid[body]];
   }
@@ -114,14 +109,16 @@ void set_quality(mjModel& model, const CameraOverrides& cameras) {
 // ones.
 World World::load(const WorldFiles& files, const CameraOverrides& cameras) {
   quiet_mujoco();
-  const std::optional<std::filesystem::path> class_file = class_file_of(files);
+  const std::optional<std::filesystem::path> class_file =
+      files.classes ? files.classes : class_file_beside(files.scene);
   SceneBuilder builder(files.scene, files.robot);
   const PlacedModel plain = compile_and_place(builder);
   const int base = mj_name2id(plain.model.get(), mjOBJ_BODY, "robot/base_footprint");
 
   auto compiled = std::make_shared<CompiledScene>();
-  compiled->calibration =
-      read_calibration(*plain.model, *plain.data, base, cameras, files.robot.string());
+  if (base >= 0)
+    compiled->calibration =
+        read_calibration(*plain.model, *plain.data, base, cameras, files.robot.string());
   compiled->robot_body = bodies_under(*plain.model, base);
   compiled->ownership = assign_bodies(*plain.model, class_file, compiled->robot_body);
   const std::vector<int> geoms =

@@ -24,8 +24,9 @@ struct Motion;
 struct WorldFiles {
   std::filesystem::path scene;  ///< MJCF
   std::optional<std::filesystem::path>
-      classes;                  ///< default: SCENE stem + .classes.yaml if it exists
-  std::filesystem::path robot;  ///< MJCF with body base_footprint, cameras color, depth
+      classes;  ///< default: SCENE stem + .classes.yaml if it exists
+  std::filesystem::path
+      robot;  ///< MJCF with body base_footprint, cameras color, depth; empty: none
 };
 
 /// What the camera settings of a study override in the robot's MJCF.
@@ -38,6 +39,7 @@ struct CameraOverrides {
 /// Immutable after loading and safe to share between threads.
 class World {
  public:
+  /// Without a robot there is no calibration, and nothing to render frames with.
   /// Throws Error when a file is missing, MuJoCo refuses it (with MuJoCo's own reason), a class
   /// pattern is doubled or unknown, or a drawn geom is of a kind that the truth cannot hold.
   [[nodiscard]] static World load(const WorldFiles& files, const CameraOverrides& cameras);

@@ -77,9 +77,30 @@ TEST(ClassFile, RefusesWithFileLineAndKey) {
               HasSubstr("room.classes.yaml:3: classes[1].bodies: pattern `a` stands twice"));
   EXPECT_THAT(refusal("classes:\n  - {name: background}\n"), HasSubstr("background"));
   EXPECT_THAT(refusal("classes:\n  - {bodies: [a]}\n"), HasSubstr("classes[0].name: is missing"));
+  EXPECT_THAT(refusal("classes:\n  - {name: cup, name: mug}\n"),
+              HasSubstr("room.classes.yaml:2: classes[0].name: stands twice"));
   EXPECT_THAT(refusal("classes: 3\n"), HasSubstr("classes: must be a list"));
   EXPECT_THAT(refusal("classes: [\n"), HasSubstr("not valid YAML"));
   EXPECT_THROW((void)read_class_file("/nowhere/x.yaml"), Error);
+}
+
+TEST(ClassFile, APatternThatMatchesNoBodyIsRefused) {
+  const std::string scene = testing::mjcf("<body name='cup_1'><geom size='.1'/></body>");
+  const auto load = [&](const std::string& classes) { return testing::load_text(scene, classes); };
+  EXPECT_NO_THROW((void)load("classes: [{name: cup, bodies: ['cup_?', world]}, {name: sofa}]\n"));
+  try {
+    (void)load("classes:\n  - {name: cup}\n  - {name: mug, bodies: ['cup_1*', 'mugg_*']}\n");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("belongs to `cup` and to `mug`"));
+  }
+  try {
+    (void)load("classes:\n  - {name: sofa}\n  - {name: mug, bodies: ['cup_1*', 'mugg_*']}\n");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("classes.yaml:3: classes[1].bodies: pattern `mugg_*` "
+                                        "matches no body of the scene; mend or drop it"));
+  }
 }
 
 TEST(ClassFile, ErrorsAreOneLine) {

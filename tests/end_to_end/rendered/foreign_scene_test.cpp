@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "tests/end_to_end/program.hpp"
+#include "tests/support/tiny_recording.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+namespace mapscore::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// A scene by itself: no class file and no robot beside it.
+class ForeignScene : public ::testing::Test {
+ protected:
+  ForeignScene() {
+    write_text(scene(),
+               "<mujoco><worldbody><geom type='plane' size='0 0 1'/>\n"
+               "<body name='cup_1' pos='1.5 0 0.5'><geom type='box' size='.2 .2 .3'/></body>\n"
+               "<body name='cup_2' pos='1.5 1 0.5'><geom type='box' size='.2 .2 .3'/></body>\n"
+               "<body name='wall' pos='3 0 1'><geom type='box' size='.1 2 1'/></body>\n"
+               "<body name='pane' pos='0 3 1'><geom type='box' size='1 .1 1' rgba='1 1 1 .2'/>\n"
+               "</body></worldbody></mujoco>\n");
+  }
+  [[nodiscard]] fs::path folder() const { return temporary_.path(); }
+  [[nodiscard]] fs::path scene() const { return folder() / "room.xml"; }
+  [[nodiscard]] fs::path classes() const { return folder() / "room.classes.yaml"; }
+
+ private:
+  TemporaryFolder temporary_;
+};
+
+TEST_F(ForeignScene, InfoTellsWhatIsThereAndDrawsIt) {
+  const Outcome told = mapscore({"info", scene()});
+  expect_done(told);
+  EXPECT_THAT(told.out, HasSubstr("no class matches body 'world': 1 geoms, a plane without end"));
+  EXPECT_THAT(told.out, HasSubstr("x 1.300 to 3.100, y -2.000 to 2.000, z 0.000 to 2.000 m"));
+  EXPECT_THAT(told.out, HasSubstr("note: 1 geoms of alpha below 1 are left out (bodies: pane)"));
+  EXPECT_THAT(told.out, HasSubstr("note: 1 planes without end"));
+  EXPECT_FALSE(cv::imread(folder() / "room.classes.png").empty());
+}
+
+TEST_F(ForeignScene, ThePictureGoesWhereItIsWanted) {
+  expect_done(mapscore({"info", scene(), "--no-picture"}));
+  EXPECT_FALSE(fs::exists(folder() / "room.classes.png"));
+  expect_done(mapscore({"info", scene(), "--picture", folder() / "my.png"}));
+  EXPECT_FALSE(fs::exists(folder() / "room.classes.png"));
+  EXPECT_FALSE(cv::imread(folder() / "my.png").empty());
+  expect_refused(mapscore({"info", scene(), "--picture", folder() / "no/where.png"}),
+                 {"no/where.png", "cannot"});
+}
+
+TEST_F(ForeignScene, ASuggestedClassFileIsTakenAsItIs) {
+  const Outcome printed = mapscore({"info", scene(), "--suggest-classes"});
+  expect_done(printed);
+  EXPECT_THAT(printed.out, HasSubstr("name: \"cup\""));
+  expect_done(mapscore({"info", scene(), "--suggest-classes", "-o", classes()}));
+  EXPECT_EQ(bytes_of(classes()), printed.out);
+  const Outcome told = mapscore({"info", scene(), "--no-picture"});
+  expect_done(told);
+  EXPECT_THAT(told.out, HasSubstr("wall"));
+  EXPECT_THAT(told.out, HasSubstr("no      1"));
+  expect_refused(mapscore({"info", scene(), "--suggest-classes", "-o", classes()}),
+                 {"room.classes.yaml", "exists already", "give another"});
+}
+
+TEST_F(ForeignScene, FlagsOfScenesApplyToScenesAlone) {
+  expect_refused(mapscore({"info", scene(), "-o", classes()}), {"--output", "--suggest-classes"});
+  expect_refused(mapscore({"info", folder(), "--suggest-classes"}), {"not a scene"});
+}
+
+TEST_F(ForeignScene, TruthNeedsNoRobot) {
+  expect_done(mapscore({"truth", scene(), "-o", folder() / "truth.csv"}));
+}
+
+TEST_F(ForeignScene, IsRecordedWithTheProgramsOwnRobot) {
+  write_text(folder() / "poses.txt", "0 0 0 0.5 -0.5 0.5 -0.5 0.5\n");
+  expect_done(mapscore({"record", scene(), "--trajectory", folder() / "poses.txt", "-o",
+                        folder() / "recording", "-q", "--set", "cameras.width_px=64", "--set",
+                        "cameras.height_px=48"}));
+  EXPECT_TRUE(fs::exists(folder() / "recording/color/000000.png"));
+}
+
+TEST_F(ForeignScene, BadClassFilesAreRefusedInOneLine) {
+  const auto refused = [&](const std::string& text, const std::vector<std::string>& parts) {
+    write_text(classes(), text);
+    expect_refused(mapscore({"info", scene()}), parts);
+  };
+  refused("classes:\n  - {name: cup}\n  - {name: chair, bodies: [\"chiar_*\"]}\n",
+          {"room.classes.yaml:3", "chiar_*", "matches no body"});
+  refused("classes:\n  - {name: cup, bodies: [\"cup_*\", \"cup_*\"]}\n",
+          {"room.classes.yaml:2", "cup_*", "twice"});
+  refused("classes:\n  - {name: cup, bodies: [\"cup_1\"]}\n  - {name: mug, bodies: [\"*_1\"]}\n",
+          {"room.classes.yaml", "cup_1", "narrow"});
+  refused("classes:\n  - {name: cup, shape: round}\n", {"room.classes.yaml:2", "shape", "known"});
+  refused("classes: []\ncolours: []\n", {"room.classes.yaml:2", "colours", "known"});
+  refused("classes:\n  - {name: cup, name: mug}\n", {"room.classes.yaml:2", "name", "twice"});
+}
+
+}  // namespace
+}  // namespace mapscore::testing
