@@ -138,8 +138,11 @@ std::vector<std::string> caption_of(const StudySummary& summary, const Compariso
       fmt::format(
           "p: two-sided sign-flip permutation of the mean difference, {}; not corrected for "
           "{} row{}; p (Holm): corrected",
-          study.seeds <= kExactSignFlips ? "exact" : "by random sign patterns", rows,
-          rows == 1 ? "" : "s") +
+          study.seeds <= kExactSignFlips
+              ? "exact"
+              : fmt::format("exact up to {} differences other than 0, else by random sign patterns",
+                            kExactSignFlips),
+          rows, rows == 1 ? "" : "s") +
           "; - where all seeds have the same values, drawn from nothing",
       fmt::format("least p possible with {} pair{}: {}; p (Holm): {}", study.seeds,
                   study.seeds == 1 ? "" : "s", probability(least),
@@ -169,7 +172,9 @@ std::vector<ComparisonRow> compare_methods(const StudySummary& summary,
 Table comparison_table(const StudySummary& summary, const ComparisonQuestion& question) {
   const std::vector<ComparisonRow> rows = compare_methods(summary, question);
   Table table;
-  table.caption = caption_of(summary, question, rows.size());
+  const auto with_p = std::ranges::count_if(
+      rows, [](const ComparisonRow& row) { return row.paired.p.has_value(); });
+  table.caption = caption_of(summary, question, static_cast<std::size_t>(with_p));
   for (const SweepAxis& axis : summary.study.sweep)
     table.columns.push_back(column_of(axis, summary.study.sweep));
   table.columns.insert(table.columns.end(),

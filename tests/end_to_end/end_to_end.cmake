@@ -56,4 +56,6 @@ endforeach()
 add_test(NAME independent_ruler.foreign_maps
          COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/foreign_maps.py
                  $<TARGET_FILE:mapscore> ${PROJECT_SOURCE_DIR}/scenes)
-set_tests_properties(independent_ruler.foreign_maps PROPERTIES COST 100)
+add_test(NAME independent_ruler.statistics
+         COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/statistics_check.py $<TARGET_FILE:mapscore>)
+set_tests_properties(independent_ruler.foreign_maps independent_ruler.statistics PROPERTIES COST 100)

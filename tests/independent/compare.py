@@ -4,13 +4,12 @@
 """Holds the program against the independent ruler: the same recordings, the same doses, every count equal.
 
 compare.py PROGRAM SCENES apartment|person    records a small drive, sweeps it with PROGRAM, scores it with ruler.py, and
-    compares counts exactly, mean distances within 1e-6 m, and the truth row by row
+    compares the truth row by row, every figure of the tidy table and of frames.csv: counts exactly, distances within
+    1e-6 m, all else within 1e-9
 """
 
 import csv
-import io
 import os
-import subprocess
 import sys
 import tempfile
 
@@ -21,7 +20,11 @@ import yaml
 
 sys.dont_write_bytecode = True
 
+import drive_scores
 import ruler
+from agreement import differences
+from drives import program, record
+from each_frame import compare_frames, swept
 from recording import Recording
 
 METHODS = {
@@ -33,10 +36,7 @@ METHODS = {
 METHODS_AND_PLACES = [f"{name}-{place}" for name in METHODS for place in ("points", "voxels")]
 # The lattice ceiling is one for all methods; two at dose zero stand for all.
 CEILINGS_OF = {"lattice_ceiling": ["direct-points"], "registration_ceiling": ["direct-points", "growing_half-voxels"]}
-COUNTS = ("predicted", "true_predicted", "visible", "found", "false_near", "false_leak", "false_floating",
-          "missed_mislabelled", "missed_unlabelled", "missed_unmapped", "true_predicted_t1", "found_t1")
-MEANS = ("accuracy_mean_m", "completeness_mean_m")
-CAMERAS = {"width_px": 160, "height_px": 120}
+OF_OTHER_SEEDS = ("f1_best", "threshold_best")  # undefined with one seed
 
 # A drive, its lattice, and the ways in which it is scored. Doses are without a round number on purpose.
 STUDIES = {
@@ -55,42 +55,21 @@ STUDIES = {
 }
 
 
-def program(*arguments):
-    return subprocess.run(arguments, check=True, stdout=subprocess.PIPE, text=True).stdout
-
-
-def study_text(study, recording, unit, K):
-    """A study file with every method placed both ways."""
+def study_file(study, recording, unit, K, methods, folder):
+    """A study file with methods, each placed as its name says."""
     segmentations = {
         name: {of["method"]: {key: value for key, value in of.items() if key != "method"}}
         for name, of in METHODS.items()}
-    return yaml.safe_dump({
-        "recording": recording, "map_origin_m": list(study["origin_m"]), "map_yaw_deg": study["yaw_deg"],
-        "methods": {method: {"segmentation": segmentations[method.split("-")[0]], "place": method.split("-")[1]}
-                    for method in METHODS_AND_PLACES},
-        "fusion": {"blend": {"K": K}}, "score": {"unit": unit},
-        "faults": {"misregistration": {"translation_m": list(study["misregistration_m"]),
-                                       "rotation_deg": list(study["rotation_deg"])}}})
-
-
-def record(mapscore, scenes, study, folder):
-    file, recording = os.path.join(folder, "drive.yaml"), os.path.join(folder, "recording")
+    file = os.path.join(folder, f"{unit}-{K}-{len(methods)}.yaml")
     with open(file, "w", encoding="utf-8") as text:
-        yaml.safe_dump({"scene": os.path.join(scenes, study["scene"]), "trajectory": study["trajectory"],
-                   "cameras": CAMERAS, "methods": {"direct": {"segmentation": {"direct": {}}}}}, text)
-    program(mapscore, "record", file, "-o", recording, "-q")
-    return recording
-
-
-def swept(mapscore, study, recording, unit, K, folder):
-    """(role, method, class, metric) -> value, as the program tells it."""
-    results = os.path.join(folder, f"{unit}-{K}")
-    file = results + ".yaml"
-    with open(file, "w", encoding="utf-8") as text:
-        text.write(study_text(study, recording, unit, K))
-    program(mapscore, "sweep", file, "-o", results, "-q")
-    rows = csv.DictReader(io.StringIO(program(mapscore, "table", results, "--tidy")))
-    return {(row["role"], row["method"], row["class"], row["metric"]): row["value"] for row in rows}
+        yaml.safe_dump({
+            "recording": recording, "map_origin_m": list(study["origin_m"]), "map_yaw_deg": study["yaw_deg"],
+            "methods": {method: {"segmentation": segmentations[method.split("-")[0]], "place": method.split("-")[1]}
+                        for method in methods},
+            "fusion": {"blend": {"K": K}}, "score": {"unit": unit},
+            "faults": {"misregistration": {"translation_m": list(study["misregistration_m"]),
+                                           "rotation_deg": list(study["rotation_deg"])}}}, text)
+    return file
 
 
 def ruler_options(study, recording, role, method, unit, K):
@@ -108,56 +87,28 @@ def ruler_options(study, recording, role, method, unit, K):
     return ruler.parse(arguments)[1]
 
 
-def distances_agree(ours, theirs, class_name, metric):
-    """The ruler counts what lies within tau; the program tells its share, in nine digits."""
-    kind, tau = metric.rsplit("_", 1)
-    whole = theirs[class_name, "predicted" if kind == "precise" else "samples"]
-    part = theirs[class_name, metric]
-    share = ours(f"{'precision' if kind == 'precise' else 'recall'}_{tau}")
-    return share == "-" if int(whole) == 0 else round(float(share) * int(whole)) == int(part)
-
-
-def means_agree(ours, theirs):
-    return ours == theirs if "-" in (ours, theirs) else abs(float(ours) - float(theirs)) <= 1e-6
-
-
-def differences(figures, role, method, theirs):
-    """Lines that say where the program and the ruler differ, and how many figures were compared."""
-    lines, compared = [], 0
-    classes = {key[2] for key in figures if key[:2] == (role, method)} - {"pooled", "macro", "all"}
-    for class_name, metric in sorted(theirs):
-        if class_name not in classes or metric == "samples":
-            continue
-        value = theirs[class_name, metric]
-
-        def ours(name):
-            return figures[role, method, class_name, name]
-
-        if metric in COUNTS:
-            agree, told = int(ours(metric)) == int(value), ours(metric)
-        elif metric in MEANS:
-            agree, told = means_agree(ours(metric), value), ours(metric)
-        else:
-            agree, told = distances_agree(ours, theirs, class_name, metric), "another share"
-        compared += 1
-        if not agree:
-            lines.append(f"  {role} {method} {class_name} {metric}: program {told}, ruler {value}")
-    return lines, compared
-
-
 def compare_scores(mapscore, study, recording, folder):
     lines, compared = [], 0
     loaded = Recording(recording)
     for unit, K in study["runs"]:
-        figures = swept(mapscore, study, recording, unit, K, folder)
+        file = study_file(study, recording, unit, K, METHODS_AND_PLACES, folder)
+        figures = swept(mapscore, file, os.path.join(folder, f"{unit}-{K}"))
         for role, method in sorted({key[:2] for key in figures}):
             if method not in CEILINGS_OF.get(role, METHODS_AND_PLACES):
                 continue
-            rows = ruler.score(loaded, ruler_options(study, recording, role, method, unit, K))[1:]
-            more, count = differences(figures, role, method, {row[:2]: row[2] for row in rows})
-            lines += [f"{line} ({unit}, K = {K})" for line in more]
-            compared += count
+            ours = {key[2:]: text for key, text in figures.items() if key[:2] == (role, method) and key[2] != "all"}
+            theirs = ruler.score(loaded, ruler_options(study, recording, role, method, unit, K))
+            theirs.update({key: None for key in ours if key[1] in OF_OTHER_SEEDS})
+            lines += differences(f"{unit}, K = {K}: {role} {method}", ours, theirs)
+            compared += len(theirs)
     return lines, compared
+
+
+def compare_each_frame(mapscore, study, recording, folder):
+    method, K = "direct-points", 0.5
+    options = ruler_options(study, recording, "trial", method, "frame", K)
+    file = study_file(study, recording, "frame", K, [method], folder)
+    return compare_frames(mapscore, file, method, Recording(recording), options, os.path.join(folder, "each_frame"))
 
 
 def compare_truth(mapscore, study, recording, folder):
@@ -181,7 +132,7 @@ def corners_of(shapes):
 
 def keep_what_scores_share():
     """The ruler's surface truth of a lattice and its distances, made once, since all scores of a drive share them."""
-    surface_truth, surface_distances, truths, distances = ruler.surface_truth, ruler.surface_distances, {}, {}
+    surface_truth, surface_distances, truths, distances = ruler.surface_truth, drive_scores.surface_distances, {}, {}
 
     def kept_truth(geoms, voxel, epsilon):
         key = corners_of([shape for _, shape in geoms]), voxel, epsilon
@@ -195,15 +146,19 @@ def keep_what_scores_share():
         known.update(zip(new.tolist(), surface_distances(new, shapes, voxel)))
         return np.array([known[key] for key in keys.tolist()])
 
-    ruler.surface_truth, ruler.surface_distances = kept_truth, kept_distances
+    ruler.surface_truth, drive_scores.surface_distances = kept_truth, kept_distances
+
+
+COMPARISONS = {"rows of truth": compare_truth, "figures": compare_scores, "figures of frames": compare_each_frame}
 
 
 def main(mapscore, scenes, drive):
     keep_what_scores_share()
     study, failed = STUDIES[drive], False
     with tempfile.TemporaryDirectory() as folder:
-        recording = record(os.path.abspath(mapscore), os.path.abspath(scenes), study, folder)
-        for what, compare in (("rows of truth", compare_truth), ("figures", compare_scores)):
+        scene = os.path.join(os.path.abspath(scenes), study["scene"])
+        recording = record(os.path.abspath(mapscore), scene, study["trajectory"], folder)
+        for what, compare in COMPARISONS.items():
             lines, compared = compare(os.path.abspath(mapscore), study, recording, folder)
             print(f"{drive}: {compared} {what} compared, {len(lines)} differ")
             print("\n".join(lines[:40]), end="\n" if lines else "")

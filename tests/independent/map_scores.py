@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ruler import cube_distances, surface_distances
+from distances import cube_distances, surface_distances
 from truth import grown
 
 TAUS_M, LIMIT_SLACK_M = (0.01, 0.02, 0.05, 0.1), 1e-7

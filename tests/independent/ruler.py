@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 """An independent ruler: maps and scores a recording from scratch, written from the design and the file format alone.
 
-ruler.py RECORDING --method direct --misregistration_m 0.02 0 0 -o counts.csv     counts by class: class,metric,value
+ruler.py RECORDING --method direct --misregistration_m 0.02 0 0 -o counts.csv     figures: class,metric,value
 ruler.py truth RECORDING -o truth.csv                                             i,j,k,class,touch_only,samples
 """
 
@@ -13,16 +13,15 @@ import re
 import sys
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 sys.dont_write_bytecode = True
 
+from boxes import box_ious
+from drive_scores import DriveScores
+from map_scores import VoxelMap, joined_of
 from recording import Recording, map_from_world, moved
 from segmentation import exponential, observe
-from surfaces import SLACK, distance_to_boxes
-from truth import Samples, cubes_of, grown, key_sets, surface_truth, unpack, visible_truth, voxels_of
-
-TAUS_CM = (1, 2, 5, 10)
+from truth import Samples, surface_truth, unpack, visible_truth, voxels_of
 
 
 def depth_samples(recording, frame, T_map_world):
@@ -53,150 +52,52 @@ class Map:
             cell *= self.K
             cell[label] += 1 - self.K
 
-    def prediction(self):
-        """key -> class, or -1 below the threshold."""
-        threshold = (1 - self.K) / 2
-        return {key: int(cell.argmax()) if cell.max() >= threshold else -1 for key, cell in self.cells.items()}
+    def voxels(self):
+        """Every voxel that a frame hit, with its most probable class, ties to the lower id."""
+        keys = np.array(sorted(self.cells), np.int64)
+        cells = np.array([self.cells[key] for key in keys.tolist()]).reshape(len(keys), self.class_count)
+        return VoxelMap(keys, np.ones(len(keys), bool), cells.argmax(axis=1), cells.max(axis=1))
 
 
-def cube_distances(points, keys, voxel):
-    """Distance from each point to the nearest of the closed cubes. The cube with the nearest centre need not be the
-    nearest cube, so more centres are asked for until none farther away can win."""
-    best = np.full(len(points), np.inf)
-    if len(keys) == 0 or len(points) == 0:
-        return best
-    best[np.isin(voxels_of(points, voxel), keys)] = 0
-    low, high = cubes_of(keys, voxel)
-    tree = cKDTree((low + high) / 2)
-    open_ = np.flatnonzero(best > 0)
-    count = 8
-    while len(open_):
-        count = min(count, len(keys))
-        rest = []
-        for part in np.array_split(open_, len(open_) // 100_000 + 1):
-            centre, nearest = tree.query(points[part], k=count)
-            centre, nearest = centre.reshape(len(part), -1), nearest.reshape(len(part), -1)
-            distance = distance_to_boxes(points[part][:, None], low[nearest], high[nearest]).min(axis=1)
-            best[part] = distance
-            if count < len(keys):
-                rest.append(part[centre[:, -1] - voxel * np.sqrt(3) / 2 <= distance])
-        open_ = np.concatenate(rest) if rest else []
-        count *= 4
-    return best
-
-
-def surface_distances(keys, shapes, voxel):
-    """Distance from each closed cube to the nearest boundary of the shapes."""
-    best = np.full(len(keys), np.inf)
-    low, high = cubes_of(keys, voxel)
-    for shape in shapes:  # touching ones first: they are cheap and rule out most of the rest
-        best[shape.boundary_meets(low - SLACK, high + SLACK)] = 0
-    for shape in shapes:
-        first, last = shape.bounds()
-        gap = np.linalg.norm(np.maximum(0, np.maximum(first - high, low - last)), axis=1)
-        todo = np.flatnonzero(gap < best)
-        best[todo] = np.minimum(best[todo], shape.boundary_distance(low[todo], high[todo]))
-    return best
-
-
-class Scores:
-    """Sums by class and metric; the means are formed at the end."""
-
-    def __init__(self, recording, geoms, surface, voxel):
-        self.labels = sorted(label for label in recording.names if label != 0)
-        self.names, self.voxel, self.surface = recording.names, voxel, key_sets(surface)
-        self.shapes = {label: [shape for owner, shape in geoms if owner == label] for label in self.labels}
-        self.near = {label: grown(keys) for label, keys in self.surface.items()}
-        self.sums = {label: {} for label in self.labels}
-
-    def count(self, label, metric, value):
-        self.sums[label][metric] = self.sums[label].get(metric, 0) + value
-
-    def add_voxels(self, prediction, visible):
-        """Counts and distances of one map against the visible truth of the frames in it; returns P by class."""
-        keys = np.array(sorted(prediction), np.int64)
-        labels = np.array([prediction[key] for key in keys.tolist()], np.int64)
-        empty = np.zeros(0, np.int64)
-        predicted = {label: keys[labels == label] for label in self.labels}
-        for label in self.labels:
-            mine, surface = predicted[label], self.surface.get(label, empty)
-            seen = np.array(sorted(visible.get(label, ())), np.int64)
-            on_surface, close = np.isin(mine, surface), np.isin(mine, self.near.get(label, empty))
-            others = [other for key, other in self.surface.items() if key != label]
-            on_other = np.isin(mine, np.concatenate(others)) if others else np.zeros(len(mine), bool)
-            found = np.isin(seen, mine)
-            missed = seen[~found]
-            elsewhere = np.isin(missed, keys[(labels >= 0) & (labels != label)])
-            in_map = np.isin(missed, keys)
-            distances = surface_distances(mine, self.shapes[label], self.voxel)
-            rows = {
-                "predicted": len(mine), "true_predicted": on_surface.sum(),
-                "visible": len(seen), "found": found.sum(),
-                "false_near": (~on_surface & close).sum(),
-                "false_leak": (~on_surface & ~close & on_other).sum(),
-                "false_floating": (~on_surface & ~close & ~on_other).sum(),
-                "missed_mislabelled": elsewhere.sum(), "missed_unlabelled": (in_map & ~elsewhere).sum(),
-                "missed_unmapped": (~in_map).sum(),
-                "true_predicted_t1": close.sum(), "found_t1": np.isin(seen, grown(mine)).sum(),
-                "accuracy_sum": distances.sum()}
-            rows.update({f"precise_{tau}cm": (distances <= tau / 100 + SLACK).sum() for tau in TAUS_CM})
-            for metric, value in rows.items():
-                self.count(label, metric, value)
-        return predicted
-
-    def add_samples(self, points, classes, predicted):
-        for label in self.labels:
-            mine = points[classes == label]
-            distances = cube_distances(mine, predicted[label], self.voxel)
-            self.count(label, "samples", len(mine))
-            reached = np.isfinite(distances)
-            self.count(label, "reached", reached.sum())
-            self.count(label, "completeness_sum", distances[reached].sum())
-            for tau in TAUS_CM:
-                self.count(label, f"complete_{tau}cm", (distances <= tau / 100 + SLACK).sum())
-
-    def rows(self):
-        result = []
-        for label in self.labels:
-            sums = dict(self.sums[label])
-            for mean, total, number in (("accuracy_mean_m", sums.pop("accuracy_sum"), sums["predicted"]),
-                                        ("completeness_mean_m", sums.pop("completeness_sum"), sums.pop("reached"))):
-                result.append((self.names[label], mean, f"{total / number:.9g}" if number else "-"))
-            result += [(self.names[label], metric, str(int(value))) for metric, value in sums.items()]
-        return sorted(result)
-
-
-def score(recording, options):
+def maps_of(recording, options):
+    """Raw scores of every map of the drive, one for all frames or one a frame."""
     T_map_world = map_from_world(options.origin_m, np.radians(options.yaw_deg))
     geoms = recording.geoms(T_map_world)
     surface = surface_truth(geoms, options.voxel_m, options.epsilon_m)
-    scores = Scores(recording, geoms, surface, options.voxel_m)
+    scores = DriveScores(recording, geoms, surface, options.voxel_m)
     error = np.eye(4)
     error[:3, :3] = exponential(np.radians(options.rotation_deg))
     error[:3, 3] = options.misregistration_m
     believed = error @ recording.T_color_depth
-    fused, seen = Map(options.K, max(recording.names) + 1), Samples()
-    for frame in recording.frames:
-        points, classes = observe(recording, frame, options, believed)
-        placed = moved(T_map_world @ frame[3] @ recording.T_base_depth, points)
-        hit, labels = winners(voxels_of(placed, options.voxel_m), classes)
-        samples, sample_classes = depth_samples(recording, frame, T_map_world)
-        keys = voxels_of(samples, options.voxel_m)
-        if options.unit == "frame":
-            single, alone = Map(options.K, max(recording.names) + 1), Samples()
-            single.add(hit, labels)
-            alone.add(keys, sample_classes)
-            visible = visible_truth(alone, surface, options.min_samples)
-            predicted = scores.add_voxels(single.prediction(), visible)
-            scores.add_samples(samples, sample_classes, predicted)
-        else:
-            fused.add(hit, labels)
-            seen.add(keys, sample_classes)
-    if options.unit == "map":
-        predicted = scores.add_voxels(fused.prediction(), visible_truth(seen, surface, options.min_samples))
-        for frame in recording.frames:
-            scores.add_samples(*depth_samples(recording, frame, T_map_world), predicted)
-    return [("class", "metric", "value")] + scores.rows()
+    maps, frames = [], recording.frames
+    for group in [[frame] for frame in frames] if options.unit == "frame" else [frames]:
+        fused, seen, parts = Map(options.K, max(recording.names) + 1), Samples(), []
+        for frame in group:
+            points, classes, detections = observe(recording, frame, options, believed)
+            placed = moved(T_map_world @ frame[3] @ recording.T_base_depth, points)
+            fused.add(*winners(voxels_of(placed, options.voxel_m), classes))
+            samples, sample_classes = depth_samples(recording, frame, T_map_world)
+            seen.add(voxels_of(samples, options.voxel_m), sample_classes)
+            parts.append((samples, sample_classes, box_ious(recording, frame, detections, options.voxel_m)))
+        samples, sample_classes, boxes = zip(*parts)
+        maps.append(scores.of_map(
+            fused.voxels(), (1 - options.K) / 2, visible_truth(seen, surface, options.min_samples),
+            np.concatenate(samples), np.concatenate(sample_classes),
+            {label: tuple(joined_of(column) for column in zip(*(one[label] for one in boxes))) for label in boxes[0]}))
+    return scores, maps
+
+
+def score(recording, options):
+    """(class name, metric) -> int, float or None, of all maps of the drive together, as the program tells them."""
+    scores, maps = maps_of(recording, options)
+    return scores.figures(maps)
+
+
+def score_rows(recording, options):
+    scores, maps = maps_of(recording, options)
+    figures = {**scores.figures(maps), **scores.own_counts(maps)}
+    return [("class", "metric", "value")] + [
+        (*key, "-" if value is None else f"{value:.9g}") for key, value in sorted(figures.items())]
 
 
 def truth_rows(recording, options):
@@ -248,7 +149,7 @@ def parse(arguments):
 def main(arguments):
     truth_only, options = parse(arguments)
     recording = Recording(options.recording)
-    rows = (truth_rows if truth_only else score)(recording, options)
+    rows = (truth_rows if truth_only else score_rows)(recording, options)
     with (sys.stdout if options.output == "-" else open(options.output, "w", encoding="utf-8", newline="")) as text:
         csv.writer(text, lineterminator="\n").writerows(rows)
 

@@ -102,7 +102,7 @@ def sensor_voxel_centres(points, pitch):
 
 
 def segment(mask, registered, cloud, options):
-    """Points that one detection adds to the observation, in depth_optical."""
+    """Points that one detection keeps, and what it adds to the observation, both in depth_optical."""
     if options.method == "erosion":
         mask = eroded(mask, options.radius_px)
     sources = registered[mask]
@@ -111,38 +111,35 @@ def segment(mask, registered, cloud, options):
         u0, u1, v0, v1 = tight_box(mask)
         source = registered[(v0 + v1) // 2, (u0 + u1) // 2]
         if source < 0 or len(points) == 0:
-            return np.zeros((0, 3))
+            return np.zeros((0, 3)), np.zeros((0, 3))
         seed = cloud[source]
         positions, kept = grow_region(points, seed, options.voxel_m, options.radius_factor * options.voxel_m)
-        return points[kept] if options.place == "points" else seed + positions * options.voxel_m
-    return points if options.place == "points" else sensor_voxel_centres(points, options.voxel_m)
+        return points[kept], points[kept] if options.place == "points" else seed + positions * options.voxel_m
+    return points, points if options.place == "points" else sensor_voxel_centres(points, options.voxel_m)
 
 
 def observe(recording, frame, options, believed):
-    """Points in depth_optical and their classes, all detections of one frame."""
+    """Points in depth_optical and their classes of one frame, and its detections as (instance, points kept)."""
     label_path, depth_path, depth_label_path, _ = frame
-    z = recording.read_depth(depth_path)
-    cloud = recording.cloud(z)
+    cloud = recording.cloud(recording.read_depth(depth_path))
+    points, found, detections = [np.zeros((0, 3))], [np.zeros(0, np.int64)], []
     if options.labels == "depth_label":
         classes = recording.classes_of(recording.read_image(depth_label_path)).reshape(-1)
-        registered = None
-    else:
-        labels = recording.read_image(label_path)
-        recording.classes_of(labels)
-        registered = register(recording, cloud, believed)
-    points, found = [np.zeros((0, 3))], [np.zeros(0, np.int64)]
-    if registered is None:
         for label in sorted(recording.detected):
             kept = cloud[(classes == label) & (cloud[:, 2] > 0)]
             if options.place == "voxels":
                 kept = sensor_voxel_centres(kept, options.voxel_m)
             points.append(kept)
             found.append(np.full(len(kept), label))
-    else:
-        for instance in np.unique(labels):
-            label = int(recording.class_of[instance])
-            if label in recording.detected:
-                kept = segment(labels == instance, registered, cloud, options)
-                points.append(kept)
-                found.append(np.full(len(kept), label))
-    return np.concatenate(points), np.concatenate(found)
+        return np.concatenate(points), np.concatenate(found), detections
+    labels = recording.read_image(label_path)
+    recording.classes_of(labels)
+    registered = register(recording, cloud, believed)
+    for instance in np.unique(labels):
+        label = int(recording.class_of[instance])
+        if label in recording.detected:
+            kept, placed = segment(labels == instance, registered, cloud, options)
+            detections.append((int(instance), kept))
+            points.append(placed)
+            found.append(np.full(len(placed), label))
+    return np.concatenate(points), np.concatenate(found), detections

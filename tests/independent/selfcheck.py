@@ -17,7 +17,7 @@ from scipy.optimize import minimize
 sys.dont_write_bytecode = True
 warnings.filterwarnings("ignore", message="Values in x were outside bounds")  # SLSQP talks
 
-from ruler import cube_distances
+from distances import cube_distances
 from recording import map_from_world, moved
 from segmentation import eroded, exponential, grow_region, register
 from surfaces import KINDS, Box, Cylinder, Ellipsoid, Plane, Sphere, corners_of

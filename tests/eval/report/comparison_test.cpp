@@ -84,8 +84,8 @@ TEST(ComparisonTable, ShowsBothMeansTheIntervalAndP) {
               AllOf(HasSubstr("synthetic: erosion - direct, cup classes; detected: cup, chair\n"),
                     HasSubstr("10 seeds, paired seed by seed"),
                     HasSubstr("95 % interval of the mean difference"),
-                    HasSubstr("not corrected for 4 rows; p (Holm): corrected"),
-                    HasSubstr("least p possible with 10 pairs: 0.0020; p (Holm): 0.0078")));
+                    HasSubstr("not corrected for 2 rows; p (Holm): corrected"),
+                    HasSubstr("least p possible with 10 pairs: 0.0020; p (Holm): 0.0039")));
 }
 
 TEST(ComparisonTable, WithFewSeedsShowsTheRangeAndWhatPCanReach) {
