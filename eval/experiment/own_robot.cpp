@@ -12,7 +12,7 @@ namespace mapscore::eval {
 namespace fs = std::filesystem;
 
 std::optional<fs::path> own_robot_of(const fs::path& folder) {
-  for (const char* way : {"../../scenes/robot.xml", "../share/mapscore/scenes/robot.xml"}) {
+  for (const char* way : {"../share/mapscore/scenes/robot.xml", "../../scenes/robot.xml"}) {
     fs::path file = (folder / way).lexically_normal();
     if (fs::is_regular_file(file)) return file;
   }

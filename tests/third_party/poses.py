@@ -10,19 +10,25 @@ ELEVATION_DEG = (8, 65)
 TRIES = 240
 
 
+def cells(points, edge_m):
+    return set(map(tuple, np.unique(np.floor(points / edge_m).astype(int), axis=0).tolist()))
+
+
 class Solid:
     """Voxels that are not free, for walks along rays."""
 
     def __init__(self, centres, edge_m):
         self.edge_m = edge_m
-        self.centres = centres
-        self.keys = set(map(tuple, np.floor(centres / edge_m).astype(int)))
+        self.keys = cells(centres, edge_m)
+        self.coarse = cells(centres, CLEARANCE_M)
 
     def holds(self, point):
         return tuple(np.floor(point / self.edge_m).astype(int)) in self.keys
 
     def near(self, point):
-        return bool(np.abs(self.centres - point).max(axis=1).min() < CLEARANCE_M)
+        x, y, z = np.floor(point / CLEARANCE_M).astype(int)
+        return any((x + i, y + j, z + k) in self.coarse
+                   for i in (-1, 0, 1) for j in (-1, 0, 1) for k in (-1, 0, 1))
 
     def reaches(self, eye, target):
         """True when the first voxel on the way lies near the target."""

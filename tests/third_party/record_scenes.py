@@ -62,6 +62,7 @@ def voxels(mapscore, scene, edge_m, folder):
     run(mapscore, "truth", scene, "--voxel_m", edge_m, "-o", file, "-q")
     with open(file, encoding="utf-8") as text:
         rows = list(csv.DictReader(line for line in text if not line.startswith("#")))
+    rows = [row for row in rows if row["class"] not in ("background", "0")] or rows
     keys = np.array([[int(row[axis]) for axis in "ijk"] for row in rows], dtype=float).reshape(-1, 3)
     if len(keys) == 0:
         raise RuntimeError("no class has a surface")
@@ -102,24 +103,24 @@ def measure(mapscore, workshop, scene):
     with open(poses, "w", encoding="utf-8") as text:
         text.write(trajectory(centres, row.voxel_m, FRAMES))
     recording = os.path.join(folder, "recording")
-    run(mapscore, "record", file, "--trajectory", poses, "-o", recording, "-q", *classes_for(mapscore, file, folder))
+    run(mapscore, "record", file, "--trajectory", poses, "-o", recording, "-q", *classes_for(mapscore, scene, file, folder))
     row.frames = len(os.listdir(os.path.join(recording, "color")))
     results = os.path.join(folder, "results")
     run(mapscore, "sweep", study(file, recording, row.voxel_m, folder), "-o", results, "-q")
     values = pooled(run(mapscore, "table", results, "--tidy"))
-    row.ceiling = float(values["f1"])
+    row.ceiling = float("nan" if values["f1"] == "-" else values["f1"])
     row.truth = int(float(values["visible"]))
     row.classes, row.instances = counts_of(run(mapscore, "info", recording))
     return row
 
 
-def classes_for(mapscore, scene, folder):
-    """Flags that name a suggested class file, for scenes that are no more than geoms of the world."""
-    if counts_of(run(mapscore, "info", scene, "--no-picture"))[1] > 0:
+def classes_for(mapscore, scene, file, folder):
+    """Flags that name a suggested class file, where it is wanted or the scene is but geoms of the world."""
+    if not scene.suggested and counts_of(run(mapscore, "info", file, "--no-picture"))[1] > 0:
         return []
-    file = os.path.join(folder, "suggested.classes.yaml")
-    run(mapscore, "info", scene, "--suggest-classes", "-o", file)
-    return ["--set", f"classes={file}"]
+    classes = os.path.join(folder, "suggested.classes.yaml")
+    run(mapscore, "info", file, "--suggest-classes", "-o", classes)
+    return ["--set", f"classes={classes}"]
 
 
 def counts_of(info):
@@ -149,7 +150,7 @@ def main():
         started = time.time()
         try:
             rows.append(measure(arguments.mapscore, workshop, scene))
-        except (RuntimeError, OSError, subprocess.CalledProcessError) as error:
+        except (RuntimeError, OSError, ValueError, KeyError, subprocess.CalledProcessError) as error:
             rows.append(Row(scene.name, scene.package, note=str(error).replace("\n", " ")))
         print(f"{number} of {len(chosen)}: {scene.name}, {time.time() - started:.0f} s, "
               f"ceiling {rows[-1].ceiling:.4f} {rows[-1].note}", file=sys.stderr, flush=True)

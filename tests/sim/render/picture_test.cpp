@@ -52,6 +52,30 @@ TEST(RenderPicture, GhostScenesArePale) {
   EXPECT_GT(renderer.picture(view)(32, 32)[0], plain + 60);
 }
 
+TEST(RenderPicture, ClassColoursReplaceMaterialsAndLights) {
+  const std::string head =
+      "<visual><headlight active='0'/></visual><asset><texture name='t' type='2d' "
+      "builtin='checker' "
+      "rgb1='0 1 0' rgb2='0 0 1' width='8' height='8'/><material name='m' texture='t'/></asset>";
+  const World world = load_text(
+      mjcf("<body name='cup_1'><geom type='box' pos='-1 0 -.1' size='.8 2 .1' material='m'/></body>"
+           "<geom type='box' pos='1 0 -.1' size='.8 2 .1' rgba='0 1 0 1'/>",
+           head),
+      "classes: [{name: cup, colour: 'FF0000'}]\n");
+  Renderer renderer(world, false);
+  View view;
+  view.eye_m = {0, -3, 3};
+  view.width_px = view.height_px = 64;
+  view.class_colours = true;
+  const cv::Mat3b picture = renderer.picture(view);
+  const cv::Vec3b cup = picture(32, 20), other = picture(32, 44);
+  EXPECT_GT(cup[2], 120);
+  EXPECT_EQ(cup[0] + cup[1], 0);
+  EXPECT_EQ(other[0], other[1]);
+  EXPECT_EQ(other[1], other[2]);
+  EXPECT_GT(other[0], 80);
+}
+
 TEST(RenderPicture, GhostScenesDoNotDependOnTheScenesLights) {
   const std::string box =
       "<body name='floor_1'><geom type='box' pos='0 0 -.1' size='2 2 .1' rgba='.2 .2 .2 "

@@ -160,14 +160,16 @@ TEST(ForeignScene, AMissingTextureIsRefusedByName) {
   }
 }
 
-TEST(ForeignScene, HeightFieldsAndCablesHaveSurfaces) {
+TEST(ForeignScene, HeightFieldsAndReplicasHaveSurfaces) {
   const std::string scene =
       "<mujoco><asset><hfield name='h' nrow='2' ncol='2' size='1 1 .5 .1' elevation='0 0 0 1'/>"
       "</asset><worldbody><body name='hill'><geom type='hfield' hfield='h'/></body>"
-      "<composite type='cable' prefix='rope' curve='s' count='5 1 1' size='1' offset='0 0 2'"
-      " initial='none'><geom type='capsule' size='.01'/></composite></worldbody></mujoco>";
+      "<replicate count='3' offset='1 0 0'><body name='post'><geom type='capsule' size='.1 .5'/>"
+      "</body></replicate></worldbody></mujoco>";
   expect_same_without_robot(scene);
-  EXPECT_NEAR(bounds(load(scene), "hill").max().z(), 0.5, 1e-6);
+  const World world = load(scene);
+  EXPECT_NEAR(bounds(world, "hill").max().z(), 0.5, 1e-6);
+  EXPECT_EQ(world.classes().instances.size(), 1u + 1u + 3u);
 }
 
 TEST(ForeignScene, WorldsOfAnySizeLoad) {
