@@ -32,8 +32,8 @@ struct View {
   int width_px = 1280, height_px = 960;
   std::vector<std::string> hidden_classes;  ///< left out of the picture, e.g. the ceiling
   bool ghost_scene = false;  ///< draw the scene pale and lit plainly, so that cubes stand out
-  /// Draw everything plain, in the colour of its class, background grey, and lit plainly. Goes before
-  /// ghost_scene.
+  /// Draw everything plain, in the colour of its class, background grey, and lit plainly. Goes
+  /// before ghost_scene.
   bool class_colours = false;
   /// Leave out what lies flat between the eye and the room below it: what is wider than 1 m both
   /// ways, more than 0.9 m above the target and wholly below the eye.

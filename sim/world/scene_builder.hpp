@@ -13,8 +13,8 @@
 namespace mapscore::sim {
 
 /// The MJCF scene with the robot's body `base_footprint` attached to its world, names prefixed by
-/// `robot/`; kept open so that meshes can be added before it is compiled again. An empty path of the
-/// robot: the scene by itself.
+/// `robot/`; kept open so that meshes can be added before it is compiled again. An empty path of
+/// the robot: the scene by itself.
 class SceneBuilder {
  public:
   /// Throws Error when a file is missing or MuJoCo refuses it.
