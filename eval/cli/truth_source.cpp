@@ -41,7 +41,7 @@ std::optional<double> LatticeFlags::time_in(const Recording& recording) const {
   if (*frame >= recording.frame_count())
     throw Error(fmt::format("--frame: {} is not in the recording; it has frames 0 to {}", *frame,
                             recording.frame_count() - 1));
-  return recording.depth_stamp_s(*frame);
+  return recording.depth_stamp_s(recording.depth_of(*frame));
 }
 
 MapFrame LatticeFlags::map_frame() const {

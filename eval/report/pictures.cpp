@@ -50,12 +50,21 @@ std::vector<fs::path> paint_all(const std::vector<JudgedMap>& maps, const ClassT
   return files;
 }
 
-/// The time that a moving scene is drawn at: that of the map, or of the frame that is shown.
+/// Time offset of the cell that is shown, seconds.
+double time_offset_s(Study study, const PictureChoice& choice) {
+  for (const auto& [path, value] : chosen_cell(study, choice).doses)
+    if (path == "faults.time_offset_ms") set_leaf(study, path, value);
+  return study.faults.time_offset_ms / 1000.0;
+}
+
+/// The time that a moving scene is drawn at: that of the map, or of the depth image of the frame
+/// that is shown.
 std::optional<double> drawn_time(const Study& study, const ClassTable& table,
-                                 const Recording& recording) {
+                                 const Recording& recording, const PictureChoice& choice) {
   if (recording.info().motion.empty() || study.score.unit == ScoreUnit::map)
     return study.score.at_s;
-  return recording.depth_stamp_s(fullest_frame(recording, table, 0, recording.frame_count()));
+  const int frame = fullest_frame(recording, table, 0, recording.frame_count());
+  return recording.depth_stamp_s(recording.depth_of(frame, time_offset_s(study, choice)));
 }
 
 }  // namespace
@@ -66,7 +75,8 @@ Pictures draw_pictures(const Study& study, const ClassTable& table, const Record
     return {{}, recording.folder().string() + ": has no truth, so its maps cannot be judged"};
   std::unique_ptr<ScenePainter> painter;
   try {
-    painter = std::make_unique<ScenePainter>(study, recording, drawn_time(study, table, recording));
+    painter = std::make_unique<ScenePainter>(study, recording,
+                                             drawn_time(study, table, recording, choice));
   } catch (const Error& error) {
     return {{}, error.what()};
   }
