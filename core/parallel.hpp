@@ -41,9 +41,28 @@ class Runs {
     return first < count_;
   }
 
+  /// Leaves nothing to hand out.
+  void stop() { next_ = count_; }
+
  private:
   std::size_t count_, size_;
   std::atomic<std::size_t> next_{0};
 };
+
+/// Calls `work(i)` for i in 0 .. count - 1 from up to `jobs` threads, each taking the next that is
+/// left. An exception lets the others end with what they have taken, and is passed on.
+template <class Work>
+void for_each_in_parallel(std::size_t count, int jobs, const Work& work) {
+  Runs items(count, 1);
+  run_jobs(static_cast<int>(std::min(count, static_cast<std::size_t>(std::max(1, jobs)))),
+           [&](int) {
+             try {
+               for (Runs::Run item; items.next(item);) work(item.first);
+             } catch (...) {
+               items.stop();
+               throw;
+             }
+           });
+}
 
 }  // namespace mapscore

@@ -5,10 +5,10 @@
 
 #include "core/error.hpp"
 #include "eval/experiment/study_recording.hpp"
+#include "eval/recording/whole_file.hpp"
 #include "eval/report/pictures_caption.hpp"
 #include "eval/report/pictures_scene.hpp"
 #include "eval/report/pictures_view.hpp"
-#include "eval/report/whole_file.hpp"
 #include "sim/world/class_suggestion.hpp"
 #include "sim/world/scene_inventory.hpp"
 #include "sim/world/shape_bounds.hpp"

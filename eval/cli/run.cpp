@@ -12,11 +12,11 @@
 #include "eval/experiment/study_store.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
+#include "eval/recording/whole_file.hpp"
 #include "eval/report/pictures.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/report/table.hpp"
 #include "eval/report/tidy_csv.hpp"
-#include "eval/report/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,16 +3,15 @@
 
 #include "eval/experiment/runner.hpp"
 
+#include "core/parallel.hpp"
 #include "eval/experiment/lattice_truth.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <memory>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 namespace mapscore::eval {
@@ -25,32 +24,6 @@ constexpr std::size_t kTrialsAtOnce = 64;
 /// walk them together, and let go then.
 constexpr int kFramesScoredAtOnce = 8;
 static_assert(kFramesScoredAtOnce <= static_cast<int>(TruthCache::kFramesOfLattice));
-
-/// Calls `work(i)` for i in 0..count-1 from `jobs` threads; rethrows the first exception.
-void for_each_in_parallel(std::size_t count, int jobs,
-                          const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex failure_mutex;
-  const auto worker = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        work(i);
-      } catch (...) {
-        const std::scoped_lock lock(failure_mutex);
-        if (!failure) failure = std::current_exception();
-        next = count;
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> threads;
-    const std::size_t workers = std::min(count, static_cast<std::size_t>(std::max(1, jobs)));
-    for (std::size_t t = 1; t < workers; ++t) threads.emplace_back(worker);
-    worker();
-  }
-  if (failure) std::rethrow_exception(failure);
-}
 
 std::size_t bytes_of_a_frame(const Recording& recording) {
   const CameraModel& color = recording.info().calibration.color;

@@ -7,6 +7,7 @@
 #include "eval/recording/file_bytes.hpp"
 #include "eval/recording/one_line.hpp"
 #include "eval/recording/pgm.hpp"
+#include "eval/recording/whole_file.hpp"
 #include "eval/recording/yaml_value.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,6 @@
 #include <array>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 namespace mapscore::eval {
 namespace {
@@ -77,24 +77,6 @@ std::filesystem::path image_file(const YamlValue& root, const std::filesystem::p
   const std::string name = value.text();
   if (name.empty() || name != one_line(name)) value.refuse("must name a PGM file");
   return yaml_file.parent_path() / name;  // an absolute name stays as it is
-}
-
-/// A file of this name is whole; nothing is left behind after a failure.
-void write_aside(const std::filesystem::path& file, std::string_view bytes) {
-  std::filesystem::path aside = file;
-  aside += ".partial";
-  std::error_code failure;
-  try {
-    write_file(aside, bytes);
-  } catch (const Error&) {
-    std::filesystem::remove(aside, failure);
-    throw;
-  }
-  std::filesystem::rename(aside, file, failure);
-  if (!failure) return;
-  std::error_code ignored;
-  std::filesystem::remove(aside, ignored);
-  throw Error(file.string() + ": cannot be written; check that no folder has this name");
 }
 
 /// A rule that can say every value of the grid.
@@ -167,8 +149,8 @@ void save_grid(const OccupancyGrid& grid, const std::filesystem::path& yaml_file
       "free_thresh: {}\nmode: {}\n",
       yaml_quoted(image_path.filename().string()), frame.resolution_m, T.x_m, T.y_m, T.yaw_rad,
       rule.occupied_thresh, rule.free_thresh, rule.scale ? "scale" : "trinary");
-  write_aside(image_path, encode_pgm(image));
-  write_aside(yaml_file, yaml);
+  write_whole_file(image_path, encode_pgm(image));
+  write_whole_file(yaml_file, yaml);
 }
 
 }  // namespace mapscore::eval

@@ -4,6 +4,7 @@
 #include "eval/report/baseline.hpp"
 
 #include "core/error.hpp"
+#include "eval/recording/whole_file.hpp"
 #include "eval/report/csv.hpp"
 
 #include <fmt/format.h>
@@ -56,19 +57,10 @@ std::vector<BaselineRow> baseline_of(const StudySummary& summary) {
 }
 
 void write_baseline(const std::vector<BaselineRow>& rows, const std::filesystem::path& file) {
-  const std::filesystem::path aside = file.string() + ".partial";
-  std::ofstream stream(aside);
-  stream << kHeader << '\n';
+  std::string text = std::string(kHeader) + '\n';
   for (const BaselineRow& row : rows)
-    stream << csv_line({row.what, row.group, row.metric, text_of(row.value)});
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(aside, file, error);
-  if (!stream || error) {
-    std::filesystem::remove(aside, error);
-    throw Error(file.string() +
-                ": cannot be written; check the folder, its permissions and free space");
-  }
+    text += csv_line({row.what, row.group, row.metric, text_of(row.value)});
+  write_whole_file(file, text);
 }
 
 std::vector<BaselineRow> read_baseline(const std::filesystem::path& file) {

@@ -4,7 +4,7 @@
 #include "eval/report/error_ply.hpp"
 
 #include "core/error.hpp"
-#include "eval/report/whole_file.hpp"
+#include "eval/recording/whole_file.hpp"
 
 #include <bit>
 #include <cstdint>

@@ -4,6 +4,7 @@
 #include "eval/report/figures.hpp"
 
 #include "core/error.hpp"
+#include "eval/recording/whole_file.hpp"
 #include "eval/report/figures_accuracy.hpp"
 #include "eval/report/figures_causes.hpp"
 #include "eval/report/figures_layout.hpp"
@@ -12,7 +13,6 @@
 #include "eval/report/table.hpp"
 #include "eval/report/tidy_csv.hpp"
 
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -30,15 +30,8 @@ void make_folder(const fs::path& folder) {
                 "); choose another folder");
 }
 
-fs::path write_aside(const fs::path& file, const std::string& text) {
-  fs::path aside = file;
-  aside += ".partial";
-  std::ofstream stream(aside, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream)
-    throw Error(file.string() + ": cannot be written; check the folder and the free space");
-  fs::rename(aside, file);
+fs::path written(const fs::path& file, const std::string& text) {
+  write_whole_file(file, text);
   return file;
 }
 
@@ -63,7 +56,7 @@ std::vector<fs::path> write_tables(const StudySummary& summary, const fs::path& 
   write_tidy_csv(summary, tidy);
   const std::string table = to_text(score_table(summary, std::string(kPooled))) + '\n' +
                             to_text(score_table(summary, std::string(kMacro)));
-  return {write_aside(folder / "trials.csv", tidy.str()), write_aside(folder / "table.txt", table)};
+  return {written(folder / "trials.csv", tidy.str()), written(folder / "table.txt", table)};
 }
 
 }  // namespace mapscore::eval

@@ -4,6 +4,7 @@
 #include "eval/score/confusion.hpp"
 
 #include "core/error.hpp"
+#include "eval/score/prediction.hpp"
 #include "eval/score/row_window.hpp"
 
 #include <fmt/format.h>
@@ -15,14 +16,6 @@
 
 namespace mapscore::eval {
 namespace {
-
-void check_class(const VoxelKey& key, ClassId class_id, std::size_t class_count) {
-  if (class_id < class_count) return;
-  throw Error(
-      fmt::format("voxel {},{},{}: class {} is not in the class table of {} classes; "
-                  "score against the scene that the map was made of",
-                  key.i, key.j, key.k, class_id, class_count));
-}
 
 /// Column of what the map says of one voxel; `voxel` holds it, or nothing.
 std::size_t answer_of(std::span<const MapVoxel> voxel, double threshold, std::size_t class_count) {
@@ -102,11 +95,7 @@ ConfusionMatrix& ConfusionMatrix::operator+=(const ConfusionMatrix& other) {
 
 ConfusionMatrix confusion_of(const MapSnapshot& map, double threshold, const SurfaceTruth& surface,
                              const VisibleTruth& visible, std::size_t class_count) {
-  if (surface.edge_m() != visible.edge_m()) {
-    throw Error(
-        fmt::format("voxel_m: surface truth has {} m, visible truth {} m; make both with one size",
-                    surface.edge_m(), visible.edge_m()));
-  }
+  check_same_lattice(surface, visible);
   ConfusionMatrix matrix(class_count, kVoxelAnswers);
   count_from_nothing(map, threshold, surface, visible, matrix);
   count_visible(map, threshold, visible, matrix);

@@ -3,10 +3,8 @@
 
 #include "eval/score/curve.hpp"
 
-#include "core/error.hpp"
+#include "eval/score/prediction.hpp"
 #include "eval/score/row_window.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,14 +46,6 @@ class DenseCurve {
   std::vector<CurveStep> steps_;  ///< by rising thousandth
   std::int64_t squared_error_billionth_ = 0;
 };
-
-void check_class(const VoxelKey& key, ClassId class_id, std::size_t class_count) {
-  if (class_id < class_count) return;
-  throw Error(
-      fmt::format("voxel {},{},{}: class {} is not in the class table of {} classes; "
-                  "score against the scene that the map was made of",
-                  key.i, key.j, key.k, class_id, class_count));
-}
 
 void add_voxels(const MapSnapshot& map, const SurfaceTruth& surface,
                 std::vector<DenseCurve>& curves) {

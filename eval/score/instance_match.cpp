@@ -4,6 +4,7 @@
 #include "eval/score/instance_match.hpp"
 
 #include "core/error.hpp"
+#include "eval/score/prediction.hpp"
 #include "eval/score/row_window.hpp"
 
 #include <fmt/format.h>
@@ -34,19 +35,9 @@ std::uint64_t pair_of(std::uint32_t prediction, InstanceId instance) {
 
 void check(const PredictedInstances& predicted, const SurfaceTruth& surface,
            const VisibleTruth& visible, const ClassTable& table) {
-  if (surface.edge_m() != visible.edge_m()) {
-    throw Error(
-        fmt::format("voxel_m: surface truth has {} m, visible truth {} m; make both with one size",
-                    surface.edge_m(), visible.edge_m()));
-  }
-  for (const PredictedInstance& instance : predicted.instances) {
-    if (instance.class_id < table.classes.size()) continue;
-    throw Error(
-        fmt::format("voxel {},{},{}: class {} is not in the class table of {} classes; "
-                    "score against the scene that the map was made of",
-                    instance.least.i, instance.least.j, instance.least.k, instance.class_id,
-                    table.classes.size()));
-  }
+  check_same_lattice(surface, visible);
+  for (const PredictedInstance& instance : predicted.instances)
+    check_class(instance.least, instance.class_id, table.classes.size());
   const std::size_t instances = table.instances.size();
   const auto is_known = [=](const auto& row, ClassId instance) {
     if (instance < instances) return;

@@ -183,19 +183,7 @@ std::vector<Metric> macro_instance_metrics(const std::vector<InstanceCounts>& co
     classes.push_back(instance_metrics(counts[semantic.id]));
   }
   if (classes.empty()) return {};
-  std::vector<Metric> macro = classes.front();
-  for (std::size_t figure = 0; figure < macro.size(); ++figure) {
-    macro[figure].value.reset();
-    double sum = 0.0;
-    int defined = 0;
-    for (const std::vector<Metric>& metrics : classes) {
-      if (!metrics[figure].value) continue;
-      sum += *metrics[figure].value;
-      ++defined;
-    }
-    if (defined > 0) macro[figure].value = sum / defined;
-  }
-  return macro;
+  return mean_over_classes(classes);
 }
 
 }  // namespace mapscore::eval

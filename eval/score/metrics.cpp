@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 namespace mapscore::eval {
@@ -62,19 +61,6 @@ void append_distances(const ClassCounts& counts, std::vector<Metric>& metrics) {
   metrics.push_back({"accuracy_p95_m", accuracy.percentile_m(kPercentile)});
   metrics.push_back({"completeness_mean_m", completeness.mean_m()});
   metrics.push_back({"completeness_p95_m", completeness.percentile_m(kPercentile)});
-}
-
-/// Mean of one figure over the classes where it is defined.
-std::optional<double> mean_defined(std::span<const std::vector<Metric>> classes,
-                                   std::size_t figure) {
-  double sum = 0.0;
-  int defined = 0;
-  for (const std::vector<Metric>& metrics : classes) {
-    if (!metrics[figure].value) continue;
-    sum += *metrics[figure].value;
-    ++defined;
-  }
-  return defined == 0 ? std::nullopt : std::optional(sum / defined);
 }
 
 /// The figures of a class as they enter the mean over classes: without those of instances.
@@ -143,6 +129,21 @@ std::vector<Metric> metrics_of(const ClassCounts& counts) {
   return metrics;
 }
 
+std::vector<Metric> mean_over_classes(const std::vector<std::vector<Metric>>& classes) {
+  std::vector<Metric> mean = classes.front();
+  for (std::size_t figure = 0; figure < mean.size(); ++figure) {
+    double sum = 0.0;
+    int defined = 0;
+    for (const std::vector<Metric>& metrics : classes) {
+      if (!metrics[figure].value) continue;
+      sum += *metrics[figure].value;
+      ++defined;
+    }
+    mean[figure].value = defined == 0 ? std::nullopt : std::optional(sum / defined);
+  }
+  return mean;
+}
+
 std::vector<Metric> macro_metrics(const Counts& counts, const ClassTable& table) {
   if (counts.size() != table.classes.size()) {
     throw Error(
@@ -154,10 +155,7 @@ std::vector<Metric> macro_metrics(const Counts& counts, const ClassTable& table)
     classes.push_back(metrics_for_mean(counts[semantic.id]));
   }
   if (classes.empty()) return {};
-  std::vector<Metric> macro = classes.front();
-  for (std::size_t figure = 0; figure < macro.size(); ++figure) {
-    macro[figure].value = mean_defined(classes, figure);
-  }
+  std::vector<Metric> macro = mean_over_classes(classes);
   for (Metric& metric : mean_instance_metrics(counts, table)) macro.push_back(std::move(metric));
   macro.push_back({"mpa", value_of(macro, "recall")});
   macro.push_back({"miou", value_of(macro, "iou")});

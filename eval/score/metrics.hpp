@@ -43,6 +43,11 @@ struct Metric {
 /// instances were scored, those of instance_metrics.
 [[nodiscard]] std::vector<Metric> metrics_of(const ClassCounts& counts);
 
+/// Each figure's mean over the classes where it is defined. All list the same figures in one order;
+/// there is at least one.
+[[nodiscard]] std::vector<Metric> mean_over_classes(
+    const std::vector<std::vector<Metric>>& classes);
+
 /// The mean of every figure over the detected classes with visible voxels; a class for which a
 /// figure is undefined is left out of that figure's mean. Figures of instances are those of
 /// macro_instance_metrics. Two of them again by the names they go by, at the end: mpa (recall) and

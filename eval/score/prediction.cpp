@@ -86,16 +86,19 @@ std::vector<PredictedVoxel> prediction_of(const MapSnapshot& map, double thresho
   return prediction;
 }
 
+void refuse_class(const VoxelKey& key, ClassId class_id, std::size_t class_count) {
+  throw Error(
+      fmt::format("{}: class {} is not in the class table of {} classes; score against the scene "
+                  "that the map was made of",
+                  name_of(key), class_id, class_count));
+}
+
 std::vector<std::vector<VoxelKey>> predicted_by_class(const MapSnapshot& map, double threshold,
                                                       std::size_t class_count) {
   std::vector<std::vector<VoxelKey>> by_class(class_count);
   for (const MapVoxel& voxel : map.voxels()) {
     if (!predicted(voxel, threshold)) continue;
-    if (voxel.best_class >= class_count) {
-      throw Error(
-          fmt::format("{}: class {} is not in the class table of {} classes; map it to one that is",
-                      name_of(voxel.key), voxel.best_class, class_count));
-    }
+    check_class(voxel.key, voxel.best_class, class_count);
     by_class[voxel.best_class].push_back(voxel.key);
   }
   return by_class;

@@ -49,6 +49,14 @@ class MapSnapshot {
   KeyIndex index_;
 };
 
+/// Throws Error naming the voxel and what to do about its class, which the table has not.
+[[noreturn]] void refuse_class(const VoxelKey& key, ClassId class_id, std::size_t class_count);
+
+/// Throws as refuse_class when the class is not below `class_count`.
+inline void check_class(const VoxelKey& key, ClassId class_id, std::size_t class_count) {
+  if (class_id >= class_count) refuse_class(key, class_id, class_count);
+}
+
 /// P of all classes, ordered by key.
 [[nodiscard]] std::vector<PredictedVoxel> prediction_of(const MapSnapshot& map, double threshold);
 

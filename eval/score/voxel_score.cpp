@@ -3,10 +3,8 @@
 
 #include "eval/score/voxel_score.hpp"
 
-#include "core/error.hpp"
+#include "eval/score/prediction.hpp"
 #include "eval/score/row_window.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <span>
@@ -61,27 +59,12 @@ void count_visible(const VisibleVoxel& truth, RowWindow<MapVoxel>& map, double t
   }
 }
 
-void check_same_lattice(const SurfaceTruth& surface, const VisibleTruth& visible) {
-  if (surface.edge_m() != visible.edge_m()) {
-    throw Error(
-        fmt::format("voxel_m: surface truth has {} m, visible truth {} m; make both with one size",
-                    surface.edge_m(), visible.edge_m()));
-  }
-}
-
-[[noreturn]] void refuse_class(const VoxelKey& key, ClassId class_id, std::size_t class_count) {
-  throw Error(
-      fmt::format("voxel {},{},{}: class {} is not in the class table of {} classes; "
-                  "score against the scene that the map was made of",
-                  key.i, key.j, key.k, class_id, class_count));
-}
-
 void count_predictions(const MapSnapshot& map, double threshold, const SurfaceTruth& surface,
                        int reach, Counts& counts) {
   RowWindow<SurfaceVoxel> rows(surface.voxels(), std::max(reach, kNearVoxels));
   for (const MapVoxel& voxel : map.voxels()) {
     if (!predicted(voxel, threshold)) continue;
-    if (voxel.best_class >= counts.size()) refuse_class(voxel.key, voxel.best_class, counts.size());
+    check_class(voxel.key, voxel.best_class, counts.size());
     count_predicted(voxel, rows, counts[voxel.best_class]);
   }
 }
@@ -91,7 +74,7 @@ void count_visibles(const MapSnapshot& map, double threshold, const VisibleTruth
                     int reach, Counts& counts) {
   for (auto rest = visible.voxels(); !rest.empty();) {
     const ClassId owner = rest.front().owner;
-    if (owner >= counts.size()) refuse_class(rest.front().key, owner, counts.size());
+    check_class(rest.front().key, owner, counts.size());
     const auto of_class = visible.of(owner);
     RowWindow<MapVoxel> rows(map.voxels(), reach);
     for (const VisibleVoxel& truth : of_class) count_visible(truth, rows, threshold, counts[owner]);

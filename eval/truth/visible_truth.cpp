@@ -5,6 +5,8 @@
 
 #include "core/error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -95,6 +97,13 @@ VisibleTruth whole_surface(const SurfaceTruth& surface) {
     }
   }
   return {std::move(voxels), surface.edge_m()};
+}
+
+void check_same_lattice(const SurfaceTruth& surface, const VisibleTruth& visible) {
+  if (surface.edge_m() == visible.edge_m()) return;
+  throw Error(
+      fmt::format("voxel_m: surface truth has {} m, visible truth {} m; make both with one size",
+                  surface.edge_m(), visible.edge_m()));
 }
 
 }  // namespace mapscore::eval

@@ -61,4 +61,7 @@ class VisibleTruth {
 /// `touch_only`), or else the lowest that touches it. Voxels of background alone belong to none.
 [[nodiscard]] VisibleTruth whole_surface(const SurfaceTruth& surface);
 
+/// Throws Error when the voxels of the two have different edges.
+void check_same_lattice(const SurfaceTruth& surface, const VisibleTruth& visible);
+
 }  // namespace mapscore::eval

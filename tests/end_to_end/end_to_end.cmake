@@ -56,6 +56,7 @@ endforeach()
 add_test(NAME independent_ruler.foreign_maps
          COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/foreign_maps.py
                  $<TARGET_FILE:mapscore> ${PROJECT_SOURCE_DIR}/scenes)
+add_test(NAME independent_ruler.selfcheck COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/selfcheck.py)
 add_test(NAME independent_ruler.statistics
          COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/statistics_check.py $<TARGET_FILE:mapscore>)
 set_tests_properties(independent_ruler.foreign_maps independent_ruler.statistics PROPERTIES COST 100)

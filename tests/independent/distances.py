@@ -5,7 +5,7 @@
 import numpy as np
 from scipy.spatial import cKDTree
 
-from surfaces import SLACK, distance_to_boxes
+from convex import SLACK, distance_to_boxes
 from truth import cubes_of, voxels_of
 
 

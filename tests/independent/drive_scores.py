@@ -12,7 +12,7 @@ import numpy as np
 from boxes import box_figures
 from distances import cube_distances, surface_distances
 from map_scores import COUNTS, curve, curve_figures, distance_figures, joined_of, pooled_and_macro, voxel_ratios
-from surfaces import SLACK
+from convex import SLACK
 from truth import grown, key_sets
 
 TAUS_CM = (1, 2, 5, 10)

@@ -9,7 +9,8 @@ import numpy as np
 import yaml
 from PIL import Image
 
-from surfaces import KINDS, rotation_of_quaternion
+from convex import rotation_of_quaternion
+from surfaces import KINDS
 from triangles import read_triangles
 
 

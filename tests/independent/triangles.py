@@ -6,7 +6,7 @@ import struct
 
 import numpy as np
 
-from surfaces import Shape, distance_to_boxes, segment_meets_box
+from convex import Shape, distance_to_boxes, segment_meets_box
 
 
 class Triangle(Shape):

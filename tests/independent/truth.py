@@ -4,7 +4,7 @@
 
 import numpy as np
 
-from surfaces import SLACK
+from convex import SLACK
 
 OFFSET, SHIFT = 1 << 20, 21
 NEIGHBOURS = [(i, j, k) for i in (-1, 0, 1) for j in (-1, 0, 1) for k in (-1, 0, 1)]

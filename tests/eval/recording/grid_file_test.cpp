@@ -8,6 +8,7 @@
 #include "eval/recording/pgm.hpp"
 #include "expect_error.hpp"
 #include "tests/support/mutations.hpp"
+#include "tests/support/tiny_recording.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,15 +28,6 @@ constexpr const char* kPgm = "P2\n# made by hand\n3 2\n255\n0 205 254\n254 254 0
 /// A folder of its own for each test.
 class GridFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        std::filesystem::path(::testing::TempDir()) / ("grid_file_" + std::string(test->name()));
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   OccupancyGrid load(const std::string& yaml, const std::string& pgm) {
     write_file(folder_ / "map.yaml", yaml);
     write_file(folder_ / "map.pgm", pgm);
@@ -45,7 +37,8 @@ class GridFile : public ::testing::Test {
     expect_error(part, [&] { static_cast<void>(load(yaml, pgm)); });
   }
 
-  std::filesystem::path folder_;
+  mapscore::testing::TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
 };
 
 std::string with(std::string text, const std::string& from, const std::string& to) {
@@ -98,7 +91,8 @@ TEST_F(GridFile, RefusesToSaveWhatItCannotSay) {
   expect_error("unknown cells", [&] { save_grid(random_cells({-1, 50}), folder_ / "a.yaml"); });
   expect_error("a cell is 101", [&] { save_grid(random_cells({101}), folder_ / "a.yaml"); });
   expect_error("ending .yaml", [&] { save_grid(random_cells({0}), folder_ / "a.pgm"); });
-  expect_error("cannot create", [&] { save_grid(random_cells({0}), folder_ / "no" / "a.yaml"); });
+  expect_error("cannot be written",
+               [&] { save_grid(random_cells({0}), folder_ / "no" / "a.yaml"); });
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 

@@ -20,8 +20,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kNear_m = 1e-9;
-constexpr double kContactSlack_m = 1e-10 - 1e-13;  ///< the contact less the rounding of a sample
 constexpr double kSamplesPerEdge = 6;
 
 struct Placed {
@@ -68,7 +66,7 @@ std::size_t stray_samples(const Placed& placed, const SurfaceTruth& truth, doubl
       for (int j = 0; j <= n; ++j) {
         ++samples;
         for_voxels_that_hold(patch(double(i) / n, double(j) / n), truth.edge_m(),
-                             epsilon_m + kContactSlack_m,
+                             epsilon_m + test::kContactSlack_m,
                              [&](const VoxelKey& key) { strays += !truth.contains(key, 1); });
       }
     }
@@ -90,16 +88,8 @@ std::set<VoxelKey> with_neighbours(const SurfaceTruth& truth) {
 void check_voxels(const Placed& placed, const SurfaceTruth& truth, double epsilon_m) {
   const auto sets = test::convex_sets_of(placed.shape, placed.T_map_world);
   for (const VoxelKey& key : with_neighbours(truth)) {
-    const Vector3d low = low_corner_of(key, truth.edge_m());
-    const test::ClosedBox cube((low.array() - epsilon_m).matrix(),
-                               (low.array() + truth.edge_m() + epsilon_m).matrix());
-    const double distance = test::distance_found(sets, cube);
-    const auto where = testing::Message() << key.i << " " << key.j << " " << key.k;
-    if (truth.contains(key, 1)) {
-      ASSERT_LE(distance, kNear_m) << where;
-    } else {
-      ASSERT_GT(distance, kContactSlack_m) << where;
-    }
+    test::check_voxel(sets, truth, key, epsilon_m);
+    if (testing::Test::HasFatalFailure()) return;
   }
 }
 

@@ -19,8 +19,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kEdges_m[] = {0.01, 0.02, 0.05, 0.1};
-constexpr double kNear_m = 1e-9;
-constexpr double kContactSlack_m = 1e-10 - 1e-13;
 constexpr std::size_t kMostChecked = 600;
 
 double log_uniform(RandomStream& random, double low, double high) {
@@ -90,20 +88,6 @@ void check_samples(const Shape& shape, const SurfaceTruth& truth) {
   }
 }
 
-void check_voxel(const std::vector<test::ConvexSet>& sets, const SurfaceTruth& truth,
-                 const VoxelKey& key, double epsilon_m) {
-  const Vector3d low = low_corner_of(key, truth.edge_m());
-  const test::ClosedBox cube((low.array() - epsilon_m).matrix(),
-                             (low.array() + truth.edge_m() + epsilon_m).matrix());
-  const double distance = test::distance_found(sets, cube);
-  const auto where = testing::Message() << key.i << " " << key.j << " " << key.k;
-  if (truth.contains(key, 1)) {
-    ASSERT_LE(distance, kNear_m) << where;
-  } else {
-    ASSERT_GT(distance, kContactSlack_m) << where;
-  }
-}
-
 /// Rows spread evenly over the truth, each with one of its neighbours.
 void check_rows(const Shape& shape, const SurfaceTruth& truth, double epsilon_m) {
   const auto sets = test::convex_sets_of(shape, Pose::Identity());
@@ -112,9 +96,9 @@ void check_rows(const Shape& shape, const SurfaceTruth& truth, double epsilon_m)
   int n = 0;
   for (std::size_t row = 0; row < rows.size(); row += stride, n = (n + 1) % 27) {
     const VoxelKey& key = rows[row].key;
-    check_voxel(sets, truth, key, epsilon_m);
-    check_voxel(sets, truth, {key.i + n % 3 - 1, key.j + n / 3 % 3 - 1, key.k + n / 9 - 1},
-                epsilon_m);
+    test::check_voxel(sets, truth, key, epsilon_m);
+    test::check_voxel(sets, truth, {key.i + n % 3 - 1, key.j + n / 3 % 3 - 1, key.k + n / 9 - 1},
+                      epsilon_m);
   }
 }
 

@@ -3,7 +3,10 @@
 
 #pragma once
 
+#include "eval/truth/surface_truth.hpp"
 #include "tests/eval/truth/closest_point.hpp"
+
+#include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -156,6 +159,25 @@ inline double distance_found(const std::vector<ConvexSet>& sets, const ClosedBox
     if (least <= kFoundEnough_m) break;
   }
   return least;
+}
+
+inline constexpr double kNear_m = 1e-9;  ///< a voxel of the truth comes as near to its surface
+/// The contact of exact tests less the rounding of a sample.
+inline constexpr double kContactSlack_m = 1e-10 - 1e-13;
+
+/// A voxel of the truth (of class 1) must be near the surface, any other must not touch it.
+inline void check_voxel(const std::vector<ConvexSet>& sets, const SurfaceTruth& truth,
+                        const VoxelKey& key, double epsilon_m) {
+  const Eigen::Vector3d low = low_corner_of(key, truth.edge_m());
+  const ClosedBox cube((low.array() - epsilon_m).matrix(),
+                       (low.array() + truth.edge_m() + epsilon_m).matrix());
+  const double distance = distance_found(sets, cube);
+  const auto where = ::testing::Message() << key.i << " " << key.j << " " << key.k;
+  if (truth.contains(key, 1)) {
+    ASSERT_LE(distance, kNear_m) << where;
+  } else {
+    ASSERT_GT(distance, kContactSlack_m) << where;
+  }
 }
 
 }  // namespace mapscore::eval::test

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/whole_file.hpp"
+#include "eval/recording/whole_file.hpp"
 
 #include "core/error.hpp"
 
@@ -23,8 +23,9 @@ void write_whole_file(const std::filesystem::path& file, std::string_view bytes)
   if (stream && !failure) return;
   std::error_code ignored;
   if (opened) std::filesystem::remove(aside, ignored);
-  throw Error(file.string() + ": cannot be written; check that its folder exists, may be written " +
-              "to and has room");
+  throw Error(file.string() +
+              ": cannot be written; check that its folder exists, may be written to and " +
+              "has free space");
 }
 
 }  // namespace mapscore::eval
