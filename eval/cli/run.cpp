@@ -117,7 +117,8 @@ void run(const RunFlags& flags) {
   FrameCache frames(recording, {.color = false, .label = true, .depth = true, .depth_label = true},
                     flags.work.memory_bytes);
   TruthCache truths(recording, table, frames, 1);
-  TrialRun trial(task, recording, table, truths);
+  PoseSources poses(recording);
+  TrialRun trial(task, recording, table, truths, poses);
   trial.keep_frames();
   Progress progress("run", "frames", flags.work.quiet);
   for (int frame = 0; frame < recording.frame_count(); ++frame) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "eval/experiment/fields.hpp"
+#include "eval/experiment/localization_fields.hpp"
 #include "eval/experiment/study.hpp"
 
 #include <array>
@@ -181,6 +182,10 @@ void fields(auto&& visit, Of<FaultSettings> auto& s) {
               .meaning = "errors of the 2D segmentation: moves labels",
               .unkeyed = "{}"},
         s.labels);
+  visit(Field{.key = "lidar",
+              .meaning = "noise of the lidar: moves the poses of the particle filter",
+              .unkeyed = "{}"},
+        s.lidar);
 }
 
 }  // namespace mapscore::eval

@@ -4,25 +4,58 @@
 #include "eval/experiment/plan.hpp"
 
 #include "core/error.hpp"
+#include "eval/experiment/localization_doses.hpp"
 #include "eval/experiment/sensor_doses.hpp"
+#include "eval/recording/file_bytes.hpp"
+#include "eval/recording/grid_file.hpp"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <unordered_map>
 
 namespace mapscore::eval {
 namespace {
 
-std::string content_hash(const std::string& text) {
-  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-}
+/// What the files hold that poses of a study come from. Each is read once.
+class PoseFiles {
+ public:
+  /// Hash of the file that the source of a configuration reads; empty when it reads none. Throws
+  /// Error when the file is refused.
+  std::string content(const Study& config) {
+    const LocalizationSettings& settings = config.localization;
+    if (settings.source == PoseSource::trajectory)
+      return of(resolve_path(config, settings.trajectory.value()), read_file);
+    if (settings.source == PoseSource::particle_filter && settings.grid)
+      return of(resolve_path(config, *settings.grid), grid_bytes);
+    return "";
+  }
+
+ private:
+  static std::string grid_bytes(const std::filesystem::path& file) {
+    const OccupancyGrid grid = load_grid(file);
+    const GridFrame& frame = grid.frame();
+    std::string bytes =
+        fmt::format("{} {} {} {} {} {}\n", frame.resolution_m, frame.T_map_grid.x_m,
+                    frame.T_map_grid.y_m, frame.T_map_grid.yaw_rad, frame.width, frame.height);
+    bytes.append(grid.cells().begin(), grid.cells().end());
+    return bytes;
+  }
+
+  std::string of(const std::filesystem::path& file, auto read) {
+    const auto [entry, is_new] = hashes_.try_emplace(file);
+    if (is_new) entry->second = hash_of(read(file));
+    return entry->second;
+  }
+
+  std::map<std::filesystem::path, std::string> hashes_;
+};
 
 /// Leaves only what determines the result, so that renaming a study or adding a method to it does
 /// not make its trials new. The recording stands for what it was made from.
-Study determining(Study config) {
+Study determining(Study config, const std::string& pose_file) {
   const Study none;
   config.name.clear();
   config.seeds = 1;
@@ -35,6 +68,7 @@ Study determining(Study config) {
   config.picture_view.reset();
   config.faults.depth = resolved(config.faults.depth);
   config.faults.labels = resolved(config.faults.labels);
+  resolve_localization(config.localization, config.faults, pose_file);
   config.base_folder.clear();
   for (MethodSettings& method : config.methods) method.name = "method";
   return config;
@@ -46,7 +80,9 @@ Study with_method(Study config, const std::string& name) {
   return config;
 }
 
+/// A true pose is part of it.
 Study without_faults(Study config) {
+  config.localization = {};
   config.faults = {};
   return config;
 }
@@ -58,13 +94,14 @@ Study for_lattice_ceiling(Study config) {
   return config;
 }
 
-Task make_task(Study config, int seed_index, Labels labels, const std::string& recording_hash) {
+Task make_task(Study config, int seed_index, Labels labels, const std::string& recording_hash,
+               PoseFiles& files) {
   Task task;
   task.description =
       fmt::format("scoring_version: {}\nrecording: {}\nlabels: {}\nseed_index: {}\n{}",
                   kScoringVersion, recording_hash, labels == Labels::truth ? "truth" : "detected",
-                  seed_index, to_key_yaml(determining(config)));
-  task.key = content_hash(task.description);
+                  seed_index, to_key_yaml(determining(config, files.content(config))));
+  task.key = hash_of(task.description);
   task.config = std::move(config);
   task.seed_index = seed_index;
   task.labels = labels;
@@ -89,12 +126,18 @@ class TaskList {
 
 }  // namespace
 
+std::uint64_t trial_seed(const Task& task) {
+  return RandomStream(task.config.seed, "trial", {static_cast<std::uint64_t>(task.seed_index)})
+      .bits();
+}
+
 Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
              const std::string& recording_hash) {
   const Study config = resolve(study, spec.cell);
+  PoseFiles files;
   return make_task(
       labels == Labels::truth ? for_lattice_ceiling(config) : with_method(config, spec.method),
-      spec.seed_index, labels, recording_hash);
+      spec.seed_index, labels, recording_hash, files);
 }
 
 Plan plan_of(const Study& study, const std::string& recording_hash) {
@@ -104,10 +147,11 @@ Plan plan_of(const Study& study, const std::string& recording_hash) {
                   ": decides what is recorded; make one study for each of its values");
   Plan plan;
   TaskList list(plan.tasks);
+  PoseFiles files;
   for (const TrialSpec& spec : trials(study)) {
     const Study config = with_method(resolve(study, spec.cell), spec.method);
     const auto add = [&](Study&& of, Labels labels) {
-      return list.add(make_task(std::move(of), spec.seed_index, labels, recording_hash));
+      return list.add(make_task(std::move(of), spec.seed_index, labels, recording_hash, files));
     };
     PlannedTrial trial;
     trial.spec = spec;

@@ -6,6 +6,7 @@
 #include "eval/experiment/grid.hpp"
 #include "eval/experiment/study.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct Task {
   int seed_index = 0;
   Labels labels = Labels::detected;
 };
+
+/// The seed of everything that one repetition draws; shared by all methods and doses.
+[[nodiscard]] std::uint64_t trial_seed(const Task& task);
 
 /// One trial of the sweep and its two ceilings, as positions in Plan::tasks.
 struct PlannedTrial {

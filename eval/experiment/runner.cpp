@@ -64,7 +64,8 @@ class Sweep {
                 Channels{.color = false, .label = true, .depth = true, .depth_label = true},
                 options.memory_bytes),
         truths_(recording, table, frames_,
-                static_cast<std::size_t>(std::max(1, options.jobs)) + 1) {}
+                static_cast<std::size_t>(std::max(1, options.jobs)) + 1),
+        poses_(recording) {}
 
   void run(const std::vector<const Task*>& tasks) {
     const int block = block_of_frames(tasks);
@@ -96,7 +97,7 @@ class Sweep {
     for (int first = 0; first < recording_.frame_count(); first += block) {
       const int end = std::min(first + block, recording_.frame_count());
       for_each_in_parallel(batch.size(), options_.jobs, [&](std::size_t i) {
-        if (!runs[i]) runs[i] = std::make_unique<TrialRun>(*batch[i], recording_, table_, truths_);
+        if (!runs[i]) runs[i] = std::make_unique<TrialRun>(*batch[i], recording_, table_, truths_, poses_);
         advance(*runs[i], first, end);
         if (end < recording_.frame_count()) return;
         finish(*batch[i], *runs[i]);
@@ -125,6 +126,7 @@ class Sweep {
   const RunnerOptions& options_;
   FrameCache frames_;
   TruthCache truths_;
+  PoseSources poses_;
   std::mutex store_mutex_;
   std::atomic<std::int64_t> done_{0};
   std::int64_t total_ = 0;

@@ -5,6 +5,7 @@
 
 #include "core/mapping/pose_belief.hpp"
 #include "core/segmentation/segmentation.hpp"
+#include "eval/experiment/localization_settings.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
 #include "sim/faults/pose_fault.hpp"
@@ -156,6 +157,7 @@ struct FaultSettings {
   double time_offset_ms = 0;  ///< of the depth image that a colour image is paired with
   DepthFaultSettings depth;
   LabelFaultSettings labels;
+  LidarFaultSettings lidar;
 
   bool operator==(const FaultSettings&) const = default;
 };
@@ -211,6 +213,7 @@ struct Study {
   std::optional<DetectedSet> detect;  ///< empty: as the class file says
   std::vector<MethodSettings> methods;
   FusionSettings fusion;
+  LocalizationSettings localization;
   FaultSettings faults;
   ScoreSettings score;
   std::vector<SweepAxis> sweep;

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/experiment/grid.hpp"
+#include "eval/experiment/localization_doses.hpp"
 #include "eval/experiment/picture_view.hpp"
 #include "eval/experiment/sensor_doses.hpp"
 
@@ -132,6 +133,20 @@ void check_methods(const std::vector<MethodSettings>& methods, const Blame& blam
   }
 }
 
+void check_localization(const Study& study, const Blame& blame) {
+  const LocalizationSettings& localization = study.localization;
+  if (localization.source == PoseSource::trajectory && !localization.trajectory)
+    blame("localization.trajectory", "is missing; write trajectory: FILE, or another source");
+  const auto& [least, most] = particle_bounds(localization.filter);
+  if (most < least)
+    blame("localization.filter.most_particles",
+          fmt::format("{} is below least_particles, {}; write a greater one", most, least));
+  const double rate = noise_of(study.faults.lidar).dropout_rate;
+  if (rate > 1)
+    blame("faults.lidar.scale",
+          fmt::format("makes dropout_rate {}; write a lesser number, a share ends at 1", rate));
+}
+
 void check_time(const ScoreSettings& score, const Blame& blame) {
   if (score.at_s && score.unit == ScoreUnit::frame)
     blame("score.at_s",
@@ -154,6 +169,7 @@ void check_leaves(const Study& study, const Blame& blame) {
   check_rigid(study.faults.misregistration, "faults.misregistration", blame);
   check_rigid(study.faults.mount, "faults.mount", blame);
   check_covariance(study.faults.pose, blame);
+  check_localization(study, blame);
   check_time(study.score, blame);
   check_confusion(study.faults.labels, blame);
   check_sensor(study.faults.depth, "faults.depth", blame);

@@ -137,6 +137,8 @@ void fields(auto&& visit, Of<Study> auto& s) {
         s.detect);
   visit(Field{"methods", "at least one, by name: letters, digits, _ and -"}, s.methods);
   visit(Field{"fusion", "how observations change the map"}, s.fusion);
+  visit(Field{.key = "localization", .meaning = "where the robot believes it is", .unkeyed = "{}"},
+        s.localization);
   visit(Field{"faults", "doses of the faults"}, s.faults);
   visit(Field{"score", "how maps are scored"}, s.score);
   visit(Field{"sweep", "values of the leaf at a path; several paths make a grid"}, s.sweep);

@@ -18,12 +18,6 @@
 namespace mapscore::eval {
 namespace {
 
-/// The seed of everything that one repetition draws; shared by all methods and doses.
-std::uint64_t trial_seed(const Task& task) {
-  return RandomStream(task.config.seed, "trial", {static_cast<std::uint64_t>(task.seed_index)})
-      .bits();
-}
-
 double time_offset_s(const Study& config) {
   return config.faults.time_offset_ms / 1000.0;
 }
@@ -34,21 +28,6 @@ std::vector<int> paired_depth(const Recording& recording, const Study& config) {
   for (int frame = 0; frame < recording.frame_count(); ++frame)
     depth.push_back(recording.depth_of(frame, time_offset_s(config)));
   return depth;
-}
-
-/// Believed T_map_base of every frame, which is read with the depth image `depth` names.
-std::vector<Pose> believed_poses(const Recording& recording, const Task& task,
-                                 const std::vector<int>& depth) {
-  const bool at_depth = task.config.faults.pose.stamp == PoseStamp::depth;
-  std::vector<Pose> poses;
-  for (int frame = 0; frame < recording.frame_count(); ++frame)
-    poses.push_back(at_depth
-                        ? recording.T_world_base_of_depth(depth[static_cast<std::size_t>(frame)])
-                        : recording.T_world_base_of_color(frame));
-  poses = sim::believe_poses(poses, dose_of(task.config.faults.pose), trial_seed(task));
-  const Pose T_map_world = map_frame(task.config, task.seed_index).T_map_world();
-  for (Pose& pose : poses) pose = T_map_world * pose;
-  return poses;
 }
 
 ObservedObject& object_of(ClassId class_id, Observation& observation) {
@@ -81,14 +60,13 @@ TruthOptions truth_options(const Study& config) {
 }
 
 TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
-                   TruthCache& truths)
+                   TruthCache& truths, PoseSources& poses)
     : task_(task),
       table_(table),
       true_(recording.info().calibration),
       believed_(believed_calibration(true_, task)),
       depth_of_(paired_depth(recording, task.config)),
-      T_map_base_(believed_poses(recording, task, depth_of_)),
-      reported_covariance_(reported_covariance(task.config.faults.pose)),
+      beliefs_(poses.beliefs(task, depth_of_)),
       depth_dose_(dose_of(task.config.faults.depth)),
       label_dose_(dose_of(task.config.faults.labels)),
       segmentation_(segmentation_params(task.config.methods.front().segmentation)),
@@ -196,9 +174,7 @@ void TrialRun::account(const Segment& segment) {
 }
 
 std::vector<Pose> TrialRun::sensor_poses(int frame) const {
-  PoseBelief belief;
-  belief.T_odom_base = T_map_base_.at(static_cast<std::size_t>(frame));
-  belief.covariance = reported_covariance_;
+  const PoseBelief& belief = beliefs_.at(static_cast<std::size_t>(frame));
   RandomStream stream(trial_seed(task_), "belief", {static_cast<std::uint64_t>(frame)});
   std::vector<Pose> poses =
       draw_poses(belief, blend_.N, blend_.noise_at, blend_.covariance, stream);

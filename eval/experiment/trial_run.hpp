@@ -11,6 +11,7 @@
 #include "core/segmentation/segmentation.hpp"
 #include "eval/experiment/lattice_truth.hpp"
 #include "eval/experiment/plan.hpp"
+#include "eval/experiment/pose_sources.hpp"
 #include "eval/experiment/store.hpp"
 #include "eval/recording/recording.hpp"
 #include "sim/faults/depth_dose.hpp"
@@ -29,11 +30,12 @@ struct FrameResult {
 };
 
 /// One trial under way: takes the frames of a recording in order and ends in counts. Used by one
-/// thread at a time; `task`, `recording`, `table` and `truths` must outlive it.
+/// thread at a time; `task`, `recording`, `table` and `truths` must outlive it;
+/// `poses` need not.
 class TrialRun {
  public:
   TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
-           TruthCache& truths);
+           TruthCache& truths, PoseSources& poses);
 
   /// Keeps the counts of each frame, where each is scored by itself. Call it before the first one.
   void keep_frames() { keeps_frames_ = true; }
@@ -79,8 +81,7 @@ class TrialRun {
   Calibration true_;              ///< what rendered the images
   Calibration believed_;          ///< what the method is told
   std::vector<int> depth_of_;     ///< by frame
-  std::vector<Pose> T_map_base_;  ///< believed, by frame
-  Covariance6 reported_covariance_;
+  std::vector<PoseBelief> beliefs_;  ///< by frame
   sim::DepthDose depth_dose_;
   sim::LabelDose label_dose_;
   SegmentationParams segmentation_;

@@ -104,6 +104,12 @@ Pose Recording::T_world_base_of_color(int index) const {
                           (folder_ / "groundtruth.txt").string(), image.stamp_s, image.path));
 }
 
+Pose Recording::T_world_base_at(double stamp_s) const {
+  if (const auto pose = interpolated(trajectory_, stamp_s)) return *pose;
+  throw Error(fmt::format("{}: does not reach stamp {}; lengthen the trajectory",
+                          (folder_ / "groundtruth.txt").string(), stamp_s));
+}
+
 void Recording::check_frame(int index) const {
   if (index < 0 || index >= frame_count())
     throw Error(fmt::format("{}: no frame {}; the recording has frames 0 to {}", folder_.string(),

@@ -75,6 +75,11 @@ class Recording {
   /// True pose at the stamp of a colour image, between two lines of groundtruth.txt interpolated.
   /// Throws Error where the trajectory does not reach it.
   [[nodiscard]] Pose T_world_base_of_color(int index) const;
+  /// The same at any stamp.
+  [[nodiscard]] Pose T_world_base_at(double stamp_s) const;
+  [[nodiscard]] double color_stamp_s(int index) const {
+    return color_.at(static_cast<std::size_t>(index)).stamp_s;
+  }
 
   /// A frame with the depth image that belongs to it.
   [[nodiscard]] Frame read(int index, Channels channels = {}) const {

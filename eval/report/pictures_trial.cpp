@@ -96,6 +96,7 @@ std::vector<JudgedMap> map_trials(const Study& study, const ClassTable& table,
   FrameCache frames(recording, {.color = false, .label = true, .depth = true, .depth_label = true},
                     choice.memory_bytes);
   TruthCache truths(recording, table, frames, 1);
+  PoseSources poses(recording);
   std::optional<int> alone;
   if (study.score.unit == ScoreUnit::frame)
     alone = fullest_frame(recording, table, 0, recording.frame_count());
@@ -105,7 +106,7 @@ std::vector<JudgedMap> map_trials(const Study& study, const ClassTable& table,
     if (spec.cell != cell || spec.seed_index != choice.seed_index) continue;
     if (choice.method && *choice.method != spec.method) continue;
     const Task task = task_of(undistanced, spec, Labels::detected, recording.content_hash());
-    TrialRun run(task, recording, table, truths);
+    TrialRun run(task, recording, table, truths, poses);
     for (int frame = alone.value_or(0); frame < (alone ? *alone + 1 : recording.frame_count());
          ++frame)
       run.advance(*frames.get(frame, run.depth_of(frame)));

@@ -148,7 +148,8 @@ TEST_F(MovingRecording, LatticeCeilingByFrameIsNextToOne) {
   TruthCache truths(recording, recording.info().table, frames, 1);
   const Task task =
       task_of(by_frame, trials(by_frame).front(), Labels::truth, recording.content_hash());
-  TrialRun run(task, recording, recording.info().table, truths);
+  PoseSources poses(recording);
+  TrialRun run(task, recording, recording.info().table, truths, poses);
   for (int frame = 0; frame < recording.frame_count(); ++frame) run.advance(*frames.get(frame));
   const TrialResult result = run.finish();
   for (const ClassId c : {1, 3}) {

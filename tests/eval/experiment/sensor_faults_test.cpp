@@ -34,7 +34,8 @@ class SensorFaults : public TinyExperiment {
                       {.color = false, .label = true, .depth = true, .depth_label = true},
                       std::size_t{1} << 24);
     TruthCache truths(recording(), table(), frames, 1);
-    TrialRun run(task, recording(), table(), truths);
+    PoseSources poses(recording());
+    TrialRun run(task, recording(), table(), truths, poses);
     for (int index = 0; index < recording().frame_count(); ++index) run.advance(*frames.get(index));
     return run.finish();
   }
@@ -100,7 +101,8 @@ TEST_F(SensorFaults, ConfusedClassesComeIntoTheMap) {
                     {.color = false, .label = true, .depth = true, .depth_label = true},
                     std::size_t{1} << 24);
   TruthCache truths(recording(), all, frames, 1);
-  TrialRun run(confused, recording(), all, truths);
+  PoseSources poses(recording());
+  TrialRun run(confused, recording(), all, truths, poses);
   for (int index = 0; index < recording().frame_count(); ++index) run.advance(*frames.get(index));
   const TrialResult found = run.finish();
   EXPECT_GT(found.counts.at(1).predicted, 0);

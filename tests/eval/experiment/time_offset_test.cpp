@@ -48,7 +48,8 @@ class TimeOffset : public ::testing::Test {
                       {.color = false, .label = true, .depth = true, .depth_label = true},
                       std::size_t{1} << 24);
     TruthCache truths(recording, table, frames, 1);
-    TrialRun run(task, recording, table, truths);
+    PoseSources poses(recording);
+    TrialRun run(task, recording, table, truths, poses);
     run.keep_frames();
     for (int i = 0; i < recording.frame_count(); ++i) run.advance(*frames.get(i, run.depth_of(i)));
     return {run.finish().counts, run.frames()};

@@ -26,7 +26,8 @@ TrialResult result_of(const Task& task, const Recording& recording, const ClassT
   FrameCache frames(recording, {.color = false, .label = true, .depth = true, .depth_label = true},
                     std::size_t{1} << 24);
   TruthCache truths(recording, table, frames, 1);
-  TrialRun run(task, recording, table, truths);
+  PoseSources poses(recording);
+  TrialRun run(task, recording, table, truths, poses);
   for (int index = 0; index < recording.frame_count(); ++index) run.advance(*frames.get(index));
   return run.finish();
 }

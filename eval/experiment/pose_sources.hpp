@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/localization/occupancy_grid.hpp"
+#include "core/mapping/pose_belief.hpp"
+#include "eval/experiment/plan.hpp"
+#include "eval/localization/believed_trajectory.hpp"
+#include "eval/recording/recording.hpp"
+
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// The pose beliefs of all trials of a recording. What a filter believed is computed once for all
+/// trials that share it. Safe to use from several threads: whoever asks for what is being computed
+/// waits for it.
+class PoseSources {
+ public:
+  explicit PoseSources(const Recording& recording) : recording_(recording) {}
+
+  /// What the source of a task believes at every frame, in the map frame of its lattice; covariances
+  /// are those that are reported. Of a Gaussian source, which has no odometry, odom is map.
+  /// `depth_of`: the depth image of every frame. Throws Error when the recording has no odometry or
+  /// scans for the source, or a file is refused or does not reach a frame.
+  [[nodiscard]] std::vector<PoseBelief> beliefs(const Task& task, const std::vector<int>& depth_of);
+
+ private:
+  using Beliefs = std::shared_ptr<const std::vector<PoseBelief>>;
+
+  [[nodiscard]] Beliefs shared(const Task& task, const std::vector<int>& depth_of);
+
+  const Recording& recording_;
+  std::mutex mutex_;  // guards the map
+  std::map<std::string, std::shared_future<Beliefs>> made_;
+};
+
+/// What the robot believes along a whole recording, in the scene's world, as a task's source says:
+/// odometry, particle filter or a file. Throws Error as PoseSources.
+[[nodiscard]] BelievedTrajectory believed_trajectory(const Recording& recording, const Task& task);
+
+/// The grid that a task's filter localises in: its file, or cut from the recording's truth. Throws
+/// Error when the file is refused or the recording has no truth.
+[[nodiscard]] OccupancyGrid grid_of(const Recording& recording, const Study& config);
+
+}  // namespace mapscore::eval
