@@ -57,4 +57,7 @@ template <class Stamped>
 [[nodiscard]] std::optional<Pose> interpolated(const std::vector<TrajectoryPose>& trajectory,
                                                double stamp_s);
 
+/// Position linearly and attitude along the great circle; share 0 is `from`, 1 is `to`.
+[[nodiscard]] Pose pose_between(const Pose& from, const Pose& to, double share);
+
 }  // namespace mapscore::eval

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/localization/pose_estimate.hpp"
+#include "core/mapping/pose_belief.hpp"
+#include "eval/recording/odometry_file.hpp"
+
+#include <vector>
+
+namespace mapscore::eval {
+
+/// What localisation said at one instant.
+struct StampedBelief {
+  double stamp_s = 0.0;
+  PoseBelief belief;
+};
+
+/// Where a robot believed to be along a drive. The frame `map` is that of the grid or file that it
+/// was localised in: for a simulated scene, the scene's world.
+struct BelievedTrajectory {
+  std::vector<StampedBelief> entries;  ///< by stamp, at least one
+  std::vector<OdometryPose> odometry;  ///< by stamp, at least one
+
+  /// What the robot knew at a stamp, as ROS tf answers: T_odom_base between two lines of the
+  /// odometry, T_map_odom and covariance of the latest entry not after the stamp (of the first one
+  /// before that). Throws Error where the odometry does not reach; see odometry_at.
+  [[nodiscard]] PoseBelief at(double stamp_s) const;
+};
+
+/// T_odom_base at a stamp, between two lines interpolated (position linearly, attitude along the
+/// great circle). A stamp beyond either end by no more than the spacing of the lines there gets the
+/// pose of that end. Throws Error beyond, and when there is no line.
+[[nodiscard]] Pose odometry_at(const std::vector<OdometryPose>& odometry, double stamp_s);
+
+/// T_map_base and its covariance, x y yaw.
+[[nodiscard]] PoseEstimate planar_estimate(const PoseBelief& belief);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/localization/particle_filter.hpp"
+#include "eval/localization/believed_trajectory.hpp"
+#include "eval/recording/odometry_file.hpp"
+#include "eval/recording/scan_file.hpp"
+#include "sim/faults/lidar_noise.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <variant>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// How a drive is localised anew from its logs.
+struct FilterSettings {
+  ParticleFilterParams filter;
+  std::variant<LikelihoodFieldParams, BeamModelParams> model;
+  /// False: tracking, from an estimate that is off the true start by a draw of the start sigmas.
+  /// True: from anywhere on the grid's free cells.
+  bool global_start = false;
+  double start_sigma_xy_m = 0.1, start_sigma_yaw_rad = 0.05;
+  sim::LidarNoise lidar_noise;  ///< added to the recording's noise-free turns
+};
+
+/// Replays the particle filter over the turns of a drive, one step a turn, with the odometry at the
+/// turn's stamp. T_map_base_start: true pose at the first line of the odometry, where the first
+/// entry says the start estimate; then one entry a turn. Start, noise and filter draw from streams
+/// named by `seed`: same input and seed, same bytes, whatever the filter's `jobs`. `progress(turns
+/// done, all)`. Throws Error when a parameter is out of range, when the odometry does not reach a
+/// turn, or when tracking would start in an occupied cell.
+[[nodiscard]] BelievedTrajectory run_filter(const std::vector<OdometryPose>& odometry,
+                                            const ScanLog& scans, const OccupancyGrid& grid,
+                                            const FilterSettings& settings,
+                                            const PlanarPose& T_map_base_start, std::uint64_t seed,
+                                            const std::function<void(int, int)>& progress = {});
+
+}  // namespace mapscore::eval

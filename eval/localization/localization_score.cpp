@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/localization/localization_score.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <numeric>
+
+namespace mapscore::eval {
+namespace {
+
+FrameError error_at(const BelievedTrajectory& believed, const TrajectoryPose& truth) {
+  const PoseEstimate estimate = planar_estimate(believed.at(truth.stamp_s));
+  const PlanarPose T_map_base = planar(truth.T_world_base);
+  FrameError error;
+  error.stamp_s = truth.stamp_s;
+  error.position_m =
+      std::hypot(estimate.mean.x_m - T_map_base.x_m, estimate.mean.y_m - T_map_base.y_m);
+  error.heading_rad = std::abs(wrapped_angle(estimate.mean.yaw_rad - T_map_base.yaw_rad));
+  error.nees = nees(estimate, T_map_base);
+  error.sigma_m = std::sqrt(estimate.covariance.topLeftCorner<2, 2>().trace());
+  return error;
+}
+
+double quantile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], at - static_cast<double>(below));
+}
+
+ErrorSummary summary_of(std::vector<double> errors) {
+  if (errors.empty()) return {};
+  std::ranges::sort(errors);
+  const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
+  return {sum / static_cast<double>(errors.size()), quantile(errors, 0.5), quantile(errors, 0.95),
+          errors.back()};
+}
+
+}  // namespace
+
+LocalizationScore score_localization(const BelievedTrajectory& believed,
+                                     const std::vector<TrajectoryPose>& truth) {
+  LocalizationScore score;
+  std::vector<double> positions_m, headings_deg;
+  int in_band = 0;
+  bool has_covariance = false;
+  for (const TrajectoryPose& pose : truth) {
+    FrameError error = error_at(believed, pose);
+    if (!score.converged_s && error.sigma_m < kConvergedSigma) score.converged_s = pose.stamp_s;
+    error.converged = score.converged_s.has_value();
+    score.frames.push_back(error);
+    if (!error.converged) continue;
+    positions_m.push_back(error.position_m);
+    headings_deg.push_back(error.heading_rad * 180.0 / std::numbers::pi);
+    has_covariance |= error.sigma_m > 0.0;
+    if (error.nees >= kNeesBand.low && error.nees <= kNeesBand.high) ++in_band;
+  }
+  score.converged_frames = static_cast<int>(positions_m.size());
+  if (has_covariance) score.nees_share = static_cast<double>(in_band) / score.converged_frames;
+  score.position_m = summary_of(std::move(positions_m));
+  score.heading_deg = summary_of(std::move(headings_deg));
+  return score;
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/localization/believed_trajectory.hpp"
+#include "eval/recording/stamp_list.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// Error of the belief at one frame.
+struct FrameError {
+  double stamp_s = 0.0;
+  double position_m = 0.0;   ///< distance on the floor from the true place
+  double heading_rad = 0.0;  ///< of the believed yaw, from 0 to pi
+  double nees = 0.0;         ///< see core's nees; infinite where the covariance is singular
+  double sigma_m = 0.0;      ///< square root of the trace of the position's covariance
+  bool converged = false;    ///< at this frame or before it
+};
+
+/// Of the frames after convergence.
+struct ErrorSummary {
+  double mean = 0.0, median = 0.0, p95 = 0.0, max = 0.0;
+};
+
+struct LocalizationScore {
+  std::vector<FrameError> frames;
+  std::optional<double> converged_s;  ///< stamp of the first frame that is; nothing: never
+  int converged_frames = 0;
+  ErrorSummary position_m, heading_deg;  ///< of the converged frames
+  /// Share of the converged frames whose NEES lies in kNeesBand; nothing where no frame converged,
+  /// and where no covariance was given (all are 0).
+  std::optional<double> nees_share;
+};
+
+/// A belief has converged when it says so itself: from the first frame on at which the root of the
+/// trace of the position's covariance is below this.
+inline constexpr double kConvergedSigma = 0.2;
+
+/// Compares a belief with true poses T_map_base_footprint in the plane, at their stamps; the pose's
+/// height and tilt do not count. Quantiles are those of sorted frames, linear between neighbours.
+/// Throws Error where the belief does not reach a stamp.
+[[nodiscard]] LocalizationScore score_localization(const BelievedTrajectory& believed,
+                                                   const std::vector<TrajectoryPose>& truth);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/recording/stamped_lines.hpp"
+
+#include "core/error.hpp"
+#include "eval/recording/file_bytes.hpp"
+#include "eval/recording/one_line.hpp"
+#include "eval/recording/pose_text.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+#include <utility>
+
+namespace mapscore::eval {
+
+void StampedLine::refuse(const std::string& what) const {
+  throw Error(fmt::format("{}:{}: {}", file, number, one_line(what)));
+}
+
+double StampedLine::number_at(std::size_t word) const {
+  const auto value = parse_number(words[word]);
+  if (!value) refuse(fmt::format("'{}' is not a finite number; mend the line", words[word]));
+  return *value;
+}
+
+Pose StampedLine::pose() const {
+  PoseNumbers numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = number_at(i + 1);
+  const auto pose = pose_of(numbers);
+  if (!pose) refuse("quaternion qx qy qz qw is not of length 1; normalise it");
+  return *pose;
+}
+
+std::vector<StampedLine> read_stamped_lines(const std::filesystem::path& file,
+                                            const std::string& mend_empty) {
+  std::istringstream text(read_file(file));
+  std::vector<StampedLine> lines;
+  std::string line;
+  for (int number = 1; std::getline(text, line); ++number) {
+    StampedLine cut{file.string(), number, 0.0, {}};
+    std::istringstream words(line);
+    for (std::string word; words >> word;) cut.words.push_back(word);
+    if (cut.words.empty() || cut.words[0][0] == '#') continue;
+    const auto stamp_s = parse_number(cut.words[0]);
+    if (!stamp_s)
+      cut.refuse(
+          fmt::format("'{}' is no time stamp; give seconds as a finite number", cut.words[0]));
+    if (!lines.empty() && *stamp_s <= lines.back().stamp_s)
+      cut.refuse(fmt::format("stamp {} does not come after {}; sort the lines by time", *stamp_s,
+                             lines.back().stamp_s));
+    cut.stamp_s = *stamp_s;
+    lines.push_back(std::move(cut));
+  }
+  if (lines.empty()) throw Error(fmt::format("{}: no lines; {}", file.string(), mend_empty));
+  return lines;
+}
+
+}  // namespace mapscore::eval
