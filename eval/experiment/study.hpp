@@ -5,6 +5,7 @@
 
 #include "core/mapping/pose_belief.hpp"
 #include "core/segmentation/segmentation.hpp"
+#include "eval/experiment/drive_settings.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
 #include "sim/faults/pose_fault.hpp"
@@ -31,6 +32,7 @@ struct TrajectorySettings {
   double frames_per_s = 2;
   std::optional<double> depth_frames_per_s;  ///< empty: see depth_rate
   int max_frames = 0;
+  DriveChoice drive;
 
   bool operator==(const TrajectorySettings&) const = default;
 };
@@ -204,6 +206,7 @@ struct Study {
   std::optional<std::string> scene, classes, robot, motion, recording;
   TrajectorySettings trajectory;
   CameraSettings cameras;
+  LidarStudySettings lidar;
   double voxel_m = 0.05;
   Place place = Place::points;
   std::optional<std::array<double, 3>> map_origin_m;  ///< empty: drawn by the seed, within a voxel

@@ -40,6 +40,12 @@ void check_cameras(const CameraSettings& cameras, const Blame& blame) {
                                            cameras.range_min_m, cameras.range_max_m));
 }
 
+void check_lidar(const LidarStudySettings& lidar, const Blame& blame) {
+  if (lidar.range_min_m < lidar.range_max_m) return;
+  blame("lidar.range_min_m", fmt::format("{} is not below range_max_m, {}; write a lesser number",
+                                         lidar.range_min_m, lidar.range_max_m));
+}
+
 template <class Rigid>
 void check_rigid(const Rigid& dose, const std::string& path, const Blame& blame) {
   constexpr std::array<double, 3> kNone{};
@@ -150,6 +156,7 @@ void check_leaves(const Study& study, const Blame& blame) {
   check_input(study, blame);
   check_methods(study.methods, blame);
   check_cameras(study.cameras, blame);
+  check_lidar(study.lidar, blame);
   if (study.detect) check_distinct(study.detect->classes, "detect", blame);
   check_rigid(study.faults.misregistration, "faults.misregistration", blame);
   check_rigid(study.faults.mount, "faults.mount", blame);
