@@ -4,18 +4,13 @@
 #pragma once
 
 #include "core/frame.hpp"
-#include "core/geometry/pose.hpp"
+#include "sim/world/stamped_pose.hpp"
 #include "sim/world/world.hpp"
 
 #include <functional>
 #include <vector>
 
 namespace mapscore::sim {
-
-struct StampedPose {
-  double stamp_s = 0.0;
-  Pose T_world_base = Pose::Identity();
-};
 
 /// Drive along waypoints: position and heading are interpolated linearly, the heading the short
 /// way.

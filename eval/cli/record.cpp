@@ -3,7 +3,7 @@
 
 #include "core/error.hpp"
 #include "eval/cli/options.hpp"
-#include "eval/cli/progress.hpp"
+#include "eval/cli/recording_progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/recording/recording.hpp"
@@ -34,10 +34,8 @@ void record(const RecordFlags& flags) {
   Study study = is_scene(flags.source) ? study_of_scene(flags.source, flags.overrides)
                                        : load_study(flags.source, flags.overrides);
   if (!flags.motion.empty()) study.motion = std::filesystem::absolute(flags.motion).string();
-  Progress progress("record", "images", flags.work.quiet);
-  record_study(
-      study, flags.folder, flags.work.jobs,
-      [&](int done, int total) { progress.show(done, total); }, flags.trajectory);
+  ShownRecording shown(flags.work.quiet);
+  record_study(study, flags.folder, flags.work.jobs, shown.progress(), flags.trajectory);
 }
 
 }  // namespace

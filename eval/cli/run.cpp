@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
+#include "eval/cli/recording_progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/cli/view_flag.hpp"
 #include "eval/experiment/map_frame.hpp"
@@ -105,10 +106,8 @@ void run(const RunFlags& flags) {
   const std::optional<sim::View> view = flags.view.view();
   const Study study = flags.study.load();
   const std::filesystem::path results = flags.study.results_folder(study);
-  Progress recording_progress("record", "images", flags.work.quiet);
-  const Recording recording =
-      recording_of(study, results, flags.work.jobs,
-                   [&](int done, int total) { recording_progress.show(done, total); });
+  ShownRecording shown(flags.work.quiet);
+  const Recording recording = recording_of(study, results, flags.work.jobs, shown.progress());
   const ClassTable table = detected_table(study, recording.info().table);
   const TrialSpec spec = spec_of(study, flags);
   const Task task = task_of(study, spec, Labels::detected, recording.content_hash());

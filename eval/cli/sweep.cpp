@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
+#include "eval/cli/recording_progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/runner.hpp"
@@ -58,10 +59,8 @@ void sweep(const SweepFlags& flags) {
   const std::filesystem::path results = flags.study.results_folder(study);
   const auto [shard, shards] = parse_shard(flags.shard);
 
-  Progress recording_progress("record", "images", flags.work.quiet);
-  const Recording recording =
-      recording_of(study, results, flags.work.jobs,
-                   [&](int done, int total) { recording_progress.show(done, total); });
+  ShownRecording shown(flags.work.quiet);
+  const Recording recording = recording_of(study, results, flags.work.jobs, shown.progress());
   const ClassTable table = detected_table(study, recording.info().table);
   const Plan plan = plan_of(study, recording.content_hash());
 

@@ -43,7 +43,7 @@ struct Range {
 
 /// What there is to know of one key besides its type and its default. `range` bounds each number of
 /// it. Where the leaf's text is `unkeyed`, a trial's key is made without it (see to_key_yaml); a
-/// section's text is `{}` when all of its leaves are left out.
+/// section's text is `{}` when all of its leaves are left out, a choice's text is its kind.
 struct Field {
   std::string_view key;
   std::string_view meaning;

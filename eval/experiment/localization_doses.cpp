@@ -138,7 +138,8 @@ void resolve_localization(LocalizationSettings& localization, FaultSettings& fau
     faults.pose.stamp = pose.stamp;
     if (source != PoseSource::truth) faults.pose.reported_scale = pose.reported_scale;
   }
-  faults.lidar = source == PoseSource::particle_filter ? resolved(faults.lidar) : LidarFaultSettings{};
+  faults.lidar =
+      source == PoseSource::particle_filter ? resolved(faults.lidar) : LidarFaultSettings{};
   const LocalizationSettings given = std::exchange(localization, {});
   switch (source) {
     case PoseSource::gaussian:

@@ -39,12 +39,13 @@ void fields(auto&& visit, Of<ParticleFilterSettings> auto& s) {
               .meaning = "about the true pose (tracking), or anywhere on the grid (global)",
               .unkeyed = "tracking"},
         s.start);
-  visit(Field{"start_sigma_xy_m", "standard deviation of the start, x and y; default 0.05",
-              {0, 10}},
-        s.start_sigma_xy_m);
-  visit(Field{"start_sigma_yaw_deg", "standard deviation of the start's heading; default 2",
-              {0, 180}},
-        s.start_sigma_yaw_deg);
+  visit(
+      Field{"start_sigma_xy_m", "standard deviation of the start, x and y; default 0.05", {0, 10}},
+      s.start_sigma_xy_m);
+  visit(
+      Field{
+          "start_sigma_yaw_deg", "standard deviation of the start's heading; default 2", {0, 180}},
+      s.start_sigma_yaw_deg);
   visit(Field{"least_particles", "however narrow the belief is", kCount}, s.least_particles);
   visit(Field{"most_particles", "however wide it is; those of a global start", kCount},
         s.most_particles);
@@ -52,10 +53,9 @@ void fields(auto&& visit, Of<ParticleFilterSettings> auto& s) {
         s.kld_epsilon);
   visit(Field{"update_way_m", "way after which a scan is used", {0, 10}}, s.update_way_m);
   visit(Field{"update_turn_deg", "turn after which a scan is used", {0, 360}}, s.update_turn_deg);
-  visit(Field{.key = "scan_model",
-              .meaning = "probability of a scan",
-              .unkeyed = "likelihood_field"},
-        s.scan_model);
+  visit(
+      Field{.key = "scan_model", .meaning = "probability of a scan", .unkeyed = "likelihood_field"},
+      s.scan_model);
   visit(Field{"beams", "of a scan that are used, at most", {1, 100000}}, s.beams);
   visit(Field{"sigma_hit_m", "standard deviation of a beam that hits what the grid shows",
               above(0, 10)},

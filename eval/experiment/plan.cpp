@@ -64,6 +64,7 @@ Study determining(Study config, const std::string& pose_file) {
     path->reset();
   config.trajectory = none.trajectory;
   config.cameras = none.cameras;
+  config.lidar = none.lidar;
   config.sweep.clear();
   config.picture_view.reset();
   config.faults.depth = resolved(config.faults.depth);

@@ -46,7 +46,11 @@ void check_logs(const Recording& recording, PoseSource source) {
 
 /// True pose at the first line of the odometry.
 Pose start_of(const Recording& recording, const std::vector<OdometryPose>& odometry) {
-  return recording.T_world_base_at(odometry.front().stamp_s);
+  const double stamp_s = odometry.front().stamp_s;
+  if (const auto pose = recording.T_world_base_at(stamp_s)) return *pose;
+  throw Error(
+      fmt::format("{}: does not reach stamp {}, where odometry.txt starts; lengthen the trajectory",
+                  (recording.folder() / "groundtruth.txt").string(), stamp_s));
 }
 
 /// The plane that localisation lives in lies at the height of the start.
@@ -148,8 +152,8 @@ PoseSources::Beliefs PoseSources::shared(const Task& task, const std::vector<int
     is_first = is_new;
   }
   if (is_first) try {
-      promise.set_value(std::make_shared<const std::vector<PoseBelief>>(
-          believed_at(recording_, task, depth_of)));
+      promise.set_value(
+          std::make_shared<const std::vector<PoseBelief>>(believed_at(recording_, task, depth_of)));
     } catch (...) {
       promise.set_exception(std::current_exception());
     }

@@ -25,10 +25,10 @@ class PoseSources {
  public:
   explicit PoseSources(const Recording& recording) : recording_(recording) {}
 
-  /// What the source of a task believes at every frame, in the map frame of its lattice; covariances
-  /// are those that are reported. Of a Gaussian source, which has no odometry, odom is map.
-  /// `depth_of`: the depth image of every frame. Throws Error when the recording has no odometry or
-  /// scans for the source, or a file is refused or does not reach a frame.
+  /// What the source of a task believes at every frame, in the map frame of its lattice;
+  /// covariances are those that are reported. Of a Gaussian source, which has no odometry, odom is
+  /// map. `depth_of`: the depth image of every frame. Throws Error when the recording has no
+  /// odometry or scans for the source, or a file is refused or does not reach a frame.
   [[nodiscard]] std::vector<PoseBelief> beliefs(const Task& task, const std::vector<int>& depth_of);
 
  private:

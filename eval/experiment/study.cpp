@@ -20,11 +20,23 @@ void check_method_name(const YamlAt& at, const std::string& name) {
   }
 }
 
+namespace {
+
+/// Sets what a path leads to.
+struct Setter {
+  const YamlAt& at;
+
+  template <class T>
+  void operator()(const Field& field, T& leaf) const {
+    leaf = Leaf<T>::read(at, field.range);
+  }
+  void choice(Choice auto& choice) const { read_choice(at, choice); }
+};
+
+}  // namespace
+
 void set_leaf(Study& study, std::string_view path, const YamlAt& at) {
-  const auto set = [&](const Field& field, auto& leaf) {
-    leaf = Leaf<std::remove_reference_t<decltype(leaf)>>::read(at, field.range);
-  };
-  at_section_leaf(at, study, path, set);
+  at_section_leaf(at, study, path, Setter{at});
 }
 
 void set_leaf(Study& study, std::string_view path, const std::string& yaml_value) {
@@ -54,6 +66,10 @@ Place place_of(const Study& study, const MethodSettings& method) {
   return method.place.value_or(study.place);
 }
 
+bool on_wheels(const Study& study) {
+  return std::holds_alternative<WheelDriveSettings>(study.trajectory.drive);
+}
+
 double depth_rate(const Study& study) {
   constexpr double kDepthCameraFps = 30.0;
   if (study.trajectory.depth_frames_per_s) return *study.trajectory.depth_frames_per_s;
@@ -67,7 +83,7 @@ double depth_rate(const Study& study) {
 
 bool decides_recording(std::string_view path) {
   constexpr auto kHeads = std::to_array<std::string_view>(
-      {"scene", "classes", "robot", "motion", "recording", "trajectory", "cameras"});
+      {"scene", "classes", "robot", "motion", "recording", "trajectory", "cameras", "lidar"});
   return std::ranges::find(kHeads, split_path(path).first) != kHeads.end();
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/mapping/pose_belief.hpp"
 #include "core/segmentation/segmentation.hpp"
+#include "eval/experiment/drive_settings.hpp"
 #include "eval/experiment/localization_settings.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
@@ -32,6 +33,7 @@ struct TrajectorySettings {
   double frames_per_s = 2;
   std::optional<double> depth_frames_per_s;  ///< empty: see depth_rate
   int max_frames = 0;
+  DriveChoice drive;
 
   bool operator==(const TrajectorySettings&) const = default;
 };
@@ -206,6 +208,7 @@ struct Study {
   std::optional<std::string> scene, classes, robot, motion, recording;
   TrajectorySettings trajectory;
   CameraSettings cameras;
+  LidarStudySettings lidar;
   double voxel_m = 0.05;
   Place place = Place::points;
   std::optional<std::array<double, 3>> map_origin_m;  ///< empty: drawn by the seed, within a voxel
@@ -267,6 +270,9 @@ void check(const Study& study);
 /// Depth frames per second of a study's recording: its own, else 30 where the study doses the time
 /// offset, else those of the colour camera.
 [[nodiscard]] double depth_rate(const Study& study);
+
+/// True when the study's robot drives on wheels.
+[[nodiscard]] bool on_wheels(const Study& study);
 
 /// The robot's MJCF: `robot`, or robot.xml beside the scene. Needs `scene` or `robot`.
 [[nodiscard]] std::filesystem::path robot_path(const Study& study);

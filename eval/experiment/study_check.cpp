@@ -41,6 +41,12 @@ void check_cameras(const CameraSettings& cameras, const Blame& blame) {
                                            cameras.range_min_m, cameras.range_max_m));
 }
 
+void check_lidar(const LidarStudySettings& lidar, const Blame& blame) {
+  if (lidar.range_min_m < lidar.range_max_m) return;
+  blame("lidar.range_min_m", fmt::format("{} is not below range_max_m, {}; write a lesser number",
+                                         lidar.range_min_m, lidar.range_max_m));
+}
+
 template <class Rigid>
 void check_rigid(const Rigid& dose, const std::string& path, const Blame& blame) {
   constexpr std::array<double, 3> kNone{};
@@ -137,6 +143,11 @@ void check_localization(const Study& study, const Blame& blame) {
   const LocalizationSettings& localization = study.localization;
   if (localization.source == PoseSource::trajectory && !localization.trajectory)
     blame("localization.trajectory", "is missing; write trajectory: FILE, or another source");
+  const bool needs_logs = localization.source == PoseSource::odometry ||
+                          localization.source == PoseSource::particle_filter;
+  if (needs_logs && !study.recording && !on_wheels(study))
+    blame("localization.source",
+          "needs the odometry of a drive on wheels; write trajectory: {drive: {wheels: {}}}");
   const auto& [least, most] = particle_bounds(localization.filter);
   if (most < least)
     blame("localization.filter.most_particles",
@@ -165,6 +176,7 @@ void check_leaves(const Study& study, const Blame& blame) {
   check_input(study, blame);
   check_methods(study.methods, blame);
   check_cameras(study.cameras, blame);
+  check_lidar(study.lidar, blame);
   if (study.detect) check_distinct(study.detect->classes, "detect", blame);
   check_rigid(study.faults.misregistration, "faults.misregistration", blame);
   check_rigid(study.faults.mount, "faults.mount", blame);

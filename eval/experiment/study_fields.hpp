@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "eval/experiment/drive_fields.hpp"
 #include "eval/experiment/fault_fields.hpp"
 #include "eval/experiment/fields.hpp"
 #include "eval/experiment/study.hpp"
@@ -43,6 +44,10 @@ void fields(auto&& visit, Of<TrajectorySettings> auto& s) {
         s.depth_frames_per_s);
   visit(Field{"max_frames", "stop after so many frames; 0: at the last waypoint", at_least(0)},
         s.max_frames);
+  visit(Field{.key = "drive",
+              .meaning = "how the robot gets from waypoint to waypoint",
+              .unkeyed = "poses"},
+        s.drive);
 }
 
 void fields(auto&& visit, Of<CameraSettings> auto& s) {
@@ -124,6 +129,10 @@ void fields(auto&& visit, Of<Study> auto& s) {
         s.recording);
   visit(Field{"trajectory", "drive of the robot"}, s.trajectory);
   visit(Field{"cameras", "the RGB-D camera"}, s.cameras);
+  visit(Field{.key = "lidar",
+              .meaning = "the lidar, with trajectory.drive wheels; exact ranges are recorded",
+              .unkeyed = "{}"},
+        s.lidar);
   visit(Field{"voxel_m", "edge of a voxel of the map", above(0, 10)}, s.voxel_m);
   visit(Field{"place", "voxelise moved points, or move the centres of sensor-frame voxels"},
         s.place);

@@ -9,6 +9,7 @@
 #include "eval/recording/stamp_list.hpp"
 
 #ifdef MAPSCORE_SIMULATOR
+#include "eval/experiment/study_drive.hpp"
 #include "sim/recorder.hpp"
 #include "sim/world/motion.hpp"
 #include "sim/world/moving_scene.hpp"
@@ -16,7 +17,6 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <numbers>
 #endif
 
 namespace mapscore::eval {
@@ -24,21 +24,6 @@ namespace mapscore::eval {
 #ifdef MAPSCORE_SIMULATOR
 
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-
-/// With a motion the robot stands at its last waypoint until that ends.
-sim::Drive drive_of(const TrajectorySettings& settings, const sim::Motion* motion) {
-  sim::Drive drive;
-  for (const auto& [x, y, yaw_deg] : settings.waypoints_m_deg)
-    drive.waypoints.push_back({x, y, yaw_deg * kRadiansPerDegree});
-  drive.speed_mps = settings.speed_mps;
-  drive.turn_rate_radps = settings.turn_rate_dps * kRadiansPerDegree;
-  drive.frames_per_s = settings.frames_per_s;
-  drive.max_frames = settings.max_frames;
-  if (motion) drive.until_s = motion->stamps_s.back();
-  return drive;
-}
 
 /// Base poses that put the colour camera at the poses of a file.
 std::vector<sim::StampedPose> poses_from(const std::filesystem::path& trajectory,
@@ -48,23 +33,6 @@ std::vector<sim::StampedPose> poses_from(const std::filesystem::path& trajectory
   for (const TrajectoryPose& line : read_trajectory(trajectory))
     poses.push_back({line.stamp_s, line.T_world_base * T_color_base});
   return poses;
-}
-
-/// Poses at the images of both cameras; the depth camera's end with the colour camera's.
-sim::Streams streams_of(const Study& study, const sim::Motion* motion) {
-  sim::Drive drive = drive_of(study.trajectory, motion);
-  sim::Streams streams{sim::poses_along(drive), {}};
-  if (depth_rate(study) == drive.frames_per_s) {
-    streams.depth = streams.color;
-    return streams;
-  }
-  drive.frames_per_s = depth_rate(study);
-  drive.max_frames = 0;
-  streams.depth = sim::poses_along(drive);
-  std::erase_if(streams.depth, [end_s = streams.color.back().stamp_s](const auto& pose) {
-    return pose.stamp_s > end_s;
-  });
-  return streams;
 }
 
 double rate_of(const std::vector<sim::StampedPose>& poses) {
@@ -104,9 +72,19 @@ ShapePoses poses_of_shapes(const sim::World& world, const std::vector<sim::Stamp
   return poses_of_moving(world.shapes(), std::move(stamps_s), T_world_shape);
 }
 
-void record_world(const Study& study, const sim::World& world, const sim::Streams& streams,
+void write_logs(const Study& study, const sim::World& world, const StudyDrive& drive, int jobs,
+                RecordingWriter& writer) {
+  if (drive.odometry.empty()) return;
+  writer.write_odometry(drive.odometry);
+  writer.write_scans(scans_of(study, world, drive.scans, jobs));
+  writer.add_poses(drive.truth);
+}
+
+void record_world(const Study& study, const sim::World& world, const StudyDrive& drive,
                   const std::filesystem::path& folder, int jobs, const FrameProgress& progress) {
+  const sim::Streams& streams = drive.streams;
   RecordingWriter writer(folder, info_of(study, world, streams));
+  write_logs(study, world, drive, jobs, writer);
   writer.write_shapes(world.shapes(), poses_of_shapes(world, streams.depth));
   sim::record(world, streams, {jobs, study.cameras.shadows},
               {[&](const Frame& frame) { writer.write_color(frame); },
@@ -124,6 +102,7 @@ std::string recording_name(const Study& study, const sim::World& world) {
   else
     rendered.trajectory.depth_frames_per_s.reset();
   rendered.cameras = study.cameras;
+  if (on_wheels(study)) rendered.lidar = study.lidar;
   std::string text = world.hash() + '\n' + sim::mujoco_version() + '\n' + to_key_yaml(rendered);
   if (world.motion()) text += world.motion()->hash;
   const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
@@ -149,25 +128,26 @@ sim::World world_of(const Study& study) {
 }
 
 void record_study(const Study& study, const std::filesystem::path& folder, int jobs,
-                  const FrameProgress& progress, const std::filesystem::path& trajectory) {
+                  const RecordingProgress& progress, const std::filesystem::path& trajectory) {
   if (!study.scene) throw Error("scene: nothing to record; name an MJCF file");
   const sim::World world = world_of(study);
-  sim::Streams streams;
+  StudyDrive drive;
   if (trajectory.empty())
-    streams = streams_of(study, world.motion());
+    drive = drive_of(study, world, progress.waypoints);
   else
-    streams.color = streams.depth = poses_from(trajectory, world.calibration());
-  record_world(study, world, streams, folder, jobs, progress);
+    drive.streams.color = drive.streams.depth = poses_from(trajectory, world.calibration());
+  record_world(study, world, drive, folder, jobs, progress.images);
 }
 
 Recording recording_of(const Study& study, const std::filesystem::path& results, int jobs,
-                       const FrameProgress& progress) {
+                       const RecordingProgress& progress) {
   if (study.recording) return Recording::open(resolve_path(study, *study.recording));
   const sim::World world = world_of(study);
   const std::filesystem::path folder = results / "recordings" / recording_name(study, world);
   const FolderLock lock(folder.parent_path());  // of several shards one records, the others wait
   if (!std::filesystem::exists(folder))
-    record_world(study, world, streams_of(study, world.motion()), folder, jobs, progress);
+    record_world(study, world, drive_of(study, world, progress.waypoints), folder, jobs,
+                 progress.images);
   return Recording::open(folder);
 }
 
@@ -196,13 +176,13 @@ sim::World world_of(const Study&) {
   refuse();
 }
 
-void record_study(const Study&, const std::filesystem::path&, int, const FrameProgress&,
+void record_study(const Study&, const std::filesystem::path&, int, const RecordingProgress&,
                   const std::filesystem::path&) {
   refuse();
 }
 
 Recording recording_of(const Study& study, const std::filesystem::path&, int,
-                       const FrameProgress&) {
+                       const RecordingProgress&) {
   if (!study.recording) refuse();
   return Recording::open(resolve_path(study, *study.recording));
 }

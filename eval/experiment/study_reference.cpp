@@ -15,6 +15,8 @@ std::string_view unit_of(std::string_view key) {
                                                {"_m_rad", "m and rad, squared"},
                                                {"_per_s", "1/s"},
                                                {"_per_m", "1/m"},
+                                               {"_mps2", "m/s^2"},
+                                               {"_dps2", "deg/s^2"},
                                                {"_mps", "m/s"},
                                                {"_dps", "deg/s"},
                                                {"_ms", "ms"},

@@ -37,6 +37,10 @@ template <class... Kinds>
   return {std::string(Kinds::kKind)...};
 }
 
+[[nodiscard]] std::string_view kind_of(const Choice auto& choice) {
+  return std::visit([](const auto& kind) { return kind.kKind; }, choice);
+}
+
 // --- reading -------------------------------------------------------------------------------------
 
 /// Sets `value` from YAML; keys that are absent keep their defaults. The sweep is left out: its
@@ -70,9 +74,17 @@ bool read_kind(const std::pair<std::string, YamlAt>& entry, Choice auto& choice)
   return true;
 }
 
+template <class Kind>
+bool take_kind(const std::string& name, Choice auto& choice) {
+  if (name == Kind::kKind) choice = Kind{};
+  return name == Kind::kKind;
+}
+
+/// `{kind: {...}}`, or the kind's name alone for its defaults.
 template <class... Kinds>
 void read_choice(const YamlAt& at, std::variant<Kinds...>& choice) {
   const std::vector<std::string> kinds = kinds_of(choice);
+  if (at.node.IsScalar() && (take_kind<Kinds>(at.node.Scalar(), choice) || ...)) return;
   const auto entries = at.entries();
   if (entries.size() != 1) {
     at.fail(fmt::format("names {} kinds; write one of {}, as {{{}: {{}}}}", entries.size(),
@@ -111,8 +123,9 @@ void read_tree(const YamlAt& at, const Field& field, T& value) {
 
 // --- one leaf ------------------------------------------------------------------------------------
 
-/// Calls act(field, leaf) for the leaf `rest` (a dotted path) below `value`. `at` is what to blame:
-/// throws Error there when `rest` names no leaf.
+/// Calls act(field, leaf) for the leaf `rest` (a dotted path) below `value`, and act.choice(choice)
+/// where it has that and the path ends at a choice. `at` is what to blame: throws Error there when
+/// `rest` names no leaf.
 template <class T, class Act>
 void at_leaf(const YamlAt& at, const Field& field, T& value, std::string_view rest, const Act& act);
 
@@ -172,6 +185,8 @@ template <class T, class Act>
 void at_leaf(const YamlAt& at, const Field& field, T& value, std::string_view rest,
              const Act& act) {
   using Plain = std::remove_const_t<T>;
+  if constexpr (requires { act.choice(value); })
+    if (rest.empty()) return act.choice(value);
   if constexpr (std::same_as<Plain, Methods>) {
     at_method_leaf(at, value, rest, act);
   } else if constexpr (std::same_as<Plain, Sweep>) {

@@ -23,6 +23,8 @@ class Dumper {
   void key(const Field& field, const T& value) {
     if constexpr (Section<const T> || Choice<T> || std::same_as<T, Methods> ||
                   std::same_as<T, Sweep>) {
+      if constexpr (Choice<T>)
+        if (!is_written(field, kind_of(value))) return;
       nest(field, [&] { body(value); });
     } else if (const std::string leaf = Leaf<T>::text(value); is_written(field, leaf)) {
       line(fmt::format("{}: {}", field.key, leaf));

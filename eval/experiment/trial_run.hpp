@@ -78,9 +78,9 @@ class TrialRun {
 
   const Task& task_;
   const ClassTable& table_;
-  Calibration true_;              ///< what rendered the images
-  Calibration believed_;          ///< what the method is told
-  std::vector<int> depth_of_;     ///< by frame
+  Calibration true_;                 ///< what rendered the images
+  Calibration believed_;             ///< what the method is told
+  std::vector<int> depth_of_;        ///< by frame
   std::vector<PoseBelief> beliefs_;  ///< by frame
   sim::DepthDose depth_dose_;
   sim::LabelDose label_dose_;

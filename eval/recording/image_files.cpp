@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 
 namespace mapscore::eval {
@@ -71,9 +72,12 @@ std::string hash_list_text(const std::vector<HashedFile>& files) {
 }
 
 std::string content_hash(const std::filesystem::path& folder,
-                         const std::vector<std::string>& images) {
+                         const std::vector<std::string>& images,
+                         const std::vector<std::string>& logs) {
   std::string manifest;  // one line a file: hash, size in bytes, path
-  for (const char* path : kTextFiles) {
+  std::vector<std::string> files(std::begin(kTextFiles), std::end(kTextFiles));
+  files.insert(files.end(), logs.begin(), logs.end());
+  for (const std::string& path : files) {
     if (!std::filesystem::exists(folder / path)) continue;
     const std::string bytes = read_file(folder / path);
     manifest += fmt::format("{} {} {}\n", hash_of(bytes), bytes.size(), path);

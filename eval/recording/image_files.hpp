@@ -26,11 +26,12 @@ struct HashedFile {
 };
 [[nodiscard]] std::string hash_list_text(const std::vector<HashedFile>& files);
 
-/// Hash over recording.yaml, lists, poses, surfaces and images, wherever the folder lies. The
-/// images' own hashes come from hashes.txt, or, where a recording has none, from reading every
+/// Hash over recording.yaml, lists, poses, surfaces, `logs` and images, wherever the folder lies.
+/// The images' own hashes come from hashes.txt, or, where a recording has none, from reading every
 /// image; the result is the same. Throws Error when a file is missing or hashes.txt lists other
 /// files than `images`.
 [[nodiscard]] std::string content_hash(const std::filesystem::path& folder,
-                                       const std::vector<std::string>& images);
+                                       const std::vector<std::string>& images,
+                                       const std::vector<std::string>& logs = {});
 
 }  // namespace mapscore::eval

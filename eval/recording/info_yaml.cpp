@@ -139,6 +139,8 @@ std::string info_text(const RecordingInfo& info) {
     text += fmt::format("motion: {}\nmotion_hash: {}\n", yaml_quoted(info.motion),
                         yaml_quoted(info.motion_hash));
   text += fmt::format("frame_count: {}\nhas_truth: {}\n", info.frame_count, info.has_truth);
+  if (info.has_odometry) text += "has_odometry: true\n";
+  if (info.has_scans) text += "has_scans: true\n";
   text += fmt::format("color: {{{}}}\n", camera_text(calibration.color, info.color_rate_hz));
   text += fmt::format("depth: {{{}, range_min_m: {}, range_max_m: {}}}\n",
                       camera_text(calibration.depth, info.depth_rate_hz), calibration.range_min_m,
@@ -157,8 +159,8 @@ RecordingInfo read_info(const std::filesystem::path& file) {
   const YamlValue root = YamlValue::load(file);
   check_version(root);
   root.only({"format_version", "scene", "scene_hash", "mujoco_version", "seed", "motion",
-             "motion_hash", "frame_count", "has_truth", "color", "depth", "T_color_depth",
-             "T_base_depth", "classes", "instances"});
+             "motion_hash", "frame_count", "has_truth", "has_odometry", "has_scans", "color",
+             "depth", "T_color_depth", "T_base_depth", "classes", "instances"});
   RecordingInfo info;
   info.scene = root.at("scene").text();
   info.scene_hash = root.at("scene_hash").text();
@@ -171,6 +173,8 @@ RecordingInfo read_info(const std::filesystem::path& file) {
   }
   info.frame_count = static_cast<int>(root.at("frame_count").whole(1, kMaxFrames));
   info.has_truth = root.at("has_truth").boolean();
+  info.has_odometry = root.has("has_odometry") && root.at("has_odometry").boolean();
+  info.has_scans = root.has("has_scans") && root.at("has_scans").boolean();
   info.calibration = calibration_of(root);
   info.color_rate_hz = root.at("color").at("rate_hz").positive();
   info.depth_rate_hz = root.at("depth").at("rate_hz").positive();

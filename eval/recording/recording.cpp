@@ -21,6 +21,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kOdometryFile = "odometry.txt";
+constexpr const char* kScanFile = "scan/scans.bin";
+
+/// What a recording may hold of the robot's other sensors.
+std::vector<std::string> log_paths(const RecordingInfo& info) {
+  std::vector<std::string> paths;
+  if (info.has_odometry) paths.emplace_back(kOdometryFile);
+  if (info.has_scans) paths.emplace_back(kScanFile);
+  return paths;
+}
+
 void check_is_recording(const fs::path& folder) {
   if (!fs::is_directory(folder))
     throw Error(fmt::format("{}: no such folder; give the folder of a recording", folder.string()));
@@ -61,6 +72,23 @@ void check_files(const fs::path& folder, const std::vector<std::string>& images,
                     (folder / "truth/shapes.csv").string()));
 }
 
+void check_logs(const fs::path& folder, const std::vector<std::string>& logs) {
+  for (const std::string& log : logs)
+    if (!fs::is_regular_file(folder / log))
+      throw Error(
+          fmt::format("{}: file is missing, which recording.yaml announces; copy the recording "
+                      "anew or record again",
+                      (folder / log).string()));
+}
+
+void check_has(const fs::path& folder, bool has, const char* what) {
+  if (!has)
+    throw Error(
+        fmt::format("{}: the recording has no {}; record a drive with trajectory.drive: "
+                    "wheels",
+                    folder.string(), what));
+}
+
 cv::Size size_of(const CameraModel& camera) {
   return {camera.width_px, camera.height_px};
 }
@@ -86,7 +114,9 @@ Recording Recording::open(const fs::path& folder) {
         {image, pose_at(folder / "groundtruth.txt", recording.trajectory_, image)});
   const std::vector<std::string> images = image_paths(recording.color_, depth, has_truth);
   check_files(folder, images, has_truth);
-  recording.content_hash_ = eval::content_hash(folder, images);
+  const std::vector<std::string> logs = log_paths(recording.info_);
+  check_logs(folder, logs);
+  recording.content_hash_ = eval::content_hash(folder, images, logs);
   return recording;
 }
 
@@ -102,12 +132,6 @@ Pose Recording::T_world_base_of_color(int index) const {
   if (const auto pose = interpolated(trajectory_, image.stamp_s)) return *pose;
   throw Error(fmt::format("{}: does not reach stamp {} of {}; lengthen the trajectory",
                           (folder_ / "groundtruth.txt").string(), image.stamp_s, image.path));
-}
-
-Pose Recording::T_world_base_at(double stamp_s) const {
-  if (const auto pose = interpolated(trajectory_, stamp_s)) return *pose;
-  throw Error(fmt::format("{}: does not reach stamp {}; lengthen the trajectory",
-                          (folder_ / "groundtruth.txt").string(), stamp_s));
 }
 
 void Recording::check_frame(int index) const {
@@ -150,6 +174,16 @@ void Recording::read_depth(int depth_index, Channels channels, Frame& frame) con
   if (channels.depth) frame.depth = read_grey16(folder_ / image.path, camera);
   if (channels.depth_label)
     frame.depth_label = read_grey16(folder_ / sibling_path(image.path, "depth_label"), camera);
+}
+
+std::vector<OdometryPose> Recording::read_odometry() const {
+  check_has(folder_, info_.has_odometry, "odometry");
+  return eval::read_odometry(folder_ / kOdometryFile);
+}
+
+ScanLog Recording::read_scans() const {
+  check_has(folder_, info_.has_scans, "scans");
+  return read_scan_log(folder_ / kScanFile);
 }
 
 std::vector<Shape> Recording::read_shapes() const {

@@ -7,12 +7,15 @@
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/shape.hpp"
+#include "eval/recording/odometry_file.hpp"
+#include "eval/recording/scan_file.hpp"
 #include "eval/recording/shape_poses.hpp"
 #include "eval/recording/stamp_list.hpp"
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +38,8 @@ struct RecordingInfo {
   int frame_count = 0;
   bool has_truth =
       true;  ///< truth/ and depth_label/ are there; without, maps can be made but not scored
+  bool has_odometry = false;  ///< odometry.txt is there
+  bool has_scans = false;     ///< scan/scans.bin is there
 };
 
 /// Which images `Recording::read` decodes.
@@ -55,7 +60,8 @@ class Recording {
   /// Colour images, each a frame of every trial.
   [[nodiscard]] int frame_count() const { return info_.frame_count; }
   [[nodiscard]] int depth_count() const { return static_cast<int>(depth_.size()); }
-  /// Hash over recording.yaml, lists, poses, surfaces and every image file's bytes.
+  /// Hash over recording.yaml, lists, poses, surfaces, odometry, scans and every image file's
+  /// bytes.
   [[nodiscard]] const std::string& content_hash() const { return content_hash_; }
 
   /// The depth image that a frame is read with: the nearest to the stamp of its colour image plus
@@ -75,8 +81,11 @@ class Recording {
   /// True pose at the stamp of a colour image, between two lines of groundtruth.txt interpolated.
   /// Throws Error where the trajectory does not reach it.
   [[nodiscard]] Pose T_world_base_of_color(int index) const;
-  /// The same at any stamp.
-  [[nodiscard]] Pose T_world_base_at(double stamp_s) const;
+  /// True pose at any stamp, likewise interpolated; nothing before the first and after the last
+  /// line.
+  [[nodiscard]] std::optional<Pose> T_world_base_at(double stamp_s) const {
+    return interpolated(trajectory_, stamp_s);
+  }
   [[nodiscard]] double color_stamp_s(int index) const {
     return color_.at(static_cast<std::size_t>(index)).stamp_s;
   }
@@ -95,6 +104,13 @@ class Recording {
   [[nodiscard]] std::vector<Shape> read_shapes() const;
   /// Where the moving ones of read_shapes were at each depth image; empty where nothing moves.
   [[nodiscard]] ShapePoses read_poses() const;
+
+  [[nodiscard]] bool has_odometry() const { return info_.has_odometry; }
+  [[nodiscard]] bool has_scans() const { return info_.has_scans; }
+  /// What the wheels' encoders say. Throws Error where there is none, too.
+  [[nodiscard]] std::vector<OdometryPose> read_odometry() const;
+  /// The lidar's turns, without noise. Throws Error where there are none, too.
+  [[nodiscard]] ScanLog read_scans() const;
 
  private:
   struct DepthImage : StampedImage {
@@ -129,6 +145,11 @@ class RecordingWriter {
   /// `poses`: where those of `shapes` that move were at each depth image; written, even if nothing
   /// moved, where the recording has a motion.
   void write_shapes(const std::vector<Shape>& shapes, const ShapePoses& poses = {});
+  /// Writes odometry.txt, or the lidar's turns, and announces them in recording.yaml.
+  void write_odometry(const std::vector<OdometryPose>& poses);
+  void write_scans(const ScanLog& scans);
+  /// True poses between those of the images: further lines of groundtruth.txt.
+  void add_poses(const std::vector<TrajectoryPose>& poses);
   /// Writes lists, trajectory and recording.yaml; checks that every frame 0..n-1 was written;
   /// renames.
   void finish();

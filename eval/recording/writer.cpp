@@ -72,6 +72,7 @@ struct RecordingWriter::State {
   bool has_shapes = false, finished = false;
   std::mutex mutex;  // guards the sides
   Side color, depth;
+  std::vector<TrajectoryPose> poses_between;
 
   template <class Image>
   [[nodiscard]] HashedFile write_image(const char* channel, int index, const Image& image) const {
@@ -123,11 +124,12 @@ struct RecordingWriter::State {
       refuse(folder, "surfaces were not written; write them or record without truth");
   }
 
-  /// Poses at the stamps of both sides; where they share one, the depth image's.
+  /// Poses at the stamps of both sides and between; where they share one, the depth image's.
   [[nodiscard]] std::vector<TrajectoryPose> trajectory() const {
     std::map<double, Pose> poses;
     for (const Side* side : {&depth, &color})
       for (const auto& [index, image] : *side) poses.emplace(image.stamp_s, image.T_world_base);
+    for (const TrajectoryPose& pose : poses_between) poses.emplace(pose.stamp_s, pose.T_world_base);
     std::vector<TrajectoryPose> lines;
     for (const auto& [stamp_s, pose] : poses) lines.push_back({stamp_s, pose});
     return lines;
@@ -216,6 +218,21 @@ void RecordingWriter::write_shapes(const std::vector<Shape>& shapes, const Shape
   if (!state_->info.motion.empty())
     write_file(state_->partial / "truth/poses.csv", shape_poses_text(as_filed(poses, shapes)));
   state_->has_shapes = true;
+}
+
+void RecordingWriter::write_odometry(const std::vector<OdometryPose>& poses) {
+  write_file(state_->partial / "odometry.txt", odometry_text(poses));
+  state_->info.has_odometry = true;
+}
+
+void RecordingWriter::write_scans(const ScanLog& scans) {
+  create(state_->partial / "scan");
+  write_file(state_->partial / "scan/scans.bin", scan_log_bytes(scans));
+  state_->info.has_scans = true;
+}
+
+void RecordingWriter::add_poses(const std::vector<TrajectoryPose>& poses) {
+  state_->poses_between.insert(state_->poses_between.end(), poses.begin(), poses.end());
 }
 
 void RecordingWriter::finish() {

@@ -18,7 +18,9 @@ constexpr double kRestS = 0.2;      ///< logged after the last waypoint
 constexpr double kReactionS = 0.1;  ///< from a command to the wheels' speed
 constexpr double kStuckS = 4.0;     ///< without getting anywhere
 constexpr double kStuckM = 0.005, kStuckRad = 0.01;
-constexpr double kPatience = 5.0;  ///< times the time that a waypoint should take
+constexpr double kLongestStandS = 4 * 3600.0;
+constexpr double kMostPoses = 1e7;  ///< more than any recording could hold
+constexpr double kPatience = 5.0;   ///< times the time that a waypoint should take
 
 int share_of(double hz, double of_hz, const char* name) {
   const double share = of_hz / hz;
@@ -35,6 +37,12 @@ void check(const Drive& drive, const DriveSettings& settings) {
       throw Error("trajectory: waypoints must be finite numbers");
   if (!(settings.clearance_m >= 0) || !(settings.clearance_m < 1))
     throw Error("drive: clearance_m must lie between 0 and 1");
+  for (const double error : {settings.radius_error, settings.track_error})
+    if (!(error > -1) || !std::isfinite(error))
+      throw Error("drive: errors of the believed wheels must be above -1");
+  if (!(drive.until_s <= kLongestStandS))
+    throw Error(fmt::format("drive: stands until {} s; a drive on wheels lasts {} s at most",
+                            drive.until_s, kLongestStandS));
 }
 
 ControllerParams params_of(const Drive& drive, const DriveSettings& settings) {
@@ -42,6 +50,11 @@ ControllerParams params_of(const Drive& drive, const DriveSettings& settings) {
   params.speed_mps = drive.speed_mps;
   params.turn_rate_radps = drive.turn_rate_radps;
   return params;
+}
+
+WheelGeometry believed(const WheelGeometry& wheels, const DriveSettings& settings) {
+  return {wheels.radius_m * (1.0 + settings.radius_error),
+          wheels.track_m * (1.0 + settings.track_error)};
 }
 
 PlanarState place_of(const Drive::Waypoint& w) {
@@ -95,15 +108,16 @@ class DriveRun {
         params_(params_of(drive, settings)),
         clearance_(model),
         controller_(drive.waypoints, params_),
-        odometry_(settings.believed_wheels.value_or(model.wheels), settings.encoder_ticks_per_turn),
+        odometry_(believed(model.wheels, settings), settings.encoder_ticks_per_turn),
         physics_(model),
-        patience_(waypoints_, params_) {
+        patience_(waypoints_, params_),
+        until_s_(drive.until_s) {
     steps_ = share_of(settings.control_hz, 1.0 / physics_.step_s(), "control_hz");
     controls_ = share_of(settings.log_hz, settings.control_hz, "log_hz");
   }
 
   DriveLog run(const std::function<void(std::size_t, std::size_t)>& progress) {
-    stand_at_start();
+    stand_at_start(progress);
     while (!controller_.done()) {
       const std::size_t target = controller_.target();
       advance(controller_.command(physics_.planar(), control_s()));
@@ -113,7 +127,7 @@ class DriveRun {
         give_up();
     }
     log_.end_s = physics_.time_s();
-    const double rest_s = log_.end_s + kRestS;
+    const double rest_s = std::max(log_.end_s, until_s_) + kRestS;
     while (physics_.time_s() < rest_s) advance(controller_.brake(control_s()));
     log_.health = physics_.health();
     return std::move(log_);
@@ -122,14 +136,14 @@ class DriveRun {
  private:
   double control_s() const { return steps_ * physics_.step_s(); }
 
-  void stand_at_start() {
+  void stand_at_start(const std::function<void(std::size_t, std::size_t)>& progress) {
     check_waypoints(waypoints_, !settings_.check_way_first, clearance_);
     if (settings_.check_way_first) check_legs(waypoints_, clearance_);
     const PlanarState start = place_of(waypoints_.front());
     physics_.settle(start, clearance_.floor_at(start).value_or(0.0));
     place_ = physics_.planar();
     log_sample();
-    arrive(0, {});
+    arrive(0, progress);
   }
 
   void advance(const VelocityCommand& command) {
@@ -195,6 +209,7 @@ class DriveRun {
   Odometry odometry_;
   DrivePhysics physics_;
   Patience patience_;
+  const double until_s_;
   int steps_ = 1, controls_ = 1, control_ = 0;
   PlanarState place_;
   VelocityCommand command_;
@@ -226,6 +241,24 @@ Pose pose_at(const DriveLog& log, double stamp_s) {
   pose.translation() =
       (1.0 - share) * before.T_world_base.translation() + share * after->T_world_base.translation();
   return pose;
+}
+
+std::vector<StampedPose> poses_along(const DriveLog& log, double rate_hz, double until_s,
+                                     int most) {
+  constexpr double kRounding = 1e-9;  // a drive of a whole number of periods keeps its last one
+  double count = std::floor(until_s * rate_hz + kRounding) + 1.0;
+  if (most > 0) count = std::min(count, static_cast<double>(most));
+  if (!(count >= 1.0) || !(count <= kMostPoses))
+    throw Error(
+        fmt::format("drive: {} poses a second over {:.1f} s are too many to record; lower "
+                    "the rate",
+                    rate_hz, until_s));
+  std::vector<StampedPose> poses(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double stamp_s = static_cast<double>(i) / rate_hz;
+    poses[i] = {stamp_s, pose_at(log, stamp_s)};
+  }
+  return poses;
 }
 
 }  // namespace mapscore::sim

@@ -21,8 +21,9 @@ struct DriveSettings {
   double control_hz = 50.0;  ///< of commands; a whole share of 500, the physics' rate
   double log_hz = 50.0;      ///< of samples and of the odometry; a whole share of control_hz
   int encoder_ticks_per_turn = 4096;
-  std::optional<WheelGeometry> believed_wheels;  ///< of the odometry; default: the true ones
-  double clearance_m = 0.02;                     ///< kept between bumper and furniture
+  /// Of the wheels that the odometry believes, as shares of the true radius and track; above -1.
+  double radius_error = 0.0, track_error = 0.0;
+  double clearance_m = 0.02;    ///< kept between bumper and furniture
   bool check_way_first = true;  ///< look for obstacles along all legs before driving
 };
 
@@ -50,7 +51,8 @@ struct DriveLog {
 };
 
 /// Drives along the waypoints with wheels, motors and contacts (see DriveModel), the controller fed
-/// with the true pose, as by a perfect localisation; ends a little after the last one, at rest.
+/// with the true pose, as by a perfect localisation; ends a little after the last one, at rest, or
+/// stands there until `drive.until_s`.
 /// The scene stands still at its pose of loading. No random numbers: same input, same bytes.
 ///
 /// Throws Error, one line, naming waypoint (counted from 1) and body: when the robot would stand in
@@ -66,5 +68,10 @@ struct DriveLog {
 /// The true pose at an instant of the log, interpolated between its samples: position linearly,
 /// rotation along the shortest arc. Clamped to the log's span. Throws Error on an empty log.
 [[nodiscard]] Pose pose_at(const DriveLog& log, double stamp_s);
+
+/// True poses at i / rate_hz up to `until_s`, at most `most` of them (0: no limit). Throws Error
+/// when they are too many to record.
+[[nodiscard]] std::vector<StampedPose> poses_along(const DriveLog& log, double rate_hz,
+                                                   double until_s, int most = 0);
 
 }  // namespace mapscore::sim

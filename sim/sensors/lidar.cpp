@@ -7,6 +7,7 @@
 #include "core/parallel.hpp"
 #include "sim/sensors/ray_cast.hpp"
 #include "sim/world/drawn_scene.hpp"
+#include "sim/world/motion.hpp"
 #include "sim/world/mujoco_pose.hpp"
 #include "sim/world/mujoco_session.hpp"
 
@@ -20,6 +21,8 @@ namespace mapscore::sim {
 /// The world's model with what the renderer draws in group 0 and all else in group 5.
 struct Lidar::Target {
   ModelPtr model;
+  std::optional<Motion> motion;
+  std::vector<int> addresses;  ///< in qpos, of the motion's joints
 };
 
 namespace {
@@ -39,6 +42,13 @@ ModelPtr copy_for_rays(const World& world) {
   for (int geom = 0; geom < model->ngeom; ++geom) model->geom_group[geom] = kHiddenGroup;
   for (const mjvGeom& geom : world.drawn().geoms) model->geom_group[geom.objid] = 0;
   return model;
+}
+
+std::vector<int> addresses_of(const Motion& motion, const mjModel& model) {
+  std::vector<int> addresses;
+  for (const std::string& joint : motion.joints)
+    addresses.push_back(model.jnt_qposadr[mj_name2id(&model, mjOBJ_JOINT, joint.c_str())]);
+  return addresses;
 }
 
 /// The robot stands where the model has it: its base at the world's origin.
@@ -64,8 +74,17 @@ class Lidar::Caster {
         along_(lidar.directions_.size()),
         hits_(lidar.settings_.beams),
         ranges_m_(lidar.settings_.beams) {
-    mj_kinematics(lidar.target_->model.get(), data_.get());
-    mj_comPos(lidar.target_->model.get(), data_.get());
+    place();
+  }
+
+  /// Moves the scene to an instant of its motion.
+  void move_to(double stamp_s) {
+    const Target& target = *lidar_.target_;
+    if (!target.motion) return;
+    const std::vector<double> values = target.motion->at(stamp_s);
+    for (std::size_t joint = 0; joint < values.size(); ++joint)
+      data_->qpos[target.addresses[joint]] = values[joint];
+    place();
   }
 
   LidarRanges scan(const Pose& T_world_base) {
@@ -82,6 +101,11 @@ class Lidar::Caster {
   }
 
  private:
+  void place() {  // rays need the bodies' centres of mass, too
+    mj_kinematics(lidar_.target_->model.get(), data_.get());
+    mj_comPos(lidar_.target_->model.get(), data_.get());
+  }
+
   float measured(double range_m) const {
     if (range_m < 0.0 || range_m > lidar_.settings_.range_max_m)
       return std::numeric_limits<float>::infinity();
@@ -100,6 +124,10 @@ Lidar::Lidar(const World& world, const LidarSettings& settings) : settings_(sett
   quiet_mujoco();
   auto target = std::make_shared<Target>();
   target->model = copy_for_rays(world);
+  if (const Motion* motion = world.motion()) {
+    target->motion = *motion;
+    target->addresses = addresses_of(*motion, *target->model);
+  }
   T_base_lidar_ = settings.T_base_lidar ? *settings.T_base_lidar : site_pose(*target->model);
   target_ = std::move(target);
   for (int beam = 0; beam < settings.beams; ++beam) {
@@ -116,17 +144,30 @@ LidarRanges Lidar::scan(const Pose& T_world_base) const {
   return Caster(*this).scan(T_world_base);
 }
 
-std::vector<LidarRanges> Lidar::scans(const std::vector<Pose>& T_world_base, int jobs) const {
+template <class ScanOne>
+std::vector<LidarRanges> Lidar::all(std::size_t count, int jobs, const ScanOne& scan_one) const {
   if (jobs < 1) throw Error("lidar: jobs must be at least 1");
-  std::vector<LidarRanges> scans(T_world_base.size());
+  std::vector<LidarRanges> scans(count);
   constexpr std::size_t kRun = 16;
   Runs runs(scans.size(), kRun);
   run_jobs(jobs, [&](int) {
     Caster caster(*this);
     for (Runs::Run run{}; runs.next(run);)
-      for (std::size_t i = run.first; i < run.last; ++i) scans[i] = caster.scan(T_world_base[i]);
+      for (std::size_t i = run.first; i < run.last; ++i) scans[i] = scan_one(caster, i);
   });
   return scans;
+}
+
+std::vector<LidarRanges> Lidar::scans(const std::vector<Pose>& T_world_base, int jobs) const {
+  return all(T_world_base.size(), jobs,
+             [&](Caster& caster, std::size_t i) { return caster.scan(T_world_base[i]); });
+}
+
+std::vector<LidarRanges> Lidar::scans(const std::vector<StampedPose>& poses, int jobs) const {
+  return all(poses.size(), jobs, [&](Caster& caster, std::size_t i) {
+    caster.move_to(poses[i].stamp_s);
+    return caster.scan(poses[i].T_world_base);
+  });
 }
 
 }  // namespace mapscore::sim

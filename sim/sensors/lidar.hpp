@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/geometry/pose.hpp"
+#include "sim/world/stamped_pose.hpp"
 #include "sim/world/world.hpp"
 
 #include <memory>
@@ -25,7 +26,8 @@ struct LidarSettings {
 /// anything nearer than range_min_m.
 using LidarRanges = std::vector<float>;
 
-/// Casts rays against the exact surfaces that the renderer draws, at the pose of loading: solid
+/// Casts rays against the exact surfaces that the renderer draws, at the pose of loading or at an
+/// instant of the world's motion: solid
 /// geoms of groups 0 to 2, glass where its class is opaque, planes from their front alone; never
 /// the robot. Round shapes are exact, not faceted. Immutable and safe to share between threads.
 class Lidar {
@@ -41,7 +43,11 @@ class Lidar {
   /// One turn at a pose of the base, without noise, all beams from one place. A tilted base tilts
   /// the lidar's plane.
   [[nodiscard]] LidarRanges scan(const Pose& T_world_base) const;
-  /// One turn at each pose; the same bytes for any number of `jobs`. Throws Error when jobs < 1.
+  /// One turn at each pose, the scene as its motion has it at that stamp.
+  [[nodiscard]] std::vector<LidarRanges> scans(const std::vector<StampedPose>& poses,
+                                               int jobs) const;
+  /// One turn at each pose, the scene at its pose of loading; the same bytes for any number of
+  /// `jobs`. Throws Error when jobs < 1.
   [[nodiscard]] std::vector<LidarRanges> scans(const std::vector<Pose>& T_world_base,
                                                int jobs) const;
 
@@ -51,6 +57,9 @@ class Lidar {
 
   LidarSettings settings_;
   Pose T_base_lidar_ = Pose::Identity();
+  template <class ScanOne>
+  std::vector<LidarRanges> all(std::size_t count, int jobs, const ScanOne& scan_one) const;
+
   std::vector<double> directions_;  ///< beams x 3, in the lidar's frame
   std::shared_ptr<const Target> target_;
 };

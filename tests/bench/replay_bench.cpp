@@ -102,7 +102,7 @@ void record(benchmark::State& state, bool shadows) {
   for (auto _ : state) {
     std::filesystem::remove_all(folder);
     record_study(study, folder, static_cast<int>(std::thread::hardware_concurrency()),
-                 [&](int, int images) { frames = images / 2; });
+                 {.images = [&](int, int images) { frames = images / 2; }});
   }
   std::filesystem::remove_all(folder);
   state.counters["frames_per_s"] = benchmark::Counter(

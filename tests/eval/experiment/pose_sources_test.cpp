@@ -47,9 +47,7 @@ class PoseSourcesTest : public ::testing::Test {
   [[nodiscard]] static Task task(const std::string& lines) {
     return plan_of(study_of(lines), "recording").tasks.at(0);
   }
-  [[nodiscard]] Pose true_pose(int frame) const {
-    return recording_.T_world_base_of_depth(frame);
-  }
+  [[nodiscard]] Pose true_pose(int frame) const { return recording_.T_world_base_of_depth(frame); }
 
  private:
   [[nodiscard]] Recording written(const char* name, bool logs) const {
@@ -77,8 +75,8 @@ class PoseSourcesTest : public ::testing::Test {
   }
 
   static ScanLog scans(const std::vector<Frame>& frames, const std::vector<Shape>& shapes) {
-    const OccupancyGrid grid = floor_grid(
-        shapes, Pose::Identity(), {.height_m = kLidarHeight_m, .resolution_m = 0.01});
+    const OccupancyGrid grid =
+        floor_grid(shapes, Pose::Identity(), {.height_m = kLidarHeight_m, .resolution_m = 0.01});
     ScanLog log;
     log.geometry = {-M_PI, 2.0 * M_PI / kBeams, 0.1, 12.0, Pose::Identity()};
     log.geometry.T_base_lidar.translation().z() = kLidarHeight_m;
@@ -86,11 +84,11 @@ class PoseSourcesTest : public ::testing::Test {
       StampedScan scan{frame.stamp_s, {}};
       const PlanarPose base = planar(frame.T_world_base);
       for (int beam = 0; beam < kBeams; ++beam) {
-        const double angle = base.yaw_rad + log.geometry.first_angle_rad +
-                             beam * log.geometry.angle_step_rad;
-        scan.ranges_m.push_back(static_cast<float>(
-            cast_ray(grid, {base.x_m, base.y_m}, angle, 12.0)
-                .value_or(std::numeric_limits<double>::infinity())));
+        const double angle =
+            base.yaw_rad + log.geometry.first_angle_rad + beam * log.geometry.angle_step_rad;
+        scan.ranges_m.push_back(
+            static_cast<float>(cast_ray(grid, {base.x_m, base.y_m}, angle, 12.0)
+                                   .value_or(std::numeric_limits<double>::infinity())));
       }
       log.scans.push_back(scan);
     }
@@ -177,7 +175,9 @@ TEST_F(PoseSourcesTest, ReadATrajectory) {
   const auto odometry = recording().read_odometry();
   BelievedTrajectory given = believed_trajectory(recording(), task(source("odometry")));
   write_file(folder() / "given.txt", believed_text(given));
-  const auto read = beliefs(recording(), source("trajectory", fmt::format(", trajectory: {}", (folder() / "given.txt").string())));
+  const auto read = beliefs(
+      recording(),
+      source("trajectory", fmt::format(", trajectory: {}", (folder() / "given.txt").string())));
   const auto straight = beliefs(recording(), source("odometry"));
   for (int frame = 0; frame < 4; ++frame) {
     EXPECT_TRUE(mean_of(read[frame]).isApprox(mean_of(straight[frame]), 1e-12));
@@ -189,7 +189,8 @@ TEST_F(PoseSourcesTest, UseAGivenGrid) {
   const OccupancyGrid grid = grid_of(recording(), task(source("particle_filter")).config);
   save_grid(grid, folder() / "grid.yaml");
   const auto given = beliefs(
-      recording(), source("particle_filter", fmt::format(", grid: {}", (folder() / "grid.yaml").string())));
+      recording(),
+      source("particle_filter", fmt::format(", grid: {}", (folder() / "grid.yaml").string())));
   const auto cut = beliefs(recording(), source("particle_filter"));
   for (int frame = 0; frame < 4; ++frame)
     EXPECT_EQ(mean_of(given[frame]).matrix(), mean_of(cut[frame]).matrix());
@@ -200,7 +201,8 @@ TEST_F(PoseSourcesTest, SayWhatIsMissing) {
   expect_error("odometry.txt, which", [&] { (void)beliefs(plain, source("odometry")); });
   expect_error("scan/scans.bin", [&] { (void)beliefs(plain, source("particle_filter")); });
   expect_error("localization.trajectory: is missing", [] { (void)task(source("trajectory")); });
-  expect_error("nowhere.txt", [] { (void)task(source("trajectory", ", trajectory: /nowhere.txt")); });
+  expect_error("nowhere.txt",
+               [] { (void)task(source("trajectory", ", trajectory: /nowhere.txt")); });
   expect_error("most_particles: 10 is below least_particles", [] {
     (void)task(source("particle_filter", ", filter: {least_particles: 20, most_particles: 10}"));
   });

@@ -83,7 +83,7 @@ TEST(Drive, CoarserEncodersAndWrongWheelsDriftMore) {
   };
   DriveSettings coarse, wrong;
   coarse.encoder_ticks_per_turn = 8;
-  wrong.believed_wheels = WheelGeometry{0.076 * 1.02, 0.354};
+  wrong.radius_error = 0.02;
   const double fine_x = end_x({});
   EXPECT_NEAR(end_x(wrong), 1.02 * fine_x, 1e-6);
   EXPECT_GT(std::abs(end_x(coarse) - fine_x), 1e-3);
