@@ -67,7 +67,8 @@ OdometryNoiseSettings resolved(const OdometryNoiseSettings& settings) {
 /// Every key that the filter looks at.
 LocalizationSettings resolved_filter(const LocalizationSettings& settings) {
   const FilterSettings filter = filter_of(settings, {});
-  LocalizationSettings all{.source = PoseSource::particle_filter};
+  LocalizationSettings all;
+  all.source = PoseSource::particle_filter;
   all.odometry_noise = resolved(settings.odometry_noise);
   all.filter.start = settings.filter.start;
   all.filter.scan_model = settings.filter.scan_model;
@@ -126,7 +127,9 @@ FilterSettings filter_of(const LocalizationSettings& settings, const LidarFaultS
 }
 
 std::pair<std::size_t, std::size_t> particle_bounds(const ParticleFilterSettings& settings) {
-  const KldParams kld = filter_of({.filter = settings}, {}).filter.kld;
+  LocalizationSettings of_filter;
+  of_filter.filter = settings;
+  const KldParams kld = filter_of(of_filter, {}).filter.kld;
   return {kld.min_particles, kld.max_particles};
 }
 
