@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "eval/cli/info_logs.hpp"
 #include "eval/cli/info_scene.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/plan.hpp"
@@ -34,6 +35,7 @@ void print_recording(const fs::path& folder) {
                            color.height_px, info.color_rate_hz,
                            info.has_truth ? "with truth" : "without truth");
   std::cout << fmt::format("content hash {}\n", recording.content_hash());
+  std::cout << log_lines(recording);
   print_classes(info.table);
 }
 

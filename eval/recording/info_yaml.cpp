@@ -18,6 +18,7 @@ namespace {
 constexpr std::uint64_t kMaxSize =
     16384;  // pixels; also keeps a damaged file from asking for all memory
 constexpr std::uint64_t kMaxFrames = 1'000'000;  // file names have six digits
+constexpr std::uint64_t kMaxLogLines = 100'000'000;
 
 std::string camera_text(const CameraModel& camera, double rate_hz) {
   return fmt::format(
@@ -127,6 +128,11 @@ void check_version(const YamlValue& root) {
                                version.text(), kRecordingFormat));
 }
 
+/// 0 where the key is left out.
+int count_of(const YamlValue& root, const std::string& key) {
+  return root.has(key) ? static_cast<int>(root.at(key).whole(1, kMaxLogLines)) : 0;
+}
+
 }  // namespace
 
 std::string info_text(const RecordingInfo& info) {
@@ -139,8 +145,8 @@ std::string info_text(const RecordingInfo& info) {
     text += fmt::format("motion: {}\nmotion_hash: {}\n", yaml_quoted(info.motion),
                         yaml_quoted(info.motion_hash));
   text += fmt::format("frame_count: {}\nhas_truth: {}\n", info.frame_count, info.has_truth);
-  if (info.has_odometry) text += "has_odometry: true\n";
-  if (info.has_scans) text += "has_scans: true\n";
+  if (info.odometry_count > 0) text += fmt::format("odometry_count: {}\n", info.odometry_count);
+  if (info.scan_count > 0) text += fmt::format("scan_count: {}\n", info.scan_count);
   text += fmt::format("color: {{{}}}\n", camera_text(calibration.color, info.color_rate_hz));
   text += fmt::format("depth: {{{}, range_min_m: {}, range_max_m: {}}}\n",
                       camera_text(calibration.depth, info.depth_rate_hz), calibration.range_min_m,
@@ -159,7 +165,7 @@ RecordingInfo read_info(const std::filesystem::path& file) {
   const YamlValue root = YamlValue::load(file);
   check_version(root);
   root.only({"format_version", "scene", "scene_hash", "mujoco_version", "seed", "motion",
-             "motion_hash", "frame_count", "has_truth", "has_odometry", "has_scans", "color",
+             "motion_hash", "frame_count", "has_truth", "odometry_count", "scan_count", "color",
              "depth", "T_color_depth", "T_base_depth", "classes", "instances"});
   RecordingInfo info;
   info.scene = root.at("scene").text();
@@ -173,8 +179,8 @@ RecordingInfo read_info(const std::filesystem::path& file) {
   }
   info.frame_count = static_cast<int>(root.at("frame_count").whole(1, kMaxFrames));
   info.has_truth = root.at("has_truth").boolean();
-  info.has_odometry = root.has("has_odometry") && root.at("has_odometry").boolean();
-  info.has_scans = root.has("has_scans") && root.at("has_scans").boolean();
+  info.odometry_count = count_of(root, "odometry_count");
+  info.scan_count = count_of(root, "scan_count");
   info.calibration = calibration_of(root);
   info.color_rate_hz = root.at("color").at("rate_hz").positive();
   info.depth_rate_hz = root.at("depth").at("rate_hz").positive();

@@ -27,8 +27,8 @@ constexpr const char* kScanFile = "scan/scans.bin";
 /// What a recording may hold of the robot's other sensors.
 std::vector<std::string> log_paths(const RecordingInfo& info) {
   std::vector<std::string> paths;
-  if (info.has_odometry) paths.emplace_back(kOdometryFile);
-  if (info.has_scans) paths.emplace_back(kScanFile);
+  if (info.odometry_count > 0) paths.emplace_back(kOdometryFile);
+  if (info.scan_count > 0) paths.emplace_back(kScanFile);
   return paths;
 }
 
@@ -42,10 +42,10 @@ void check_is_recording(const fs::path& folder) {
                     folder.string()));
 }
 
-void check_count(const fs::path& list, std::size_t lines, int frame_count) {
-  if (lines != static_cast<std::size_t>(frame_count))
-    throw Error(fmt::format("{}: {} lines, recording.yaml says frame_count {}; record again",
-                            list.string(), lines, frame_count));
+void check_count(const fs::path& list, std::size_t lines, const char* key, int count) {
+  if (lines != static_cast<std::size_t>(count))
+    throw Error(fmt::format("{}: {} lines, recording.yaml says {} {}; record again", list.string(),
+                            lines, key, count));
 }
 
 /// The pose of a depth image; the trajectory has a line at its stamp.
@@ -108,7 +108,8 @@ Recording Recording::open(const fs::path& folder) {
   recording.color_ = read_stamp_list(folder / "color.txt");
   const auto depth = read_stamp_list(folder / "depth.txt");
   recording.trajectory_ = read_trajectory(folder / "groundtruth.txt");
-  check_count(folder / "color.txt", recording.color_.size(), recording.info_.frame_count);
+  check_count(folder / "color.txt", recording.color_.size(), "frame_count",
+              recording.info_.frame_count);
   for (const StampedImage& image : depth)
     recording.depth_.push_back(
         {image, pose_at(folder / "groundtruth.txt", recording.trajectory_, image)});
@@ -177,13 +178,17 @@ void Recording::read_depth(int depth_index, Channels channels, Frame& frame) con
 }
 
 std::vector<OdometryPose> Recording::read_odometry() const {
-  check_has(folder_, info_.has_odometry, "odometry");
-  return eval::read_odometry(folder_ / kOdometryFile);
+  check_has(folder_, has_odometry(), "odometry");
+  std::vector<OdometryPose> poses = eval::read_odometry(folder_ / kOdometryFile);
+  check_count(folder_ / kOdometryFile, poses.size(), "odometry_count", info_.odometry_count);
+  return poses;
 }
 
 ScanLog Recording::read_scans() const {
-  check_has(folder_, info_.has_scans, "scans");
-  return read_scan_log(folder_ / kScanFile);
+  check_has(folder_, has_scans(), "scans");
+  ScanLog log = read_scan_log(folder_ / kScanFile);
+  check_count(folder_ / kScanFile, log.scans.size(), "scan_count", info_.scan_count);
+  return log;
 }
 
 std::vector<Shape> Recording::read_shapes() const {

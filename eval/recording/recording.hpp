@@ -38,8 +38,8 @@ struct RecordingInfo {
   int frame_count = 0;
   bool has_truth =
       true;  ///< truth/ and depth_label/ are there; without, maps can be made but not scored
-  bool has_odometry = false;  ///< odometry.txt is there
-  bool has_scans = false;     ///< scan/scans.bin is there
+  int odometry_count = 0;  ///< lines of odometry.txt; 0 where there is none
+  int scan_count = 0;      ///< turns of scan/scans.bin; 0 where there is none
 };
 
 /// Which images `Recording::read` decodes.
@@ -105,11 +105,11 @@ class Recording {
   /// Where the moving ones of read_shapes were at each depth image; empty where nothing moves.
   [[nodiscard]] ShapePoses read_poses() const;
 
-  [[nodiscard]] bool has_odometry() const { return info_.has_odometry; }
-  [[nodiscard]] bool has_scans() const { return info_.has_scans; }
-  /// What the wheels' encoders say. Throws Error where there is none, too.
+  [[nodiscard]] bool has_odometry() const { return info_.odometry_count > 0; }
+  [[nodiscard]] bool has_scans() const { return info_.scan_count > 0; }
+  /// What the wheels' encoders say. Throws Error where there is none, too, or other than announced.
   [[nodiscard]] std::vector<OdometryPose> read_odometry() const;
-  /// The lidar's turns, without noise. Throws Error where there are none, too.
+  /// The lidar's turns, without noise. Throws Error likewise.
   [[nodiscard]] ScanLog read_scans() const;
 
  private:

@@ -222,13 +222,13 @@ void RecordingWriter::write_shapes(const std::vector<Shape>& shapes, const Shape
 
 void RecordingWriter::write_odometry(const std::vector<OdometryPose>& poses) {
   write_file(state_->partial / "odometry.txt", odometry_text(poses));
-  state_->info.has_odometry = true;
+  state_->info.odometry_count = static_cast<int>(poses.size());
 }
 
 void RecordingWriter::write_scans(const ScanLog& scans) {
   create(state_->partial / "scan");
   write_file(state_->partial / "scan/scans.bin", scan_log_bytes(scans));
-  state_->info.has_scans = true;
+  state_->info.scan_count = static_cast<int>(scans.scans.size());
 }
 
 void RecordingWriter::add_poses(const std::vector<TrajectoryPose>& poses) {

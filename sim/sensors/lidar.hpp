@@ -43,7 +43,8 @@ class Lidar {
   /// One turn at a pose of the base, without noise, all beams from one place. A tilted base tilts
   /// the lidar's plane.
   [[nodiscard]] LidarRanges scan(const Pose& T_world_base) const;
-  /// One turn at each pose, the scene as its motion has it at that stamp.
+  /// One turn at each pose, the scene as its motion has it at that stamp
+  /// (a world without a motion, also one of World::at, as it was loaded).
   [[nodiscard]] std::vector<LidarRanges> scans(const std::vector<StampedPose>& poses,
                                                int jobs) const;
   /// One turn at each pose, the scene at its pose of loading; the same bytes for any number of

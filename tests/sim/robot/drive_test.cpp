@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "sim/robot/drive_simulation.hpp"
+
+#include "core/error.hpp"
 #include "tests/sim/robot/drive_scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -101,6 +103,33 @@ TEST(Drive, SameInputSameBytes) {
     EXPECT_EQ(a.samples[i].T_odom_base.matrix(), b.samples[i].T_odom_base.matrix());
     EXPECT_EQ(a.samples[i].ticks.left, b.samples[i].ticks.left);
   }
+}
+
+TEST(Drive, StandsUntilItIsTold) {
+  const World world = floor_world();
+  Drive drive = drive_along({{0, 0, 0}, {0.5, 0, 0}});
+  const DriveLog soon = simulate_drive(world, robot_file(), drive);
+  drive.until_s = 12.0;
+  const DriveLog late = simulate_drive(world, robot_file(), drive);
+  EXPECT_EQ(late.end_s, soon.end_s);
+  EXPECT_GE(late.samples.back().stamp_s, 12.0);
+  const Pose crept = soon.samples.back().T_world_base.inverse() * late.samples.back().T_world_base;
+  EXPECT_LT(crept.translation().norm(), 1e-3);
+  drive.until_s = 1e9;
+  EXPECT_THROW((void)simulate_drive(world, robot_file(), drive), Error);
+}
+
+TEST(Drive, PosesComeAtTheirRate) {
+  DriveLog log;
+  log.samples.resize(2);
+  log.samples[1].T_world_base = planar_pose(1.0, 0.0, 0.0);
+  log.samples[1].stamp_s = 1.0;
+  const std::vector<StampedPose> poses = poses_along(log, 10.0, 0.7);  // 0.7 * 10 is below 7
+  ASSERT_EQ(poses.size(), 8u);
+  EXPECT_EQ(poses[3].stamp_s, 3 / 10.0);
+  EXPECT_NEAR(poses[3].T_world_base.translation().x(), 0.3, 1e-12);
+  EXPECT_EQ(poses_along(log, 10.0, 0.7, 5).size(), 5u);
+  EXPECT_THROW((void)poses_along(log, 1e9, 1.0), Error);
 }
 
 TEST(Drive, PosesBetweenSamplesAreInterpolated) {

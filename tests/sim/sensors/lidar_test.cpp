@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "sim/sensors/ray_cast.hpp"
 #include "sim/world/drawn_scene.hpp"
+#include "sim/world/motion.hpp"
 #include "sim/world/mujoco_session.hpp"
 #include "tests/sim/robot/drive_scenes.hpp"
 
@@ -138,6 +139,26 @@ TEST(Lidar, AnyNumberOfJobsGivesTheSameBytes) {
   EXPECT_EQ(one, lidar.scans(poses, 2));
   EXPECT_EQ(one, lidar.scans(poses, 5));
   EXPECT_EQ(one[37], lidar.scan(poses[37]));
+}
+
+TEST(Lidar, EachTurnSeesTheSceneAtItsStamp) {
+  const World loaded = floor_world(
+      "<body name='gate_1' pos='1 0 0.5'><joint name='slide' type='slide' axis='1 0 0'/>"
+      "<geom type='box' size='0.05 1 0.5'/></body>");
+  const World world = loaded.moving({"", "", {"slide"}, {1.0, 3.0}, {0.0, 2.0}});
+  LidarSettings settings;
+  settings.first_angle_rad = 0.0;
+  const Lidar lidar(world, settings);
+  // out of order, so that nothing of a turn may stay behind
+  const std::vector<StampedPose> poses = {
+      {3.5, Pose::Identity()}, {1.0, Pose::Identity()}, {2.0, planar_pose(0.25, 0, 0)}};
+  const std::vector<LidarRanges> turns = lidar.scans(poses, 1);
+  EXPECT_FLOAT_EQ(turns[0][0], 2.95f - 0.095f);
+  EXPECT_FLOAT_EQ(turns[1][0], 0.95f - 0.095f);
+  EXPECT_FLOAT_EQ(turns[2][0], 1.95f - 0.095f - 0.25f);
+  EXPECT_EQ(turns, lidar.scans(poses, 3));
+  EXPECT_EQ(turns[1], lidar.scan(Pose::Identity()));
+  EXPECT_EQ(turns[1], Lidar(loaded, settings).scans({{3.5, Pose::Identity()}}, 1)[0]);
 }
 
 TEST(Lidar, RefusesWhatCannotBe) {
