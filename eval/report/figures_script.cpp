@@ -27,7 +27,7 @@ constexpr double kPanels_in = 6.6;
 constexpr double kFont_pt = 8.0, kCaption_pt = 6.5;
 /// Mean width of a letter of DejaVu Sans over its size.
 constexpr double kLetterWidth = 0.53;
-constexpr double kLeft_in = 0.62, kRight_in = 0.12, kTop_in = 0.3, kXLabel_in = 0.45;
+constexpr double kLeft_in = 0.62, kRight_in = 0.12, kTop_in = 0.3, kXLabel_in = 0.29;
 constexpr double kGap_in = 0.14, kGapWithLabels_in = 0.42, kTitleGap_in = 0.24;
 constexpr double kLegendRow_in = 0.17, kCaptionRow_in = 0.125, kLegendEntry_in = 0.55;
 
@@ -64,8 +64,7 @@ class Geometry {
         caption_(wrapped(sheet.caption, width_in_ - 0.2, kCaption_pt)) {
     std::size_t longest = 0;
     for (const std::string& entry : sheet.legend) longest = std::max(longest, title_length(entry));
-    const double entry_in =
-        kLegendEntry_in + static_cast<double>(longest) * kLetterWidth * kFont_pt / kPointsPerInch;
+    const double entry_in = kLegendEntry_in + text_width_in(longest, kFont_pt);
     legend_columns_ = std::clamp(static_cast<int>(width_in_ / entry_in), 1,
                                  std::max(1, static_cast<int>(sheet.legend.size())));
     const int entries = static_cast<int>(sheet.legend.size());
@@ -75,8 +74,8 @@ class Geometry {
 
   [[nodiscard]] double width_in() const { return width_in_; }
   [[nodiscard]] double height_in() const {
-    return kTop_in + rows_ * (sheet_.panel_height_in + row_gap_in()) - row_gap_in() + kXLabel_in +
-           below_in();
+    return kTop_in + rows_ * (sheet_.panel_height_in + row_gap_in()) - row_gap_in() + x_label_in() +
+           x_tics_in() + below_in();
   }
   [[nodiscard]] const std::vector<std::string>& caption() const { return caption_; }
   [[nodiscard]] int legend_rows() const { return legend_rows_; }
@@ -100,9 +99,14 @@ class Geometry {
     return 0.08 + static_cast<double>(caption_.size()) * kCaptionRow_in;
   }
   [[nodiscard]] double below_in() const { return caption_in() + legend_rows_ * kLegendRow_in; }
+  [[nodiscard]] double x_label_in() const {
+    const bool labelled = std::any_of(sheet_.panels.begin(), sheet_.panels.end(),
+                                      [](const Panel& panel) { return !panel.x_label.empty(); });
+    return labelled ? kXLabel_in : kGap_in;
+  }
   [[nodiscard]] double row_gap_in() const { return kGap_in + title_gap_in_ + x_tics_in(); }
   /// Rows below the first that have their own x tics.
-  [[nodiscard]] double x_tics_in() const { return 0.16; }
+  [[nodiscard]] double x_tics_in() const { return sheet_.x_tics_in; }
   [[nodiscard]] bool has_titles_inside() const {
     return std::any_of(sheet_.panels.begin() +
                            std::min<std::ptrdiff_t>(
@@ -215,6 +219,10 @@ void write_text(const fs::path& file, const std::string& text) {
 
 double panel_width_in(int columns) {
   return std::clamp(kPanels_in / columns, 1.5, 3.3);
+}
+
+double text_width_in(std::size_t letters, double font_pt) {
+  return static_cast<double>(letters) * kLetterWidth * font_pt / kPointsPerInch;
 }
 
 std::string quoted(const std::string& text) {
