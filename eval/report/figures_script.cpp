@@ -27,9 +27,10 @@ constexpr double kPanels_in = 6.6;
 constexpr double kFont_pt = 8.0, kCaption_pt = 6.5;
 /// Mean width of a letter of DejaVu Sans over its size.
 constexpr double kLetterWidth = 0.53;
-constexpr double kLeft_in = 0.62, kRight_in = 0.12, kTop_in = 0.3, kXLabel_in = 0.29;
+constexpr double kLeft_in = 0.62, kRight_in = 0.12, kTop_in = 0.3, kXLabel_in = 0.29,
+                 kXLabelMiddle_in = 0.12;
 constexpr double kGap_in = 0.14, kGapWithLabels_in = 0.42, kTitleGap_in = 0.24;
-constexpr double kLegendRow_in = 0.17, kCaptionRow_in = 0.125, kLegendEntry_in = 0.55;
+constexpr double kLegendRow_in = 0.17, kCaptionRow_in = 0.125, kLegendEntry_in = 0.8;
 
 std::vector<std::string> wrapped(const std::string& text, double width_in, double font_pt) {
   const auto letters =
@@ -83,8 +84,12 @@ class Geometry {
   [[nodiscard]] std::string margins(int panel) const {
     const int row = panel / sheet_.columns, column = panel % sheet_.columns;
     const double left = kLeft_in + column * (sheet_.panel_width_in + x_gap_in_);
-    const double top = height_in() - kTop_in - row * (sheet_.panel_height_in + row_gap_in());
-    return margins(left, left + sheet_.panel_width_in, top - sheet_.panel_height_in, top);
+    const double bottom = bottom_in(row);
+    return margins(left, left + sheet_.panel_width_in, bottom, bottom + sheet_.panel_height_in);
+  }
+  /// Height of the middle of a panel's x label as a share of the sheet.
+  [[nodiscard]] double x_label(int panel) const {
+    return (bottom_in(panel / sheet_.columns) - x_tics_in() - kXLabelMiddle_in) / height_in();
   }
   [[nodiscard]] std::string legend_margins() const {
     return margins(0.05, width_in_ - 0.05, caption_in(), below_in());
@@ -95,6 +100,11 @@ class Geometry {
   }
 
  private:
+  /// Of the plotted area of a row's panels.
+  [[nodiscard]] double bottom_in(int row) const {
+    return height_in() - kTop_in - row * (sheet_.panel_height_in + row_gap_in()) -
+           sheet_.panel_height_in;
+  }
   [[nodiscard]] double caption_in() const {
     return 0.08 + static_cast<double>(caption_.size()) * kCaptionRow_in;
   }
@@ -168,10 +178,13 @@ std::string header_of(const FigureSheet& sheet, const Geometry& geometry) {
       kPointsPerInch / kFontUnitsPerInch);
 }
 
-std::string text_of(const Panel& panel, const std::string& margins) {
+std::string text_of(const Panel& panel, const std::string& margins, double x_label_at) {
   std::string text = "\n  " + margins + '\n';
   text += fmt::format("  set title {} font ',7.5' offset 0,-0.6\n", quoted(panel.title));
-  text += fmt::format("  set xlabel {} offset 0,0.4\n", quoted(panel.x_label));
+  text += panel.x_label.empty()
+              ? "  unset label 2\n"
+              : fmt::format("  set label 2 {} at graph 0.5, screen {:.5f} center\n",
+                            quoted(panel.x_label), x_label_at);
   text += fmt::format("  set ylabel {} offset 1.2,0\n", quoted(panel.y_label));
   text += panel.y_tic_labels ? "  set format y '%g'\n" : "  set format y ''\n";
   for (const std::string& setting : panel.settings) text += "  " + setting + '\n';
@@ -202,7 +215,8 @@ std::string script_of(const FigureSheet& sheet) {
   const Geometry geometry(sheet);
   std::string script = header_of(sheet, geometry);
   for (std::size_t i = 0; i < sheet.panels.size(); ++i)
-    script += text_of(sheet.panels[i], geometry.margins(static_cast<int>(i)));
+    script += text_of(sheet.panels[i], geometry.margins(static_cast<int>(i)),
+                      geometry.x_label(static_cast<int>(i)));
   return script + legend_and_caption(sheet, geometry) +
          "  unset multiplot\n  set output\n  reset\n  set encoding utf8\n  set datafile missing "
          "'-'\n}\n";
