@@ -20,8 +20,8 @@ namespace mapscore::eval {
 [[nodiscard]] sim::View overview(const Eigen::AlignedBox3d& bounds);
 
 /// Looks straight down on everything that was seen, from so far above that walls hardly lean:
-/// points a metre apart in height are drawn at most 3 cm apart for each metre that they lie beside
-/// the middle. As high as it must be for its width.
+/// what stands a metre above something else is drawn about 5 cm from it at most. As high as it must
+/// be for its width.
 [[nodiscard]] sim::View plan_view(const std::vector<JudgedMap>& maps, int width_px);
 
 /// Pixels of a metre at the height of the target, where a view looks straight down; else nothing.
