@@ -7,6 +7,7 @@
 #include "eval/recording/whole_file.hpp"
 #include "eval/report/figures_accuracy.hpp"
 #include "eval/report/figures_causes.hpp"
+#include "eval/report/figures_classes.hpp"
 #include "eval/report/figures_layout.hpp"
 #include "eval/report/figures_script.hpp"
 #include "eval/report/figures_threshold.hpp"
@@ -41,6 +42,7 @@ std::vector<fs::path> draw_figures(const StudySummary& summary, const fs::path& 
   make_folder(folder);
   const StudyLayout layout(summary);
   std::vector<FigureSheet> sheets{accuracy_figure(summary, layout), causes_figure(summary, layout)};
+  if (auto by_class = class_bars_figure(summary)) sheets.push_back(std::move(*by_class));
   if (auto by_class = class_figure(summary, layout)) sheets.push_back(std::move(*by_class));
   sheets.push_back(precision_recall_figure(summary, layout));
   sheets.push_back(reliability_figure(summary, layout));

@@ -15,10 +15,6 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr const char* kCeilings =
-    "Lattice ceiling: true labels on the depth pixels, true pose. Registration ceiling: the same "
-    "method with "
-    "every fault at zero.";
 constexpr std::size_t kClassesShown = 12;
 constexpr std::size_t kClassColumns = 3;
 
@@ -39,13 +35,9 @@ bool has_metric(const StudySummary& summary, const std::string& name) {
                      [&](const Metric& metric) { return metric.name == name; });
 }
 
-std::string figure_name(const char* stem, const StudyLayout& layout) {
-  return fmt::format("{}_by_{}", stem, layout.bars() ? "method" : "dose");
-}
-
 std::string accuracy_caption(const StudySummary& summary) {
   return study_caption(summary) + spread_caption(summary.study) +
-         " Counts pooled over classes and seeds. " + kCeilings;
+         " Counts pooled over classes and seeds. " + kCeilingsCaption;
 }
 
 /// One swept axis: a column a score.
@@ -63,24 +55,6 @@ void add_scores_by_row(const std::vector<Shown>& scores, const StudyLayout& layo
       figure.add({std::string(kPooled), score.metric, c,
                   &score == &scores.front() ? layout.columns()[c] : "", c == 0 ? score.title : "",
                   &score == &scores.back(), c == 0});
-}
-
-/// Detected classes with something to see, most visible first, cut to those shown, in table order.
-std::vector<const SemanticClass*> classes_shown(const StudySummary& summary) {
-  std::vector<std::pair<std::int64_t, const SemanticClass*>> seen;
-  for (const SemanticClass& c : summary.table.classes) {
-    const std::int64_t visible =
-        summary.trials.empty() ? 0 : summary.trials.front().pooled.at(c.id).visible;
-    if (c.detect && visible > 0) seen.emplace_back(visible, &c);
-  }
-  std::stable_sort(seen.begin(), seen.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  seen.resize(std::min(seen.size(), kClassesShown));
-  std::vector<const SemanticClass*> shown;
-  for (const auto& [visible, c] : seen) shown.push_back(c);
-  std::sort(shown.begin(), shown.end(),
-            [](const SemanticClass* a, const SemanticClass* b) { return a->id < b->id; });
-  return shown;
 }
 
 void add_classes_wrapped(const std::vector<const SemanticClass*>& classes, CurveFigure& figure) {
@@ -101,9 +75,34 @@ void add_classes_by_row(const std::vector<const SemanticClass*>& classes, const 
 
 }  // namespace
 
+std::vector<const SemanticClass*> classes_shown(const StudySummary& summary) {
+  std::vector<std::pair<std::int64_t, const SemanticClass*>> seen;
+  for (const SemanticClass& c : summary.table.classes) {
+    const std::int64_t visible =
+        summary.trials.empty() ? 0 : summary.trials.front().pooled.at(c.id).visible;
+    if (c.detect && visible > 0) seen.emplace_back(visible, &c);
+  }
+  std::stable_sort(seen.begin(), seen.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  seen.resize(std::min(seen.size(), kClassesShown));
+  std::vector<const SemanticClass*> shown;
+  for (const auto& [visible, c] : seen) shown.push_back(c);
+  std::sort(shown.begin(), shown.end(),
+            [](const SemanticClass* a, const SemanticClass* b) { return a->id < b->id; });
+  return shown;
+}
+
+std::string cut_caption(const StudySummary& summary, std::size_t shown) {
+  const std::size_t detected = summary.groups().size() - 2;
+  return shown < detected
+             ? fmt::format(" {} of {} detected classes, those with most visible voxels.", shown,
+                           detected)
+             : "";
+}
+
 FigureSheet accuracy_figure(const StudySummary& summary, const StudyLayout& layout) {
   const bool distances = has_metric(summary, "f_2cm");
-  const std::string name = figure_name("accuracy", layout);
+  const std::string name = layout.figure_name("accuracy");
   if (layout.columns().size() == 1) {
     CurveFigure figure(summary, layout, name, static_cast<int>(kVoxelScores.size()));
     add_scores_by_column(kVoxelScores, !distances, figure);
@@ -119,23 +118,18 @@ FigureSheet accuracy_figure(const StudySummary& summary, const StudyLayout& layo
 
 std::optional<FigureSheet> class_figure(const StudySummary& summary, const StudyLayout& layout) {
   const std::vector<const SemanticClass*> classes = classes_shown(summary);
-  if (classes.size() < 2) return std::nullopt;
+  if (classes.size() < 2 || layout.named()) return std::nullopt;
   const bool wrap = layout.columns().size() == 1;
   CurveFigure figure(
-      summary, layout, figure_name("by_class", layout),
+      summary, layout, layout.figure_name("by_class"),
       static_cast<int>(wrap ? std::min(kClassColumns, classes.size()) : layout.columns().size()));
   if (wrap)
     add_classes_wrapped(classes, figure);
   else
     add_classes_by_row(classes, layout, figure);
-  const std::size_t detected = summary.groups().size() - 2;
-  const std::string cut =
-      classes.size() < detected
-          ? fmt::format(" {} of {} detected classes, those with most visible voxels.",
-                        classes.size(), detected)
-          : "";
   return figure.finish(study_caption(summary) + spread_caption(summary.study) +
-                       " F1 at tolerance 0, counts pooled over seeds." + cut + ' ' + kCeilings);
+                       " F1 at tolerance 0, counts pooled over seeds." +
+                       cut_caption(summary, classes.size()) + ' ' + kCeilingsCaption);
 }
 
 }  // namespace mapscore::eval

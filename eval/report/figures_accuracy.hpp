@@ -8,14 +8,27 @@
 #include "eval/report/summary.hpp"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace mapscore::eval {
 
 /// Precision, recall and F1 at tolerance 0, and by distance, pooled over the detected classes.
 [[nodiscard]] FigureSheet accuracy_figure(const StudySummary& summary, const StudyLayout& layout);
 
-/// F1 of each detected class; nothing where there is only one. Of more than twelve those with most
-/// visible voxels are shown.
+/// Detected classes with something to see, in the table's order; of more than twelve those with
+/// most visible voxels.
+[[nodiscard]] std::vector<const SemanticClass*> classes_shown(const StudySummary& summary);
+
+/// Says that classes are left out, where some are.
+[[nodiscard]] std::string cut_caption(const StudySummary& summary, std::size_t shown);
+
+inline constexpr const char* kCeilingsCaption =
+    "Lattice ceiling: true labels on the depth pixels, true pose. Registration ceiling: the same "
+    "method with every fault at zero.";
+
+/// F1 of each detected class, a panel each; nothing where there is only one, or where the
+/// first axis has names: class_bars_figure shows them then.
 [[nodiscard]] std::optional<FigureSheet> class_figure(const StudySummary& summary,
                                                       const StudyLayout& layout);
 

@@ -30,6 +30,10 @@ constexpr std::array kKnownLeaves{
     KnownLeaf{"faults.pose.sigma_yaw_deg", "pose σ of yaw", "deg"},
     KnownLeaf{"faults.pose.sigma_scale", "true pose σ", "× nominal"},
     KnownLeaf{"faults.pose.reported_scale", "reported / true covariance", ""},
+    KnownLeaf{"faults.time_offset_ms", "time offset", "ms"},
+    KnownLeaf{"faults.depth.preset", "depth camera", ""},
+    KnownLeaf{"faults.labels.preset", "2D segmentation", ""},
+    KnownLeaf{"localization.source", "pose source", ""},
     KnownLeaf{"fusion.blend.N", "N", ""},
     KnownLeaf{"fusion.blend.K", "K", ""},
     KnownLeaf{"voxel_m", "voxel", "mm", kMillimetres},
@@ -52,6 +56,12 @@ std::optional<double> number_of(const std::string& text) {
   return whole ? std::optional(number) : std::nullopt;
 }
 
+/// "particle_filter" as people write it.
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 }  // namespace
 
 std::string FigureAxis::title() const {
@@ -64,12 +74,13 @@ std::string FigureAxis::text(std::size_t value) const {
 
 FigureAxis figure_axis(const SweepAxis& axis) {
   const KnownLeaf leaf = leaf_of(axis.path);
-  FigureAxis figure{std::string(leaf.name), std::string(leaf.unit), true, {}, {}};
+  FigureAxis figure{std::string(leaf.name), std::string(leaf.unit), true, {}, {}, ""};
+  figure.key = axis.path.substr(axis.path.rfind('.') + 1);
   for (const std::string& value : axis.values) {
     const std::optional<double> number = number_of(value);
     figure.numeric = figure.numeric && number;
     figure.at.push_back(number.value_or(0.0) * leaf.scale);
-    figure.values.push_back(number ? fmt::format("{:.6g}", *number * leaf.scale) : value);
+    figure.values.push_back(number ? fmt::format("{:.6g}", *number * leaf.scale) : spaced(value));
   }
   if (!figure.numeric)
     for (std::size_t i = 0; i < figure.at.size(); ++i) figure.at[i] = static_cast<double>(i);

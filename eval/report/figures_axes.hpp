@@ -16,7 +16,8 @@ struct FigureAxis {
   std::string unit;                 ///< "mm", "deg", or nothing
   bool numeric = true;              ///< all values are numbers
   std::vector<double> at;           ///< place of each value: itself in `unit`, or 0, 1, 2, ...
-  std::vector<std::string> values;  ///< text of each value, in `unit`
+  std::vector<std::string> values;  ///< text of each value, in `unit`; names without underscores
+  std::string key;                  ///< last part of the leaf's path, in the names of files
 
   /// "misregistration (mm)".
   [[nodiscard]] std::string title() const;

@@ -4,6 +4,7 @@
 #include "eval/report/figures_causes.hpp"
 
 #include "eval/report/figures_curves.hpp"
+#include "eval/report/figures_tics.hpp"
 #include "eval/report/pictures_colours.hpp"
 
 #include <fmt/format.h>
@@ -50,7 +51,7 @@ class CauseFigure {
  public:
   CauseFigure(const StudySummary& summary, const StudyLayout& layout)
       : summary_(summary), layout_(layout) {
-    sheet_.name = layout.bars() ? "causes_by_method" : "causes_by_dose";
+    sheet_.name = layout.figure_name("causes");
     sheet_.columns = layout.bars() ? 1 : static_cast<int>(layout.curves().size());
     sheet_.panel_width_in = layout.bars() ? 4.0 : panel_width_in(sheet_.columns);
     sheet_.panel_height_in = 1.2;
@@ -96,6 +97,15 @@ class CauseFigure {
                                    : 0.02);
   }
 
+  /// Doses are written from the data file; names so that they have room.
+  [[nodiscard]] std::string x_tics() {
+    if (!layout_.named()) return "set xtics autofreq norotate";
+    const auto places = static_cast<double>(layout_.x().values.size() + 1);
+    const NameTics tics = name_tics(layout_.x().values, sheet_.panel_width_in / places);
+    sheet_.x_tics_in = tics.height_in;
+    return tics.setting;
+  }
+
   void add_panel(const Side& side, std::size_t column, const std::vector<Curve>& curves,
                  const std::string& title, const std::string& y_label, bool last_row) {
     Panel panel;
@@ -107,13 +117,14 @@ class CauseFigure {
                       "set style fill solid 1 noborder",
                       "set boxwidth 0.75",
                       "set xrange [*:*]",
-                      "set xtics autofreq norotate"};
+                      x_tics()};
     if (const std::string& head = layout_.columns()[column]; !head.empty())
       panel.settings.push_back(
           fmt::format("set label 1 {} at graph 0.03,0.93 left font ',6.5'", quoted(head)));
     for (std::size_t c = 0; c < side.causes.size(); ++c)
-      panel.elements.push_back(fmt::format("data index {} using {}:xtic(1) lc rgb '{}' notitle",
-                                           blocks_, c + 2, hex_of(side.causes[c].colour)));
+      panel.elements.push_back(fmt::format("data index {} using {}{} lc rgb '{}' notitle", blocks_,
+                                           c + 2, layout_.named() ? "" : ":xtic(1)",
+                                           hex_of(side.causes[c].colour)));
     add_block(side, column, curves);
     sides_.push_back(side.whole == kSides.front().whole ? 0 : 1);
     sheet_.panels.push_back(std::move(panel));

@@ -3,6 +3,8 @@
 
 #include "eval/report/figures_curves.hpp"
 
+#include "eval/report/figures_tics.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +17,8 @@ namespace mapscore::eval {
 namespace {
 
 constexpr double kXPadding = 0.05;
+/// Width over a name that the curves share; names are 1 apart.
+constexpr double kNamePlace = 0.7;
 constexpr const char* kLatticeStyle = "lw 1.2 dt (6,4) lc rgb '#000000'";
 
 /// 1, 2 or 5 times a power of ten that makes at most five steps of the range.
@@ -26,44 +30,61 @@ double tic_step(double range) {
   return 10.0 * decade;
 }
 
-std::string number(const std::optional<double>& value) {
-  return value ? fmt::format("{:.9g}", *value) : "-";
-}
-
 std::string source_of(const Study& study) {
   if (study.scene) return std::filesystem::path(*study.scene).filename().string();
   return study.recording ? std::filesystem::path(*study.recording).filename().string() : study.name;
 }
 
-/// From low to high. Over bars drawn as vectors: gnuplot cuts a hole in the bar for the point of
-/// yerrorbars.
-std::string spread_of(const std::string& data, bool over_bars, const std::string& ink) {
-  return over_bars
-             ? data +
-                   " using 1:3:(0):($4-$3) with vectors heads size screen 0.004,90 lw 0.8 lc rgb "
-                   "'#222222' notitle"
-             : data + " using 1:2:3:4 with yerrorbars pt 1 ps 0 lw 0.8 " + ink + " notitle";
+/// The elements of `plot` that show one curve in one panel.
+struct CurveMarks {
+  std::string registration, lattice, spread, line;
+};
+
+CurveMarks as_line(const Curve& curve, const std::string& of) {
+  const std::string ink = fmt::format("lc rgb '{}'", curve.colour);
+  return {fmt::format("{} using 1:5 with lines lw 1.2 dt (1,3) {} notitle", of, ink),
+          fmt::format("{} using 1:6 with lines {} notitle", of, kLatticeStyle),
+          fmt::format("{} using 1:2:3:4 with yerrorbars pt 1 ps 0 lw 0.8 {} notitle", of, ink),
+          fmt::format("{} using 1:2 with linespoints pt {} ps 0.9 lw 1.4 dt {} {} notitle", of,
+                      curve.point, curve.dash, ink)};
+}
+
+/// The spread as vectors: gnuplot cuts a hole in the bar for the point of yerrorbars.
+CurveMarks as_bars(const Curve& curve, const std::string& of) {
+  const std::string ink = fmt::format("lc rgb '{}'", curve.colour);
+  return {fmt::format("{} using 1:5 with points pt 1 ps 2 lw 1.5 {} notitle", of, ink),
+          fmt::format("{} using 1:6 with points pt 2 ps 2 {} notitle", of, kLatticeStyle),
+          of + " using 1:3:(0):($4-$3) with vectors heads size screen 0.004,90 lw 0.8 lc rgb "
+               "'#222222' notitle",
+          fmt::format("{} using 1:2:(0.7) with boxes {} fs solid 0.75 noborder notitle", of, ink)};
+}
+
+/// Over a name, the curve's point beside those of the others and under its own ceiling.
+CurveMarks as_points(const Curve& curve, const std::string& of, double offset, double place) {
+  const std::string ink = fmt::format("lc rgb '{}'", curve.colour);
+  return {fmt::format("{} using ($1{:+.4f}):5:({:.4f}):(0) with vectors nohead lw 1.4 dt (1,2) {} "
+                      "notitle",
+                      of, offset - 0.5 * place, place, ink),
+          fmt::format("{} using ($1-{}):6:({}):(0) with vectors nohead {} notitle", of,
+                      0.5 * kNamePlace, kNamePlace, kLatticeStyle),
+          fmt::format("{} using ($1{:+.4f}):2:3:4 with yerrorbars pt 1 ps 0 lw 0.8 {} notitle", of,
+                      offset, ink),
+          fmt::format("{} using ($1{:+.4f}):2 with points pt {} ps 0.9 {} notitle", of, offset,
+                      curve.point, ink)};
+}
+
+/// `set` lines of an axis of numbers.
+std::vector<std::string> number_settings(const FigureAxis& x) {
+  const auto [low, high] = std::minmax_element(x.at.begin(), x.at.end());
+  const double padding = *high > *low ? kXPadding * (*high - *low) : 0.5;
+  return {fmt::format("set xrange [{:.9g}:{:.9g}]", *low - padding, *high + padding),
+          fmt::format("set xtics {:.9g}", tic_step(*high - *low))};
 }
 
 }  // namespace
 
-std::vector<std::string> x_settings(const FigureAxis& x, bool bars) {
-  std::vector<std::string> settings;
-  if (x.numeric) {
-    const auto [low, high] = std::minmax_element(x.at.begin(), x.at.end());
-    const double padding = *high > *low ? kXPadding * (*high - *low) : 0.5;
-    settings.push_back(fmt::format("set xrange [{:.9g}:{:.9g}]", *low - padding, *high + padding));
-    settings.push_back(fmt::format("set xtics {:.9g}", tic_step(*high - *low)));
-    return settings;
-  }
-  std::string tics;
-  for (std::size_t i = 0; i < x.at.size(); ++i)
-    tics += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(x.values[i]), x.at[i]);
-  const double padding = bars ? 0.7 : 0.4;
-  settings.push_back(
-      fmt::format("set xrange [{}:{}]", x.at.front() - padding, x.at.back() + padding));
-  settings.push_back(fmt::format("set xtics ({}) font ',6.5'", tics));
-  return settings;
+std::string figure_number(const std::optional<double>& value) {
+  return value ? fmt::format("{:.9g}", *value) : "-";
 }
 
 std::string study_caption(const StudySummary& summary) {
@@ -77,11 +98,11 @@ std::string study_caption(const StudySummary& summary) {
                      study.seeds == 1 ? "" : "s");
 }
 
-std::string spread_caption(const Study& study) {
+std::string spread_caption(const Study& study, const char* marks) {
   if (study.seeds < 2) return "";
   return study.seeds < kSeedsForInterval
-             ? fmt::format(" Bars: range of the {} seeds.", study.seeds)
-             : fmt::format(" Bars: 95 % interval of the mean of {} seeds.", study.seeds);
+             ? fmt::format(" {}: range of the {} seeds.", marks, study.seeds)
+             : fmt::format(" {}: 95 % interval of the mean of {} seeds.", marks, study.seeds);
 }
 
 CurveFigure::CurveFigure(const StudySummary& summary, const StudyLayout& layout, std::string name,
@@ -98,35 +119,43 @@ void CurveFigure::add(const CurvePanel& shown) {
   panel.x_label = shown.x_title && !layout_.bars() ? layout_.x().title() : "";
   panel.y_label = shown.y_label;
   panel.y_tic_labels = shown.y_tic_labels;
-  panel.settings = x_settings(layout_.x(), layout_.bars());
+  panel.settings = x_settings();
 
   std::set<std::string> drawn_ceilings;
   std::vector<std::string> ceilings, spreads, lines;
-  for (const Curve& curve : layout_.curves()) {
-    const int index = blocks_;
+  const std::size_t curves = layout_.curves().size();
+  const double place = kNamePlace / static_cast<double>(curves);
+  for (std::size_t c = 0; c < curves; ++c) {
+    const Curve& curve = layout_.curves()[c];
+    const std::string of = fmt::format("data index {}", blocks_);
     const Block block = add_block(shown, curve);
-    const std::string of = fmt::format("data index {}", index);
-    const std::string ink = fmt::format("lc rgb '{}'", curve.colour);
-    const std::string mark = layout_.bars() ? "points pt 1 ps 2" : "lines";
-    if (drawn_ceilings.insert("registration" + block.ceiling[0]).second)
-      ceilings.push_back(fmt::format("{} using 1:5 with {} {} {} notitle", of, mark,
-                                     layout_.bars() ? "lw 1.5" : "lw 1.2 dt (1,3)", ink));
+    const double offset = (static_cast<double>(c) + 0.5) * place - 0.5 * kNamePlace;
+    const CurveMarks marks = layout_.bars()    ? as_bars(curve, of)
+                             : layout_.named() ? as_points(curve, of, offset, place)
+                                               : as_line(curve, of);
+    if (layout_.named() || drawn_ceilings.insert("registration" + block.ceiling[0]).second)
+      ceilings.push_back(marks.registration);
     if (drawn_ceilings.insert("lattice" + block.ceiling[1]).second)
-      ceilings.push_back(fmt::format("{} using 1:6 with {} {} notitle", of,
-                                     layout_.bars() ? "points pt 2 ps 2" : "lines", kLatticeStyle));
-    if (summary_.study.seeds > 1) spreads.push_back(spread_of(of, layout_.bars(), ink));
-    lines.push_back(
-        layout_.bars()
-            ? fmt::format("{} using 1:2:(0.7) with boxes {} fs solid 0.75 noborder notitle", of,
-                          ink)
-            : fmt::format("{} using 1:2 with linespoints pt {} ps 0.9 lw 1.4 dt {} {} notitle", of,
-                          curve.point, curve.dash, ink));
+      ceilings.push_back(marks.lattice);
+    if (summary_.study.seeds > 1) spreads.push_back(marks.spread);
+    lines.push_back(marks.line);
   }
   auto& order = panel.elements;
   if (layout_.bars()) order = std::exchange(lines, {});
   for (const auto* part : {&ceilings, &spreads, &lines})
     order.insert(order.end(), part->begin(), part->end());
   sheet_.panels.push_back(std::move(panel));
+}
+
+std::vector<std::string> CurveFigure::x_settings() {
+  const FigureAxis& x = layout_.x();
+  if (x.numeric) return number_settings(x);
+  const double padding = layout_.bars() ? 0.7 : 0.5;
+  const double places = x.at.back() - x.at.front() + 2.0 * padding;
+  const NameTics tics = name_tics(x.values, sheet_.panel_width_in / places);
+  sheet_.x_tics_in = std::max(sheet_.x_tics_in, tics.height_in);
+  return {fmt::format("set xrange [{}:{}]", x.at.front() - padding, x.at.back() + padding),
+          tics.setting};
 }
 
 CurveFigure::Block CurveFigure::add_block(const CurvePanel& panel, const Curve& curve) {
@@ -138,7 +167,7 @@ CurveFigure::Block CurveFigure::add_block(const CurvePanel& panel, const Curve& 
   Block block;
   const auto note = [&](const std::optional<double>& value) {
     if (value) least_ = std::min(least_, *value);
-    return number(value);
+    return figure_number(value);
   };
   for (std::size_t x = 0; x < layout_.x().at.size(); ++x) {
     const auto trial = layout_.trial(curve, panel.column, x);
@@ -163,9 +192,10 @@ std::vector<std::string> CurveFigure::legend() const {
   std::vector<std::string> legend;
   if (!layout_.bars())
     for (const Curve& curve : layout_.curves())
-      legend.push_back(
-          fmt::format("NaN with linespoints pt {} ps 0.9 lw 1.4 dt {} lc rgb '{}' title {}",
-                      curve.point, curve.dash, curve.colour, quoted(curve.name)));
+      legend.push_back(fmt::format("NaN with {} pt {} ps 0.9 lw 1.4 dt {} lc rgb '{}' title {}",
+                                   layout_.named() ? "points" : "linespoints", curve.point,
+                                   layout_.named() ? 1 : curve.dash, curve.colour,
+                                   quoted(curve.name)));
   legend.push_back(
       layout_.bars()
           ? fmt::format("NaN with points pt 2 ps 2 {} title \"lattice ceiling\"", kLatticeStyle)

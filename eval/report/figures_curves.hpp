@@ -7,6 +7,7 @@
 #include "eval/report/figures_script.hpp"
 #include "eval/report/summary.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ struct CurvePanel {
   bool x_title = true, y_tic_labels = true;
 };
 
-/// Collects panels of curves over the x axis, with spread and ceilings. A block of the data file is
+/// Collects panels of curves over the x axis, with spread and ceilings: lines over numbers, points
+/// side by side over names, bars over methods. A block of the data file is
 /// one curve of one panel: `x value low high registration_ceiling lattice_ceiling`, `-` where
 /// undefined.
 class CurveFigure {
@@ -38,6 +40,7 @@ class CurveFigure {
     std::string ceiling[2];  ///< texts of the columns of ceilings, to draw equal ones once
   };
   [[nodiscard]] Block add_block(const CurvePanel& panel, const Curve& curve);
+  [[nodiscard]] std::vector<std::string> x_settings();
   [[nodiscard]] std::vector<std::string> legend() const;
 
   const StudySummary& summary_;
@@ -47,12 +50,12 @@ class CurveFigure {
   double least_ = 1.0;
 };
 
-/// `set` lines that put the values of the x axis on a panel.
-[[nodiscard]] std::vector<std::string> x_settings(const FigureAxis& x, bool bars);
+/// A figure in the data file: `-` where undefined.
+[[nodiscard]] std::string figure_number(const std::optional<double>& value);
 
 /// What every figure of a study says below: scene, voxels, detected set, seeds.
 [[nodiscard]] std::string study_caption(const StudySummary& summary);
 /// What the bars of spread are; nothing for one seed.
-[[nodiscard]] std::string spread_caption(const Study& study);
+[[nodiscard]] std::string spread_caption(const Study& study, const char* marks = "Bars");
 
 }  // namespace mapscore::eval

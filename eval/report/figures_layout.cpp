@@ -36,14 +36,14 @@ std::vector<std::string> tail_texts(const std::vector<FigureAxis>& axes) {
 
 Curve styled(Curve curve, std::size_t method, std::size_t methods, std::size_t order) {
   const std::size_t colour = methods > 1 ? method : curve.tail;
-  curve.colour = kColours[colour % kColours.size()];
+  curve.colour = palette_colour(colour);
   curve.point = kPoints[order % kPoints.size()];
   curve.dash = methods > 1 ? kDashes[curve.tail % kDashes.size()] : 1;
   return curve;
 }
 
 FigureAxis axis_of_methods(const Study& study) {
-  FigureAxis axis{"method", "", false, {}, {}};
+  FigureAxis axis{"method", "", false, {}, {}, "method"};
   for (const MethodSettings& method : study.methods) {
     axis.at.push_back(static_cast<double>(axis.at.size()));
     axis.values.push_back(method.name);
@@ -52,6 +52,10 @@ FigureAxis axis_of_methods(const Study& study) {
 }
 
 }  // namespace
+
+std::string palette_colour(std::size_t n) {
+  return std::string(kColours[n % kColours.size()]);
+}
 
 StudyLayout::StudyLayout(const StudySummary& summary) : bars_(summary.study.sweep.empty()) {
   std::vector<FigureAxis> axes;
@@ -73,6 +77,10 @@ StudyLayout::StudyLayout(const StudySummary& summary) : bars_(summary.study.swee
     const ResultLine& line = summary.trials[i];
     trials_[{line.method, static_cast<std::size_t>(line.cell.index)}] = i;
   }
+}
+
+std::string StudyLayout::figure_name(const std::string& stem) const {
+  return stem + "_by_" + (x_.numeric ? "dose" : x_.key);
 }
 
 std::optional<std::size_t> StudyLayout::trial(const Curve& curve, std::size_t column,

@@ -26,6 +26,9 @@ struct Curve {
   int dash = 1;   ///< gnuplot's dash type
 };
 
+/// The n-th colour of the figures: #rrggbb of Okabe and Ito's palette, over again after seven.
+[[nodiscard]] std::string palette_colour(std::size_t n);
+
 /// Which trial stands where in the figures of a study: x, column of panels, curve.
 class StudyLayout {
  public:
@@ -38,6 +41,10 @@ class StudyLayout {
   [[nodiscard]] const std::vector<Curve>& curves() const { return curves_; }
   /// Nothing is swept: a bar a method.
   [[nodiscard]] bool bars() const { return bars_; }
+  /// The first swept axis has names, not numbers: nothing lies between two of its values.
+  [[nodiscard]] bool named() const { return !bars_ && !x_.numeric; }
+  /// "STEM_by_dose", or by what runs along x: "STEM_by_method", "STEM_by_source".
+  [[nodiscard]] std::string figure_name(const std::string& stem) const;
 
   /// Position in StudySummary::trials (and in its ceilings), if that curve has a point there.
   [[nodiscard]] std::optional<std::size_t> trial(const Curve& curve, std::size_t column,

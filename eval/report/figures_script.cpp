@@ -27,9 +27,10 @@ constexpr double kPanels_in = 6.6;
 constexpr double kFont_pt = 8.0, kCaption_pt = 6.5;
 /// Mean width of a letter of DejaVu Sans over its size.
 constexpr double kLetterWidth = 0.53;
-constexpr double kLeft_in = 0.62, kRight_in = 0.12, kTop_in = 0.3, kXLabel_in = 0.45;
+constexpr double kLeft_in = 0.62, kRight_in = 0.12, kTop_in = 0.3, kXLabel_in = 0.29,
+                 kXLabelMiddle_in = 0.12;
 constexpr double kGap_in = 0.14, kGapWithLabels_in = 0.42, kTitleGap_in = 0.24;
-constexpr double kLegendRow_in = 0.17, kCaptionRow_in = 0.125, kLegendEntry_in = 0.55;
+constexpr double kLegendRow_in = 0.17, kCaptionRow_in = 0.125, kLegendEntry_in = 0.8;
 
 std::vector<std::string> wrapped(const std::string& text, double width_in, double font_pt) {
   const auto letters =
@@ -64,8 +65,7 @@ class Geometry {
         caption_(wrapped(sheet.caption, width_in_ - 0.2, kCaption_pt)) {
     std::size_t longest = 0;
     for (const std::string& entry : sheet.legend) longest = std::max(longest, title_length(entry));
-    const double entry_in =
-        kLegendEntry_in + static_cast<double>(longest) * kLetterWidth * kFont_pt / kPointsPerInch;
+    const double entry_in = kLegendEntry_in + text_width_in(longest, kFont_pt);
     legend_columns_ = std::clamp(static_cast<int>(width_in_ / entry_in), 1,
                                  std::max(1, static_cast<int>(sheet.legend.size())));
     const int entries = static_cast<int>(sheet.legend.size());
@@ -75,8 +75,8 @@ class Geometry {
 
   [[nodiscard]] double width_in() const { return width_in_; }
   [[nodiscard]] double height_in() const {
-    return kTop_in + rows_ * (sheet_.panel_height_in + row_gap_in()) - row_gap_in() + kXLabel_in +
-           below_in();
+    return kTop_in + rows_ * (sheet_.panel_height_in + row_gap_in()) - row_gap_in() + x_label_in() +
+           x_tics_in() + below_in();
   }
   [[nodiscard]] const std::vector<std::string>& caption() const { return caption_; }
   [[nodiscard]] int legend_rows() const { return legend_rows_; }
@@ -84,8 +84,12 @@ class Geometry {
   [[nodiscard]] std::string margins(int panel) const {
     const int row = panel / sheet_.columns, column = panel % sheet_.columns;
     const double left = kLeft_in + column * (sheet_.panel_width_in + x_gap_in_);
-    const double top = height_in() - kTop_in - row * (sheet_.panel_height_in + row_gap_in());
-    return margins(left, left + sheet_.panel_width_in, top - sheet_.panel_height_in, top);
+    const double bottom = bottom_in(row);
+    return margins(left, left + sheet_.panel_width_in, bottom, bottom + sheet_.panel_height_in);
+  }
+  /// Height of the middle of a panel's x label as a share of the sheet.
+  [[nodiscard]] double x_label(int panel) const {
+    return (bottom_in(panel / sheet_.columns) - x_tics_in() - kXLabelMiddle_in) / height_in();
   }
   [[nodiscard]] std::string legend_margins() const {
     return margins(0.05, width_in_ - 0.05, caption_in(), below_in());
@@ -96,13 +100,23 @@ class Geometry {
   }
 
  private:
+  /// Of the plotted area of a row's panels.
+  [[nodiscard]] double bottom_in(int row) const {
+    return height_in() - kTop_in - row * (sheet_.panel_height_in + row_gap_in()) -
+           sheet_.panel_height_in;
+  }
   [[nodiscard]] double caption_in() const {
     return 0.08 + static_cast<double>(caption_.size()) * kCaptionRow_in;
   }
   [[nodiscard]] double below_in() const { return caption_in() + legend_rows_ * kLegendRow_in; }
+  [[nodiscard]] double x_label_in() const {
+    const bool labelled = std::any_of(sheet_.panels.begin(), sheet_.panels.end(),
+                                      [](const Panel& panel) { return !panel.x_label.empty(); });
+    return labelled ? kXLabel_in : kGap_in;
+  }
   [[nodiscard]] double row_gap_in() const { return kGap_in + title_gap_in_ + x_tics_in(); }
   /// Rows below the first that have their own x tics.
-  [[nodiscard]] double x_tics_in() const { return 0.16; }
+  [[nodiscard]] double x_tics_in() const { return sheet_.x_tics_in; }
   [[nodiscard]] bool has_titles_inside() const {
     return std::any_of(sheet_.panels.begin() +
                            std::min<std::ptrdiff_t>(
@@ -164,10 +178,13 @@ std::string header_of(const FigureSheet& sheet, const Geometry& geometry) {
       kPointsPerInch / kFontUnitsPerInch);
 }
 
-std::string text_of(const Panel& panel, const std::string& margins) {
+std::string text_of(const Panel& panel, const std::string& margins, double x_label_at) {
   std::string text = "\n  " + margins + '\n';
   text += fmt::format("  set title {} font ',7.5' offset 0,-0.6\n", quoted(panel.title));
-  text += fmt::format("  set xlabel {} offset 0,0.4\n", quoted(panel.x_label));
+  text += panel.x_label.empty()
+              ? "  unset label 2\n"
+              : fmt::format("  set label 2 {} at graph 0.5, screen {:.5f} center\n",
+                            quoted(panel.x_label), x_label_at);
   text += fmt::format("  set ylabel {} offset 1.2,0\n", quoted(panel.y_label));
   text += panel.y_tic_labels ? "  set format y '%g'\n" : "  set format y ''\n";
   for (const std::string& setting : panel.settings) text += "  " + setting + '\n';
@@ -198,7 +215,8 @@ std::string script_of(const FigureSheet& sheet) {
   const Geometry geometry(sheet);
   std::string script = header_of(sheet, geometry);
   for (std::size_t i = 0; i < sheet.panels.size(); ++i)
-    script += text_of(sheet.panels[i], geometry.margins(static_cast<int>(i)));
+    script += text_of(sheet.panels[i], geometry.margins(static_cast<int>(i)),
+                      geometry.x_label(static_cast<int>(i)));
   return script + legend_and_caption(sheet, geometry) +
          "  unset multiplot\n  set output\n  reset\n  set encoding utf8\n  set datafile missing "
          "'-'\n}\n";
@@ -215,6 +233,10 @@ void write_text(const fs::path& file, const std::string& text) {
 
 double panel_width_in(int columns) {
   return std::clamp(kPanels_in / columns, 1.5, 3.3);
+}
+
+double text_width_in(std::size_t letters, double font_pt) {
+  return static_cast<double>(letters) * kLetterWidth * font_pt / kPointsPerInch;
 }
 
 std::string quoted(const std::string& text) {

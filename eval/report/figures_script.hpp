@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct FigureSheet {
   std::string name;  ///< of its files, without a suffix
   int columns = 1;
   double panel_width_in = 2.2, panel_height_in = 1.7;  ///< of the plotted area
+  double x_tics_in = 0.16;                             ///< height of the labels of the x tics
   std::vector<Panel> panels;                           ///< row by row; the last row may be short
   std::vector<std::string> legend;  ///< elements of `plot` that only show in the legend
   std::string caption;              ///< wrapped to the width
@@ -30,6 +32,9 @@ struct FigureSheet {
 
 /// Width of a panel when so many stand side by side in a page's width.
 [[nodiscard]] double panel_width_in(int columns);
+
+/// Width of so many letters of the figures' font, by its mean letter.
+[[nodiscard]] double text_width_in(std::size_t letters, double font_pt);
 
 /// A text as gnuplot reads it; newlines stay.
 [[nodiscard]] std::string quoted(const std::string& text);

@@ -27,7 +27,7 @@ std::string number(const std::optional<double>& value) {
 std::vector<std::size_t> values_shown(const StudyLayout& layout) {
   if (layout.bars()) return {0};
   const std::size_t values = layout.x().at.size();
-  if (values > kPanelsShown) return {0, values / 2, values - 1};
+  if (values > kPanelsShown && !layout.named()) return {0, values / 2, values - 1};
   std::vector<std::size_t> all(values);
   for (std::size_t v = 0; v < values; ++v) all[v] = v;
   return all;

@@ -11,8 +11,8 @@ namespace mapscore::eval {
 
 /// Precision against recall while the threshold falls, a line a curve, with a mark at the threshold
 /// that the study works with; pooled over the detected classes and seeds. A panel a value of the
-/// first axis (of more than three the least, middle and greatest), at the middle of the second. A
-/// block of the data file is one line, `recall precision threshold`, or the mark on it.
+/// first axis (of more than three numbers the least, middle and greatest), at the middle of the
+/// second. A block of the data file is one line, `recall precision threshold`, or the mark on it.
 [[nodiscard]] FigureSheet precision_recall_figure(const StudySummary& summary,
                                                   const StudyLayout& layout);
 

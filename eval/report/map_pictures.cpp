@@ -16,38 +16,65 @@ namespace {
 /// Edge of a drawn cube over the voxel's, so that neighbours can be told apart.
 constexpr double kCubeShare = 0.92;
 
-sim::Cube cube_of(const JudgedMap& map, const JudgedVoxel& voxel, const Colour& colour) {
-  return {map.T_world_map * centre_of(voxel.key, map.edge_m), kCubeShare * map.edge_m,
+sim::Cube cube_of(const JudgedMap& map, const VoxelKey& key, const Colour& colour) {
+  return {map.T_world_map * centre_of(key, map.edge_m), kCubeShare * map.edge_m,
           map.T_world_map.linear(), colour};
+}
+
+/// The classes that have voxels, with how many `count` finds.
+template <class Count>
+std::vector<LegendEntry> legend_of(const ClassTable& table, Count count) {
+  std::vector<LegendEntry> legend;
+  for (const SemanticClass& c : table.classes)
+    if (const auto voxels = count(c.id); voxels > 0)
+      legend.push_back({c.colour, fmt::format("{} {}", c.name, voxels)});
+  return legend;
 }
 
 }  // namespace
 
-cv::Mat3b class_picture(const JudgedMap& map, const ClassTable& table, ScenePainter& painter,
-                        const sim::View& view) {
+std::vector<sim::Cube> truth_cubes(const JudgedMap& map, const ClassTable& table) {
+  std::vector<sim::Cube> cubes;
+  for (const TrueVoxel& voxel : map.truth)
+    cubes.push_back(cube_of(map, voxel.key, table.classes.at(voxel.class_id).colour));
+  return cubes;
+}
+
+std::vector<sim::Cube> class_cubes(const JudgedMap& map, const ClassTable& table) {
   std::vector<sim::Cube> cubes;
   for (const JudgedVoxel& voxel : map.voxels)
     if (voxel.verdict != Verdict::missed)
-      cubes.push_back(cube_of(map, voxel, table.classes.at(voxel.class_id).colour));
-  return painter.paint(view, cubes);
+      cubes.push_back(cube_of(map, voxel.key, table.classes.at(voxel.class_id).colour));
+  return cubes;
+}
+
+std::vector<sim::Cube> error_cubes(const JudgedMap& map) {
+  std::vector<sim::Cube> cubes;
+  for (const JudgedVoxel& voxel : map.voxels)
+    if (!voxel.covered) cubes.push_back(cube_of(map, voxel.key, colour_of(voxel.verdict)));
+  return cubes;
+}
+
+cv::Mat3b class_picture(const JudgedMap& map, const ClassTable& table, ScenePainter& painter,
+                        const sim::View& view) {
+  return painter.paint(view, class_cubes(map, table));
 }
 
 cv::Mat3b error_picture(const JudgedMap& map, ScenePainter& painter, const sim::View& view) {
-  std::vector<sim::Cube> cubes;
-  for (const JudgedVoxel& voxel : map.voxels)
-    if (!voxel.covered) cubes.push_back(cube_of(map, voxel, colour_of(voxel.verdict)));
-  return painter.paint(view, cubes);
+  return painter.paint(view, error_cubes(map));
+}
+
+std::vector<LegendEntry> truth_legend(const JudgedMap& map, const ClassTable& table) {
+  return legend_of(
+      table, [&](ClassId id) { return std::ranges::count(map.truth, id, &TrueVoxel::class_id); });
 }
 
 std::vector<LegendEntry> class_legend(const JudgedMap& map, const ClassTable& table) {
-  std::vector<LegendEntry> legend;
-  for (const SemanticClass& c : table.classes) {
-    const auto voxels = std::count_if(map.voxels.begin(), map.voxels.end(), [&](const auto& voxel) {
-      return voxel.class_id == c.id && voxel.verdict != Verdict::missed;
+  return legend_of(table, [&](ClassId id) {
+    return std::ranges::count_if(map.voxels, [&](const JudgedVoxel& voxel) {
+      return voxel.class_id == id && voxel.verdict != Verdict::missed;
     });
-    if (voxels > 0) legend.push_back({c.colour, fmt::format("{} {}", c.name, voxels)});
-  }
-  return legend;
+  });
 }
 
 std::vector<LegendEntry> error_legend(const JudgedMap& map) {

@@ -16,6 +16,13 @@
 
 namespace mapscore::eval {
 
+/// Voxels as cubes in the world, a little smaller than they are so that neighbours can be told
+/// apart: visible ones of the truth and predicted ones in the colours of their classes, and all
+/// verdicts.
+[[nodiscard]] std::vector<sim::Cube> truth_cubes(const JudgedMap& map, const ClassTable& table);
+[[nodiscard]] std::vector<sim::Cube> class_cubes(const JudgedMap& map, const ClassTable& table);
+[[nodiscard]] std::vector<sim::Cube> error_cubes(const JudgedMap& map);
+
 /// The predicted voxels in the colours of their classes, in the pale scene.
 [[nodiscard]] cv::Mat3b class_picture(const JudgedMap& map, const ClassTable& table,
                                       ScenePainter& painter, const sim::View& view);
@@ -24,6 +31,7 @@ namespace mapscore::eval {
                                       const sim::View& view);
 
 /// Classes and verdicts with how many voxels they have in all, in view or not.
+[[nodiscard]] std::vector<LegendEntry> truth_legend(const JudgedMap& map, const ClassTable& table);
 [[nodiscard]] std::vector<LegendEntry> class_legend(const JudgedMap& map, const ClassTable& table);
 [[nodiscard]] std::vector<LegendEntry> error_legend(const JudgedMap& map);
 

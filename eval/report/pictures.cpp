@@ -5,9 +5,11 @@
 
 #include "core/error.hpp"
 #include "eval/experiment/picture_view.hpp"
+#include "eval/report/map_beside_truth.hpp"
 #include "eval/report/map_pictures.hpp"
 #include "eval/report/pictures_view.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -26,9 +28,16 @@ std::optional<sim::View> chosen_view(const Study& study, const PictureChoice& ch
   return view_of_numbers(*study.picture_view);
 }
 
+/// The same view in a picture of that width.
+sim::View narrowed(sim::View view, int width_px) {
+  view.height_px = std::max(1, view.height_px * width_px / view.width_px);
+  view.width_px = width_px;
+  return view;
+}
+
 std::vector<fs::path> paint_all(const std::vector<JudgedMap>& maps, const ClassTable& table,
-                                const std::vector<sim::View>& views, ScenePainter& painter,
-                                const fs::path& folder) {
+                                const std::vector<sim::View>& views, const sim::View& plan,
+                                ScenePainter& painter, const fs::path& folder) {
   std::vector<fs::path> files;
   const auto save = [&](const std::string& name, const cv::Mat3b& picture) {
     files.push_back(write_picture(folder / (name + ".png"), picture));
@@ -37,6 +46,7 @@ std::vector<fs::path> paint_all(const std::vector<JudgedMap>& maps, const ClassT
   for (const JudgedMap& map : maps) {
     save("map_" + map.name, captioned(class_picture(map, table, painter, views.front()), map.title,
                                       class_legend(map, table)));
+    save("map_and_truth_" + map.name, map_beside_truth(map, table, painter, plan));
     CaptionedColumn column{map.title, {}, error_legend(map)};
     for (std::size_t i = 0; i < views.size(); ++i) {
       column.pictures.push_back(error_picture(map, painter, views[i]));
@@ -82,9 +92,10 @@ Pictures draw_pictures(const Study& study, const ClassTable& table, const Record
   }
   fs::create_directories(folder);
   const std::vector<JudgedMap> maps = map_trials(study, table, recording, choice);
-  const std::vector<sim::View> views =
-      error_views(maps, chosen_view(study, choice), depth_camera_poses(recording));
-  return {paint_all(maps, table, views, *painter, folder), ""};
+  const std::optional<sim::View> chosen = chosen_view(study, choice);
+  const std::vector<sim::View> views = error_views(maps, chosen, depth_camera_poses(recording));
+  const sim::View plan = chosen ? narrowed(*chosen, kColumn_px) : plan_view(maps, kColumn_px);
+  return {paint_all(maps, table, views, plan, *painter, folder), ""};
 }
 
 }  // namespace mapscore::eval

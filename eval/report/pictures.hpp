@@ -24,13 +24,14 @@ struct Pictures {
 /// recording holds them, where the scene is gone or has changed):
 ///
 /// - map_METHOD.png: its predicted voxels in the colours of their classes;
+/// - map_and_truth_METHOD.png: truth, map and errors side by side, seen from straight above;
 /// - errors_METHOD.png: true, near, leak, floating and missed voxels, over all that was seen;
 /// - errors_METHOD_close.png: the same where most errors are;
 ///
 /// and errors.png, the methods side by side. From the choice's view, or else the study's
-/// `picture_view`, when there is one; then there are no close pictures. `table` has the study's
-/// detected set. Skips when there is no simulator or no truth. Throws Error when there is no such
-/// trial or the folder cannot be written.
+/// `picture_view`, when there is one, all of them; then there are no close pictures. `table` has
+/// the study's detected set. Skips when there is no simulator or no truth. Throws Error when there
+/// is no such trial or the folder cannot be written.
 [[nodiscard]] Pictures draw_pictures(const Study& study, const ClassTable& table,
                                      const Recording& recording, const PictureChoice& choice,
                                      const std::filesystem::path& folder);

@@ -76,10 +76,12 @@ JudgedMap judged_map(std::string name, std::string title, const MapSnapshot& map
                      const SurfaceTruth& surface, const VisibleTruth& visible,
                      const ClassTable& table, const Pose& T_map_world) {
   JudgedMap judged{
-      std::move(name), std::move(title), surface.edge_m(), T_map_world.inverse(), {}, {}};
+      std::move(name), std::move(title), surface.edge_m(), T_map_world.inverse(), {}, {}, {}};
   judged.voxels = judge(map, threshold, surface, visible, table);
-  for (const VisibleVoxel& voxel : visible.voxels())
+  for (const VisibleVoxel& voxel : visible.voxels()) {
     judged.seen_map.extend(centre_of(voxel.key, judged.edge_m));
+    if (table.detected(voxel.owner)) judged.truth.push_back({voxel.key, voxel.owner});
+  }
   return judged;
 }
 

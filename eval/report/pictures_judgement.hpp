@@ -39,6 +39,12 @@ struct JudgedVoxel {
                                              const SurfaceTruth& surface,
                                              const VisibleTruth& visible, const ClassTable& table);
 
+/// A visible voxel of a detected class, with the class that it belongs to.
+struct TrueVoxel {
+  VoxelKey key;
+  ClassId class_id = kBackground;
+};
+
 /// A map with its verdicts, where it lies, and what could be seen of its scene.
 struct JudgedMap {
   std::string name;   ///< in the names of files
@@ -46,6 +52,7 @@ struct JudgedMap {
   double edge_m = 0.05;
   Pose T_world_map = Pose::Identity();
   std::vector<JudgedVoxel> voxels;
+  std::vector<TrueVoxel> truth;  ///< what the map should hold: everything visible and detected
   Eigen::AlignedBox3d seen_map;  ///< bounds of everything visible, frame map
 };
 

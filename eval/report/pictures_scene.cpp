@@ -70,6 +70,15 @@ cv::Mat3b ScenePainter::paint(sim::View view, std::span<const sim::Cube> cubes) 
   return state_->renderer.picture(view, cubes);
 }
 
+cv::Mat3b ScenePainter::paint_through(sim::View view, std::span<const sim::Cube> cubes) {
+  const cv::Mat3b picture = paint(view, cubes);
+  view.ghost_scene = true;
+  for (const SemanticClass& c : state_->world.classes().classes)
+    view.hidden_classes.push_back(c.name);
+  // Alone on white, a cube is darker in some channel than the pale thing that covers it.
+  return cv::min(picture, state_->renderer.picture(view, cubes));
+}
+
 cv::Mat3b ScenePainter::paint_classes(sim::View view) {
   view.class_colours = view.open_ceiling = true;
   return state_->renderer.picture(view);
@@ -103,6 +112,10 @@ ScenePainter::ScenePainter(std::vector<Shape>, const ClassTable&) {
 }
 
 cv::Mat3b ScenePainter::paint(sim::View, std::span<const sim::Cube>) {
+  return {};
+}
+
+cv::Mat3b ScenePainter::paint_through(sim::View, std::span<const sim::Cube>) {
   return {};
 }
 

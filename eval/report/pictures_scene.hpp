@@ -38,6 +38,9 @@ class ScenePainter {
   /// The scene, pale, with the cubes in it. Throws Error when the view cannot be drawn.
   [[nodiscard]] cv::Mat3b paint(sim::View view, std::span<const sim::Cube> cubes);
 
+  /// As paint, but cubes that things cover are seen through them.
+  [[nodiscard]] cv::Mat3b paint_through(sim::View view, std::span<const sim::Cube> cubes);
+
   /// The scene with everything in the colour of its class, what no class claims grey.
   [[nodiscard]] cv::Mat3b paint_classes(sim::View view);
 

@@ -17,9 +17,11 @@ constexpr double kElevation_rad = 66.0 * std::numbers::pi / 180.0;
 constexpr double kVerticalField_deg = 32.0;
 constexpr int kOverviewHeight_px = 880;
 constexpr double kMargin = 1.01;
-constexpr double kPlace_m = 0.75;  ///< edge of the squares in which errors are counted
-constexpr double kNearby_m = 1.9;  ///< distance that a close view prefers
-constexpr double kAbove_m = 1.3;   ///< how far a close view looks down
+constexpr double kPlanMargin = 1.04, kLeastPlan_m = 0.5;
+constexpr double kPlanDistance = 10.0;  ///< of the eye, over the longest side of what was seen
+constexpr double kPlace_m = 0.75;       ///< edge of the squares in which errors are counted
+constexpr double kNearby_m = 1.9;       ///< distance that a close view prefers
+constexpr double kAbove_m = 1.3;        ///< how far a close view looks down
 
 /// Bounds of what was seen; of the voxels, where nothing was.
 Eigen::AlignedBox3d seen_in_world(const std::vector<JudgedMap>& maps) {
@@ -101,6 +103,27 @@ sim::View overview(const Eigen::AlignedBox3d& seen) {
     distance_m *= 1.02;
   } while (!holds(view, seen) && distance_m < 1000.0);
   return view;
+}
+
+sim::View plan_view(const std::vector<JudgedMap>& maps, int width_px) {
+  const Eigen::AlignedBox3d seen = seen_in_world(maps);
+  const Eigen::Vector2d size =
+      (kPlanMargin * seen.sizes().head<2>()).cwiseMax(Eigen::Vector2d(kLeastPlan_m, kLeastPlan_m));
+  sim::View view;
+  view.width_px = width_px;
+  view.height_px = std::max(1, static_cast<int>(std::lround(width_px * size.y() / size.x())));
+  view.target_m = seen.center();
+  const double distance_m = std::max(size.maxCoeff(), seen.sizes().z()) * kPlanDistance;
+  view.eye_m = view.target_m + distance_m * Eigen::Vector3d::UnitZ();
+  view.vfov_deg = 2.0 * std::atan2(0.5 * size.y(), distance_m) * 180.0 / std::numbers::pi;
+  return view;
+}
+
+std::optional<double> pixels_per_metre(const sim::View& view) {
+  const Eigen::Vector3d ray = view.target_m - view.eye_m;
+  if (ray.head<2>().norm() > 1e-6 * ray.norm() || ray.z() > 0) return std::nullopt;
+  return 0.5 * view.height_px /
+         (std::tan(0.5 * view.vfov_deg * std::numbers::pi / 180.0) * ray.norm());
 }
 
 sim::View error_view(const std::vector<JudgedMap>& maps, const std::vector<Pose>& T_world_depth) {

@@ -19,6 +19,14 @@ namespace mapscore::eval {
 /// As overview, of everything in a box (world frame, metres).
 [[nodiscard]] sim::View overview(const Eigen::AlignedBox3d& bounds);
 
+/// Looks straight down on everything that was seen, from so far above that walls hardly lean:
+/// what stands a metre above something else is drawn about 5 cm from it at most. As high as it must
+/// be for its width.
+[[nodiscard]] sim::View plan_view(const std::vector<JudgedMap>& maps, int width_px);
+
+/// Pixels of a metre at the height of the target, where a view looks straight down; else nothing.
+[[nodiscard]] std::optional<double> pixels_per_metre(const sim::View& view);
+
 /// Looks at the place with most false and missed voxels of all maps: from above where one of the
 /// cameras was once, or, without any, from the side that the overview looks from.
 [[nodiscard]] sim::View error_view(const std::vector<JudgedMap>& maps,

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/experiment/picture_view.hpp"
+#include "eval/report/map_beside_truth.hpp"
 #include "eval/report/pictures_view.hpp"
 #include "tests/support/plate_recording.hpp"
 #include "tests/support/tiny_recording.hpp"
@@ -82,6 +83,52 @@ TEST(ErrorViews, LookFromWhereACameraWas) {
   EXPECT_EQ(view.eye_m.head<2>(), T_world_depth.translation().head<2>());
 }
 
+TEST(PlanView, LooksStraightDownOnAllThatWasSeenAtOneScale) {
+  JudgedMap map;
+  map.seen_map = {Eigen::Vector3d(-1, 2, 0), Eigen::Vector3d(9, 7, 2.5)};
+  const sim::View view = plan_view({map}, 640);
+  EXPECT_EQ(view.width_px, 640);
+  EXPECT_EQ(view.height_px, 320) << "10 m x 5 m";
+  EXPECT_EQ(view.eye_m.head<2>(), Eigen::Vector2d(4, 4.5));
+  const std::optional<double> metre_px = pixels_per_metre(view);
+  ASSERT_TRUE(metre_px);
+  EXPECT_NEAR(*metre_px, 640 / 10.4, 0.01) << "4 % around";
+  // What is 2.5 m above another thing, 5 m beside the middle, is drawn close to it.
+  const double near_m = view.eye_m.z() - 2.5, far_m = view.eye_m.z();
+  EXPECT_LT(5.0 * (far_m / near_m - 1.0), 0.053 * 2.5);
+}
+
+TEST(PlanView, OnlyAViewStraightDownHasAScale) {
+  EXPECT_FALSE(pixels_per_metre(view_of_numbers(std::vector<double>{0, 0, 5, 1, 1, 0})));
+  EXPECT_FALSE(pixels_per_metre(view_of_numbers(std::vector<double>{0, 0, 0, 0, 0, 5})));
+  // 960 pixels show 2 * 5 m * tan(45 degrees).
+  const auto down = pixels_per_metre(view_of_numbers(std::vector<double>{1, 1, 5, 1, 1, 0, 90}));
+  ASSERT_TRUE(down);
+  EXPECT_NEAR(*down, 96.0, 1e-9);
+}
+
+TEST(PlanView, IsFiniteWithoutAnything) {
+  const sim::View view = plan_view({JudgedMap{}}, 640);
+  EXPECT_TRUE(view.eye_m.allFinite());
+  EXPECT_GT(view.vfov_deg, 0.0);
+  EXPECT_EQ(view.height_px, 640);
+}
+
+TEST(Legends, CountTruthAndMapByClass) {
+  JudgedMap map = row_of_verdicts();
+  map.truth = {{{0, 0, 4}, 1}, {{1, 0, 4}, 1}, {{2, 0, 4}, 2}};
+  ClassTable table;
+  table.classes.push_back({1, "cup", {255, 0, 0}, true});
+  table.classes.push_back({2, "chair", {0, 0, 255}, true});
+  table.classes.push_back({3, "tv", {0, 255, 255}, true});
+  const auto truth = truth_legend(map, table), predicted = class_legend(map, table);
+  ASSERT_EQ(truth.size(), 2u);
+  EXPECT_EQ(truth[0].text, "cup 2");
+  EXPECT_EQ(truth[1].text, "chair 1");
+  ASSERT_EQ(predicted.size(), 1u);
+  EXPECT_EQ(predicted[0].text, "cup 4") << "all verdicts but missed";
+}
+
 TEST(ErrorLegend, CountsEveryVerdictAndWhatIsCovered) {
   JudgedMap map = row_of_verdicts();
   map.voxels.push_back({{0, 0, 4}, 2, Verdict::missed, true});
@@ -93,6 +140,14 @@ TEST(ErrorLegend, CountsEveryVerdictAndWhatIsCovered) {
 }
 
 #ifdef MAPSCORE_SIMULATOR
+
+/// Pixel of a point in the picture of a view straight down.
+cv::Point pixel_seen_from_above(const Eigen::Vector3d& p, const sim::View& view) {
+  const double focal_px = 0.5 * view.height_px / std::tan(view.vfov_deg * M_PI / 360.0);
+  const Eigen::Vector3d ray = p - view.eye_m;
+  return {static_cast<int>(std::floor(0.5 * view.width_px - focal_px * ray.x() / ray.z())),
+          static_cast<int>(std::floor(0.5 * view.height_px + focal_px * ray.y() / ray.z()))};
+}
 
 ClassTable two_classes() {
   ClassTable table;
@@ -148,6 +203,61 @@ TEST(ClassPicture, ShowsWhatIsPredictedAlone) {
         picture(pixel_of(map.T_world_map * centre_of(voxel.key, map.edge_m), view));
     EXPECT_EQ(got[0] < 20 && got[2] > 200, voxel.verdict != Verdict::missed);
   }
+}
+
+/// A cube below a board, and one on it.
+std::vector<sim::Cube> cubes_below_and_on_a_board() {
+  const Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();
+  return {{{-0.5, 0, 0.1}, 0.2, upright, {0, 0, 255}}, {{0.5, 0, 1.1}, 0.2, upright, {0, 0, 255}}};
+}
+
+TEST(PaintThrough, ShowsCubesBelowThings) {
+  Shape board = floor_of(0);
+  board.T_world_shape.translation().z() = 0.9;
+  board.size = {1, 1, 0};
+  ScenePainter painter({floor_of(0), board}, two_classes());
+  sim::View view = view_of_numbers(std::vector<double>{0, 0, 20, 0, 0, 0.9, 10});
+  const auto cubes = cubes_below_and_on_a_board();
+  const cv::Mat3b covered = painter.paint(view, cubes),
+                  through = painter.paint_through(view, cubes);
+  const cv::Point below = pixel_seen_from_above(cubes[0].centre_world, view);
+  const cv::Point on = pixel_seen_from_above(cubes[1].centre_world, view);
+  EXPECT_GT(covered(below)[2], 140) << "the board";
+  EXPECT_LT(through(below)[2], 20) << "blue";
+  EXPECT_GT(through(below)[0], 140);
+  EXPECT_EQ(through(on), covered(on));
+  EXPECT_EQ(through(5, 5), covered(5, 5)) << "the floor";
+}
+
+TEST(MapBesideTruth, ShowsTruthMapAndErrorsInPlaceWithAScale) {
+  JudgedMap map = row_of_verdicts();
+  map.T_world_map = Pose::Identity();
+  map.truth = {{map.voxels.back().key, 1}};  // the one that is missed
+  ScenePainter painter({floor_of(0)}, two_classes());
+  sim::View view = plan_view({map}, 640);
+  const cv::Mat3b sheet = map_beside_truth(map, two_classes(), painter, view);
+  ASSERT_EQ(sheet.cols, 3 * 640);
+  // The panels stand below the titles: find their first row, where the floor begins.
+  int top = 0;
+  while (sheet(top, 1) == cv::Vec3b::all(255)) ++top;
+  const auto at = [&](int panel, const VoxelKey& key) {
+    const cv::Point pixel = pixel_seen_from_above(centre_of(key, map.edge_m), view);
+    return sheet(top + pixel.y, 640 * panel + pixel.x);
+  };
+  const auto is_red = [](const cv::Vec3b& bgr) { return bgr[0] < 20 && bgr[2] > 200; };
+  for (const JudgedVoxel& voxel : map.voxels) {
+    const bool missed = voxel.verdict == Verdict::missed;
+    EXPECT_EQ(is_red(at(0, voxel.key)), missed) << name_of(voxel.verdict);
+    EXPECT_EQ(is_red(at(1, voxel.key)), !missed) << name_of(voxel.verdict);
+    const cv::Scalar want = bgr(colour_of(voxel.verdict));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(2, voxel.key)[c], want[c], 30);
+  }
+  // Below the first panel a bar of 0.2 m: the longest of 1, 2, 5 within 0.3 of 1.456 m.
+  const cv::Mat3b line = sheet.row(top + view.height_px + 22);
+  const auto dark = [](const cv::Vec3b& bgr) { return bgr[0] < 100; };
+  const auto begin = std::find_if(line.begin(), line.end(), dark);
+  const auto end = std::find_if_not(begin, line.end(), dark);
+  EXPECT_NEAR(static_cast<double>(end - begin), 0.2 * *pixels_per_metre(view), 6);
 }
 
 class DrawErrorPicture : public ::testing::Test {

@@ -120,6 +120,9 @@ TEST(JudgedMap, LiesWhereItsFrameSays) {
   EXPECT_TRUE(map.T_world_map.isApprox(T_map_world.inverse()));
   EXPECT_TRUE(map.seen_map.isApprox(
       Eigen::AlignedBox3d(centre_of({0, 0, 0}, kEdge_m), centre_of({4, 0, 0}, kEdge_m))));
+  ASSERT_EQ(map.truth.size(), 1u) << "the wall is seen, but not detected";
+  EXPECT_EQ(map.truth[0].key, (VoxelKey{0, 0, 0}));
+  EXPECT_EQ(map.truth[0].class_id, kCup);
 }
 
 TEST(Captioned, KeepsThePictureAndShowsEveryColour) {
