@@ -60,6 +60,7 @@ void add_record(CLI::App& program) {
       "Examples:\n"
       "  mapscore record configs/demo.yaml -o /data/apartment\n"
       "  mapscore record configs/demo.yaml -o /data/shaded --set cameras.shadows=true\n"
+      "  mapscore record configs/demo.yaml -o /data/driven --set trajectory.drive=wheels\n"
       "  mapscore record scenes/apartment.xml --trajectory poses.txt -o /data/handheld\n"
       "  mapscore record scenes/moving_person.xml --motion scenes/moving_person.motion.csv "
       "--trajectory poses.txt -o /data/person");

@@ -215,6 +215,19 @@ TEST_F(WheelDrive, AlongPosesThereIsNeitherOdometryNorScans) {
               ::testing::Not(::testing::HasSubstr("_count: 0")));
 }
 
+TEST_F(WheelDrive, TheLidarNamesARecordingOfWheelsAlone) {
+  const std::vector<std::string> coarse{"trajectory.max_frames=2", "lidar.beams=90"};
+  const std::vector<std::string> fine{"trajectory.max_frames=2"};
+  const auto name = [&](const char* drive, std::vector<std::string> flags) {
+    flags.insert(flags.begin(), std::string("trajectory.drive=") + drive);
+    return recording_of(study("", flags), folder() / "results", 1, {}).folder();
+  };
+  EXPECT_EQ(name("poses", coarse), name("poses", fine));
+  EXPECT_NE(name("wheels", coarse), name("wheels", fine));
+  EXPECT_EQ(name("wheels", fine), name("wheels", fine));
+  EXPECT_NE(name("wheels", fine), name("poses", fine));
+}
+
 TEST_F(WheelDrive, KeysOfStudiesAlongPosesStay) {
   const Study poses = study("", {"trajectory.drive=poses"});
   EXPECT_THAT(to_key_yaml(poses), ::testing::Not(::testing::HasSubstr("drive")));

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "sim/robot/drive_simulation.hpp"
-
 #include "core/error.hpp"
+#include "sim/robot/drive_simulation.hpp"
 #include "tests/sim/robot/drive_scenes.hpp"
 
 #include <gtest/gtest.h>
