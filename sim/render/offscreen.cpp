@@ -20,8 +20,12 @@ struct OsmesaDeleter {
   void operator()(osmesa_context* context) const { OSMesaDestroyContext(context); }
 };
 
+/// One thread at a time may call OpenGL. All contexts of OSMesa share a screen of llvmpipe, which
+/// looks through the scenes of every context, without a lock, whenever one reads or writes pixels
+/// (llvmpipe_flush_resource, Mesa 21 and later): a context that draws meanwhile frees what is
+/// looked at. Little is lost, since the threads that fill pixels are shared by all contexts, too.
 /// MuJoCo looks OpenGL's functions up at the first context, without a lock of its own.
-std::mutex& loader_mutex() {
+std::mutex& opengl_mutex() {
   static std::mutex mutex;
   return mutex;
 }
@@ -43,7 +47,7 @@ struct Offscreen::Context {
 Offscreen::Offscreen(const mjModel& model, bool coarse) : context_(std::make_unique<Context>()) {
   quiet_mujoco();
   constexpr int kDepthBits = 24, kStencilBits = 8, kAccumulationBits = 0;
-  const std::scoped_lock lock(loader_mutex());
+  const std::scoped_lock lock(opengl_mutex());
   context_->osmesa.reset(
       OSMesaCreateContextExt(OSMESA_RGBA, kDepthBits, kStencilBits, kAccumulationBits, nullptr));
   if (!context_->osmesa) throw Error("OSMesa: no context; install libosmesa6");
@@ -61,6 +65,7 @@ Offscreen::Offscreen(const mjModel& model, bool coarse) : context_(std::make_uni
 }
 
 Offscreen::~Offscreen() {
+  const std::scoped_lock lock(opengl_mutex());
   if (OSMesaMakeCurrent(context_->osmesa.get(), context_->window.data(), GL_UNSIGNED_BYTE, 16,
                         16)) {
     mjr_freeContext(&context_->mujoco);
@@ -69,6 +74,7 @@ Offscreen::~Offscreen() {
 }
 
 void Offscreen::draw(int width_px, int height_px, mjvScene& scene) {
+  const std::scoped_lock lock(opengl_mutex());
   context_->make_current();
   mjrContext& mujoco = context_->mujoco;
   if (width_px > mujoco.offWidth || height_px > mujoco.offHeight) {
@@ -87,6 +93,7 @@ void Offscreen::draw(int width_px, int height_px, mjvScene& scene) {
 void Offscreen::read(cv::Mat3b& bgr, cv::Mat1f* depth) const {
   bgr.create(height_px_, width_px_);
   if (depth) depth->create(height_px_, width_px_);
+  const std::scoped_lock lock(opengl_mutex());
   mjr_readPixels(bgr.data, depth ? depth->ptr<float>() : nullptr, {0, 0, width_px_, height_px_},
                  &context_->mujoco);
 }
