@@ -44,7 +44,7 @@ TEST(BelievedTrajectory, ReachesOneSpacingBeyondItsEnds) {
 
 TEST(OdometryRun, KeepsItsStartAndGrowsUncertain) {
   std::vector<OdometryPose> odometry;
-  for (int n = 0; n <= 400; ++n) odometry.push_back({0.02 * n, planar_pose(0.01 * n, 0, 0)});
+  for (int n = 0; n <= 160; ++n) odometry.push_back({0.05 * n, planar_pose(0.03 * n, 0, 0)});
   OdometryNoise noise;
   noise.alpha1 = noise.alpha4 = 0.0;
   noise.alpha2 = 0.01;
@@ -53,14 +53,15 @@ TEST(OdometryRun, KeepsItsStartAndGrowsUncertain) {
   const BelievedTrajectory believed = odometry_only(odometry, start, noise);
   const PoseEstimate end = planar_estimate(believed.at(8.0));
   EXPECT_NEAR(end.mean.x_m, 2.0, 1e-12);
-  EXPECT_NEAR(end.mean.y_m, 7.0, 1e-12);
-  // 80 independent steps of 5 cm: variances add; those of rot1 and rot2 to the heading.
-  EXPECT_NEAR(end.covariance(0, 0), 80 * 0.04 * 0.05 * 0.05, 1e-9);
-  EXPECT_NEAR(end.covariance(2, 2), 80 * 2 * 0.01 * 0.05 * 0.05, 1e-9);
+  EXPECT_NEAR(end.mean.y_m, 7.8, 1e-12);
+  // 80 independent steps of 6 cm, the first length of 5 cm or more: variances add; those of rot1
+  // and rot2 to the heading.
+  EXPECT_NEAR(end.covariance(0, 0), 80 * 0.04 * 0.06 * 0.06, 1e-9);
+  EXPECT_NEAR(end.covariance(2, 2), 80 * 2 * 0.01 * 0.06 * 0.06, 1e-9);
   // Each turn swings the rest of the way: sum over steps of (rest of the way)^2.
   double swing = 0.0;
   for (int k = 1; k <= 80; ++k)
-    swing += 0.01 * 0.05 * 0.05 * 0.05 * 0.05 * ((k - 1) * (k - 1) + k * k);
+    swing += 0.01 * 0.06 * 0.06 * 0.06 * 0.06 * ((k - 1) * (k - 1) + k * k);
   EXPECT_NEAR(end.covariance(1, 1), swing, 1e-9);
   EXPECT_EQ(planar_estimate(believed.at(0.0)).covariance, Eigen::Matrix3d::Zero());
 }
