@@ -21,7 +21,7 @@ struct LikelihoodFieldParams {
   /// Exponent of the scan's likelihood. Beams are not independent: their errors come from the map's
   /// cells and from what the map does not hold, which neighbouring beams, and scans in a row,
   /// share. `temper` times the beams is how many independent ones a scan is worth.
-  double temper = 0.02;
+  double temper = 0.01;
 };
 
 /// Beam model: the same, section 6.3, table 6.1.
@@ -30,7 +30,7 @@ struct BeamModelParams {
   double sigma_hit_m = 0.06;
   double lambda_short_per_m = 1.0;  ///< rate at which unexpected obstacles end a beam
   double z_hit = 0.8, z_short = 0.05, z_max = 0.05, z_rand = 0.1;  ///< shares; sum 1
-  double temper = 0.04;
+  double temper = 0.02;
 };
 
 /// ln p(scan | pose, map) of the likelihood field, up to a constant:

@@ -76,10 +76,13 @@ void filter_step_field(benchmark::State& state) {
 }
 BENCHMARK(filter_step_field)->Arg(500)->Arg(5000)->Unit(benchmark::kMillisecond);
 
+/// Particles, beams of the 360 that are used.
 void filter_step_beams(benchmark::State& state) {
-  run_filter(state, BeamModel(home(), {}, 12.0));
+  BeamModelParams params;
+  params.beams = static_cast<std::size_t>(state.range(1));
+  run_filter(state, BeamModel(home(), params, 12.0));
 }
-BENCHMARK(filter_step_beams)->Arg(500)->Unit(benchmark::kMillisecond);
+BENCHMARK(filter_step_beams)->Args({500, 60})->Args({500, 360})->Unit(benchmark::kMillisecond);
 
 void field_of_grid(benchmark::State& state) {
   const OccupancyGrid grid = home();

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/error.hpp"
+#include "eval/localization/filter_run.hpp"
+#include "eval/localization/localization_score.hpp"
+#include "eval/localization/odometry_run.hpp"
+#include "eval/truth/floor_grid.hpp"
+#include "sim/robot/drive_simulation.hpp"
+#include "sim/sensors/lidar.hpp"
+#include "tests/eval/localization/home_drives.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+namespace mapscore::eval {
+namespace {
+
+/// A drive of 30 m through a home: logs, truth at 2 Hz, grid of 5 cm.
+struct HomeDrive {
+  std::vector<OdometryPose> odometry;
+  ScanLog scans;
+  std::vector<TrajectoryPose> truth;
+  OccupancyGrid grid;
+  double way_m;
+
+  [[nodiscard]] PlanarPose start() const { return planar(truth.front().T_world_base); }
+};
+
+HomeDrive driven(const std::string& home, const sim::Drive& drive) {
+  const auto scenes = std::filesystem::path(MAPSCORE_SOURCE_DIR) / "scenes";
+  const sim::World world =
+      sim::World::load({scenes / (home + ".xml"), std::nullopt, scenes / "robot.xml"}, {});
+  const sim::DriveLog log = sim::simulate_drive(world, scenes / "robot.xml", drive);
+  const sim::Lidar lidar(world);
+  HomeDrive logs{{}, {}, {}, OccupancyGrid({}), log.distance_m};
+  for (std::size_t n = 0; n < log.samples.size(); ++n) {  // 50 Hz
+    const sim::DriveSample& sample = log.samples[n];
+    logs.odometry.push_back({sample.stamp_s, sample.T_odom_base});
+    if (n % 5 == 0) logs.scans.scans.push_back({sample.stamp_s, lidar.scan(sample.T_world_base)});
+    if (n % 25 == 0) logs.truth.push_back({sample.stamp_s, sample.T_world_base});
+  }
+  logs.scans.geometry = {lidar.settings().first_angle_rad, lidar.angle_step_rad(),
+                         lidar.settings().range_min_m, lidar.settings().range_max_m,
+                         lidar.T_base_lidar()};
+  FloorGridOptions options;
+  options.height_m = lidar.T_base_lidar().translation().z();
+  options.start_m = logs.truth.front().T_world_base.translation().head<2>();
+  logs.grid = floor_grid(world.shapes(), Pose::Identity(), options);
+  return logs;
+}
+
+/// The bars of the project, for one run.
+void expect_localised(const HomeDrive& drive, const FilterSettings& settings, std::uint64_t seed) {
+  const BelievedTrajectory believed =
+      run_filter(drive.odometry, drive.scans, drive.grid, settings, drive.start(), seed);
+  const LocalizationScore score = score_localization(believed, drive.truth);
+  ASSERT_TRUE(score.converged_s.has_value());
+  EXPECT_LT(*score.converged_s, 10.0);
+  EXPECT_LT(score.position_m.mean, 0.05);
+  EXPECT_LT(score.heading_deg.mean, 2.0);
+  EXPECT_GE(score.nees_share.value(), 0.85);
+  EXPECT_LT(score.position_m.max, 0.10);
+}
+
+void expect_better_than_odometry(const HomeDrive& drive) {
+  EXPECT_GT(drive.way_m, 30.0);
+  const BelievedTrajectory believed = odometry_only(drive.odometry, drive.start(), {});
+  EXPECT_GT(score_localization(believed, drive.truth).position_m.max, 0.10);
+}
+
+void expect_found_from_both_starts(const HomeDrive& drive) {
+  expect_better_than_odometry(drive);
+  FilterSettings settings;
+  for (const std::uint64_t seed : {1, 2}) expect_localised(drive, settings, seed);
+  settings.global_start = true;
+  expect_localised(drive, settings, 3);
+}
+
+TEST(HomeLocalization, FiltersThroughTheHome) {
+  expect_found_from_both_starts(driven("home", testing::home_drive()));
+}
+
+TEST(HomeLocalization, FiltersThroughTheCottage) {
+  expect_found_from_both_starts(driven("cottage", testing::cottage_drive()));
+}
+
+TEST(HomeLocalization, BeamModelTracksAndSeedsRepeat) {
+  sim::Drive begin = testing::cottage_drive();
+  begin.waypoints.resize(4);
+  const HomeDrive drive = driven("cottage", begin);
+  FilterSettings settings;
+  settings.model = BeamModelParams{};
+  const auto text = [&](std::uint64_t seed, int jobs) {
+    settings.filter.jobs = jobs;
+    const BelievedTrajectory believed =
+        run_filter(drive.odometry, drive.scans, drive.grid, settings, drive.start(), seed);
+    EXPECT_LT(score_localization(believed, drive.truth).position_m.mean, 0.05);
+    return believed.entries.back().belief.T_map_odom.matrix();
+  };
+  const Eigen::Matrix4d once = text(7, 1);
+  EXPECT_EQ(once, text(7, 2));
+  EXPECT_NE(once, text(8, 1));
+}
+
+TEST(HomeLocalization, RefusesAStartInAWallAndLogsThatDoNotMeet) {
+  const OccupancyGrid wall({0.05, {}, 20, 20}, kOccupiedCell);
+  ScanLog scans;
+  scans.geometry = {0.0, 0.1, 0.15, 12.0, Pose::Identity()};
+  scans.scans = {{5.0, {1.0f, 2.0f}}};
+  const std::vector<OdometryPose> odometry = {{0.0, Pose::Identity()}, {0.1, Pose::Identity()}};
+  EXPECT_THROW((void)run_filter(odometry, scans, wall, {}, {0.5, 0.5, 0}, 1), Error);
+  const OccupancyGrid room({0.05, {}, 20, 20}, kFreeCell);
+  EXPECT_THROW((void)run_filter(odometry, scans, room, {}, {0.5, 0.5, 0}, 1), Error);
+  EXPECT_THROW((void)run_filter({}, scans, room, {}, {0.5, 0.5, 0}, 1), Error);
+}
+
+}  // namespace
+}  // namespace mapscore::eval
