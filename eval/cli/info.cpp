@@ -34,6 +34,9 @@ void print_recording(const fs::path& folder) {
                            color.height_px, info.color_rate_hz,
                            info.has_truth ? "with truth" : "without truth");
   std::cout << fmt::format("content hash {}\n", recording.content_hash());
+  if (info.baked)
+    std::cout << fmt::format("baked into depth: {{{}}}, into labels: {{{}}}, seed {}\n",
+                             info.baked->depth, info.baked->labels, info.baked->seed);
   print_classes(info.table);
 }
 

@@ -6,6 +6,7 @@
 #include "eval/cli/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/plan.hpp"
+#include "eval/experiment/replay_check.hpp"
 #include "eval/experiment/runner.hpp"
 #include "eval/experiment/store.hpp"
 #include "eval/experiment/study_recording.hpp"
@@ -62,6 +63,8 @@ void sweep(const SweepFlags& flags) {
   const Recording recording =
       recording_of(study, results, flags.work.jobs,
                    [&](int done, int total) { recording_progress.show(done, total); });
+  if (const std::string note = note_on_baked(recording.info()); !note.empty())
+    std::cerr << "sweep: " << note << '\n';
   const ClassTable table = detected_table(study, recording.info().table);
   const Plan plan = plan_of(study, recording.content_hash());
 

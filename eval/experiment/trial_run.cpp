@@ -8,6 +8,7 @@
 #include "eval/experiment/doses.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/sensor_doses.hpp"
+#include "eval/experiment/trial_seed.hpp"
 #include "eval/score/instance_score.hpp"
 #include "sim/faults/depth_noise.hpp"
 #include "sim/faults/label_noise.hpp"
@@ -18,10 +19,8 @@
 namespace mapscore::eval {
 namespace {
 
-/// The seed of everything that one repetition draws; shared by all methods and doses.
 std::uint64_t trial_seed(const Task& task) {
-  return RandomStream(task.config.seed, "trial", {static_cast<std::uint64_t>(task.seed_index)})
-      .bits();
+  return eval::trial_seed(task.config.seed, task.seed_index);
 }
 
 double time_offset_s(const Study& config) {
