@@ -36,6 +36,9 @@ void print_recording(const fs::path& folder) {
                            info.has_truth ? "with truth" : "without truth");
   std::cout << fmt::format("content hash {}\n", recording.content_hash());
   std::cout << log_lines(recording);
+  if (info.baked)
+    std::cout << fmt::format("baked into depth: {{{}}}, into labels: {{{}}}, seed {}\n",
+                             info.baked->depth, info.baked->labels, info.baked->seed);
   print_classes(info.table);
 }
 

@@ -25,6 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kNoLight =
+    "no light shines: colour images will be black; pictures by class have a light of their own";
+
 std::vector<int> instances_by_class(const ClassTable& table) {
   std::vector<int> counts(table.classes.size(), 0);
   for (const Instance& instance : table.instances)
@@ -97,7 +100,7 @@ std::vector<std::string> notes_on(const sim::SceneInventory& inventory) {
   add(unseen.flexes, "flexes are neither seen nor truth; use a mesh for what should count");
   add(unseen.skins, "skins are neither seen nor truth; the geoms below them are");
   add(unseen.keyframes, "keyframes are not used: bodies stand as the file places them (qpos0)");
-  if (unseen.no_light) notes.emplace_back("no light shines: colour images will be black");
+  if (unseen.no_light) notes.emplace_back(kNoLight);
   const double size = inventory.bounds.isEmpty() ? 1.0 : inventory.bounds.sizes().norm();
   if (size < 0.3)
     notes.push_back(fmt::format(
@@ -150,8 +153,10 @@ void draw_classes(const fs::path& file, const SceneSurfaces& scene, const SceneI
 }
 
 void suggest(const fs::path& scene, const SceneInfoFlags& flags) {
-  const std::string text = sim::class_file_text(
-      sim::suggest_classes(sim::take_inventory(scene).bodies), scene.filename().string());
+  const sim::SceneInventory inventory = sim::take_inventory(scene);
+  if (inventory.unseen.no_light) std::cerr << "info: note: " << kNoLight << '\n';
+  const std::string text =
+      sim::class_file_text(sim::suggest_classes(inventory.bodies), scene.filename().string());
   if (flags.output.empty()) {
     std::cout << text;
     return;

@@ -5,6 +5,7 @@
 #include "eval/cli/options.hpp"
 #include "eval/cli/recording_progress.hpp"
 #include "eval/cli/verbs.hpp"
+#include "eval/experiment/baked_frames.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/recording/recording.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 struct RecordFlags {
   std::string source, folder, trajectory, motion;
   std::vector<std::string> overrides;
+  bool bake = false;
   WorkFlags work;
 };
 
@@ -34,8 +36,12 @@ void record(const RecordFlags& flags) {
   Study study = is_scene(flags.source) ? study_of_scene(flags.source, flags.overrides)
                                        : load_study(flags.source, flags.overrides);
   if (!flags.motion.empty()) study.motion = std::filesystem::absolute(flags.motion).string();
+  if (flags.bake && has_verdict_faults(study))
+    std::cerr << "record: note: wrong classes and scores are not baked: images of instance ids "
+                 "cannot say them\n";
   ShownRecording shown(flags.work.quiet);
-  record_study(study, flags.folder, flags.work.jobs, shown.progress(), flags.trajectory);
+  record_study(study, flags.folder, flags.work.jobs, shown.progress(), flags.trajectory,
+               flags.bake);
 }
 
 }  // namespace
@@ -53,6 +59,9 @@ void add_record(CLI::App& program) {
       "world; replaces the study's drive");
   verb->add_option("--motion", flags->motion,
                    "Motion file (CSV: stamp_s and joints of the scene); replaces the study's");
+  verb->add_flag("--bake", flags->bake,
+                 "Write the study's faults of depth and labels (seed index 0) into depth/ and "
+                 "label/, for other systems; truth stays exact");
   verb->add_option("--set", flags->overrides, "Override a key of the study; may be repeated")
       ->allow_extra_args(false);
   flags->work.add_to(*verb);
@@ -61,6 +70,7 @@ void add_record(CLI::App& program) {
       "  mapscore record configs/demo.yaml -o /data/apartment\n"
       "  mapscore record configs/demo.yaml -o /data/shaded --set cameras.shadows=true\n"
       "  mapscore record configs/demo.yaml -o /data/driven --set trajectory.drive=wheels\n"
+      "  mapscore record configs/demo.yaml -o /data/noisy --bake --set faults.depth.preset=astra\n"
       "  mapscore record scenes/apartment.xml --trajectory poses.txt -o /data/handheld\n"
       "  mapscore record scenes/moving_person.xml --motion scenes/moving_person.motion.csv "
       "--trajectory poses.txt -o /data/person");

@@ -9,6 +9,7 @@
 #include "eval/cli/view_flag.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/plan.hpp"
+#include "eval/experiment/replay_check.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
 #include "eval/experiment/trial_run.hpp"
@@ -108,6 +109,8 @@ void run(const RunFlags& flags) {
   const std::filesystem::path results = flags.study.results_folder(study);
   ShownRecording shown(flags.work.quiet);
   const Recording recording = recording_of(study, results, flags.work.jobs, shown.progress());
+  if (const std::string note = note_on_baked(recording.info()); !note.empty())
+    std::cerr << "run: " << note << '\n';
   const ClassTable table = detected_table(study, recording.info().table);
   const TrialSpec spec = spec_of(study, flags);
   const Task task = task_of(study, spec, Labels::detected, recording.content_hash());

@@ -7,6 +7,7 @@
 #include "eval/cli/recording_progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/plan.hpp"
+#include "eval/experiment/replay_check.hpp"
 #include "eval/experiment/runner.hpp"
 #include "eval/experiment/store.hpp"
 #include "eval/experiment/study_recording.hpp"
@@ -61,6 +62,8 @@ void sweep(const SweepFlags& flags) {
 
   ShownRecording shown(flags.work.quiet);
   const Recording recording = recording_of(study, results, flags.work.jobs, shown.progress());
+  if (const std::string note = note_on_baked(recording.info()); !note.empty())
+    std::cerr << "sweep: " << note << '\n';
   const ClassTable table = detected_table(study, recording.info().table);
   const Plan plan = plan_of(study, recording.content_hash());
 

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/experiment/localization_doses.hpp"
 #include "eval/experiment/sensor_doses.hpp"
+#include "eval/experiment/trial_seed.hpp"
 #include "eval/recording/file_bytes.hpp"
 #include "eval/recording/grid_file.hpp"
 
@@ -128,8 +129,7 @@ class TaskList {
 }  // namespace
 
 std::uint64_t trial_seed(const Task& task) {
-  return RandomStream(task.config.seed, "trial", {static_cast<std::uint64_t>(task.seed_index)})
-      .bits();
+  return trial_seed(task.config.seed, task.seed_index);
 }
 
 Task task_of(const Study& study, const TrialSpec& spec, Labels labels,

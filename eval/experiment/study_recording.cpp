@@ -4,8 +4,10 @@
 #include "eval/experiment/study_recording.hpp"
 
 #include "core/error.hpp"
+#include "eval/experiment/baked_frames.hpp"
 #include "eval/experiment/folder_lock.hpp"
 #include "eval/experiment/own_robot.hpp"
+#include "eval/experiment/replay_check.hpp"
 #include "eval/recording/stamp_list.hpp"
 
 #ifdef MAPSCORE_SIMULATOR
@@ -20,6 +22,16 @@
 #endif
 
 namespace mapscore::eval {
+namespace {
+
+/// The recording that a study names.
+Recording replayed(const Study& study) {
+  Recording recording = Recording::open(resolve_path(study, *study.recording));
+  check_replay(study, recording.info());
+  return recording;
+}
+
+}  // namespace
 
 #ifdef MAPSCORE_SIMULATOR
 
@@ -81,15 +93,19 @@ void write_logs(const Study& study, const sim::World& world, const StudyDrive& d
 }
 
 void record_world(const Study& study, const sim::World& world, const StudyDrive& drive,
-                  const std::filesystem::path& folder, int jobs, const FrameProgress& progress) {
+                  const std::filesystem::path& folder, int jobs, const FrameProgress& progress,
+                  const BakedFrames* baked = nullptr) {
   const sim::Streams& streams = drive.streams;
-  RecordingWriter writer(folder, info_of(study, world, streams));
+  RecordingInfo info = info_of(study, world, streams);
+  if (baked) info.baked = baked->faults();
+  RecordingWriter writer(folder, std::move(info));
   write_logs(study, world, drive, jobs, writer);
   writer.write_shapes(world.shapes(), poses_of_shapes(world, streams.depth));
-  sim::record(world, streams, {jobs, study.cameras.shadows},
-              {[&](const Frame& frame) { writer.write_color(frame); },
-               [&](const Frame& frame) { writer.write_depth(frame); }},
-              progress);
+  sim::record(
+      world, streams, {jobs, study.cameras.shadows},
+      {[&](const Frame& frame) { writer.write_color(baked ? baked->color(frame) : frame); },
+       [&](const Frame& frame) { writer.write_depth(baked ? baked->depth(frame) : frame); }},
+      progress);
   writer.finish();
 }
 
@@ -128,7 +144,8 @@ sim::World world_of(const Study& study) {
 }
 
 void record_study(const Study& study, const std::filesystem::path& folder, int jobs,
-                  const RecordingProgress& progress, const std::filesystem::path& trajectory) {
+                  const RecordingProgress& progress, const std::filesystem::path& trajectory,
+                  bool bake) {
   if (!study.scene) throw Error("scene: nothing to record; name an MJCF file");
   const sim::World world = world_of(study);
   StudyDrive drive;
@@ -136,13 +153,16 @@ void record_study(const Study& study, const std::filesystem::path& folder, int j
     drive = drive_of(study, world, progress.waypoints);
   else
     drive.streams.color = drive.streams.depth = poses_from(trajectory, world.calibration());
-  record_world(study, world, drive, folder, jobs, progress.images);
+  std::optional<BakedFrames> baked;
+  if (bake) baked.emplace(study, world.classes(), world.calibration().depth);
+  record_world(study, world, drive, folder, jobs, progress.images, baked ? &*baked : nullptr);
 }
 
 Recording recording_of(const Study& study, const std::filesystem::path& results, int jobs,
                        const RecordingProgress& progress) {
-  if (study.recording) return Recording::open(resolve_path(study, *study.recording));
+  if (study.recording) return replayed(study);
   const sim::World world = world_of(study);
+  check_classes(study, world.classes());
   const std::filesystem::path folder = results / "recordings" / recording_name(study, world);
   const FolderLock lock(folder.parent_path());  // of several shards one records, the others wait
   if (!std::filesystem::exists(folder))
@@ -177,14 +197,14 @@ sim::World world_of(const Study&) {
 }
 
 void record_study(const Study&, const std::filesystem::path&, int, const RecordingProgress&,
-                  const std::filesystem::path&) {
+                  const std::filesystem::path&, bool) {
   refuse();
 }
 
 Recording recording_of(const Study& study, const std::filesystem::path&, int,
                        const RecordingProgress&) {
   if (!study.recording) refuse();
-  return Recording::open(resolve_path(study, *study.recording));
+  return replayed(study);
 }
 
 SceneSurfaces surfaces_of_scene(const std::filesystem::path&) {

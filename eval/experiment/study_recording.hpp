@@ -29,12 +29,13 @@ struct RecordingProgress {
 [[nodiscard]] sim::World world_of_scene(const std::filesystem::path& scene);
 
 /// Renders the drive of a study and writes it as a recording, with odometry and scans where it
-/// drives on wheels. A `trajectory` file (TUM lines: poses
-/// of the colour camera's optical frame in the world) takes the place of the drive, without
-/// odometry and scans. Throws Error when the program was built without the simulator, the scene is
-/// refused, or the folder exists or cannot be written.
+/// drives on wheels. A `trajectory` file (TUM lines: poses of the colour camera's optical frame in
+/// the world) takes the place of the drive, without odometry and scans. `bake`: with the study's
+/// faults of depth and labels in the images, see BakedFrames. Throws Error when the program was
+/// built without the simulator, the scene is refused, or the folder exists or cannot be written.
 void record_study(const Study& study, const std::filesystem::path& folder, int jobs,
-                  const RecordingProgress& progress, const std::filesystem::path& trajectory = {});
+                  const RecordingProgress& progress, const std::filesystem::path& trajectory = {},
+                  bool bake = false);
 
 /// A study of nothing but a scene, to record it along given poses. Where no robot.xml with a body
 /// `base_footprint` lies beside the scene and the overrides name no robot, it is the program's own.

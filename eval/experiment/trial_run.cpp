@@ -8,6 +8,7 @@
 #include "eval/experiment/doses.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/sensor_doses.hpp"
+#include "eval/experiment/trial_seed.hpp"
 #include "eval/score/instance_score.hpp"
 #include "sim/faults/depth_noise.hpp"
 #include "sim/faults/label_noise.hpp"

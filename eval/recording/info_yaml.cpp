@@ -121,6 +121,17 @@ Calibration calibration_of(const YamlValue& root) {
   return calibration;
 }
 
+BakedFaults baked_of(const YamlValue& value) {
+  value.only({"seed", "depth", "labels"});
+  BakedFaults baked;
+  baked.seed = value.at("seed").whole(0, std::numeric_limits<std::uint64_t>::max());
+  baked.depth = value.at("depth").text();
+  baked.labels = value.at("labels").text();
+  if (baked.depth.empty() && baked.labels.empty())
+    value.refuse("names no fault; say which, or remove the key");
+  return baked;
+}
+
 void check_version(const YamlValue& root) {
   const YamlValue version = root.at("format_version");
   if (version.text() != std::to_string(kRecordingFormat))
@@ -144,6 +155,9 @@ std::string info_text(const RecordingInfo& info) {
   if (!info.motion.empty())
     text += fmt::format("motion: {}\nmotion_hash: {}\n", yaml_quoted(info.motion),
                         yaml_quoted(info.motion_hash));
+  if (info.baked)
+    text += fmt::format("baked: {{seed: {}, depth: {}, labels: {}}}\n", info.baked->seed,
+                        yaml_quoted(info.baked->depth), yaml_quoted(info.baked->labels));
   text += fmt::format("frame_count: {}\nhas_truth: {}\n", info.frame_count, info.has_truth);
   if (info.odometry_count > 0) text += fmt::format("odometry_count: {}\n", info.odometry_count);
   if (info.scan_count > 0) text += fmt::format("scan_count: {}\n", info.scan_count);
@@ -165,8 +179,8 @@ RecordingInfo read_info(const std::filesystem::path& file) {
   const YamlValue root = YamlValue::load(file);
   check_version(root);
   root.only({"format_version", "scene", "scene_hash", "mujoco_version", "seed", "motion",
-             "motion_hash", "frame_count", "has_truth", "odometry_count", "scan_count", "color",
-             "depth", "T_color_depth", "T_base_depth", "classes", "instances"});
+             "motion_hash", "baked", "frame_count", "has_truth", "odometry_count", "scan_count",
+             "color", "depth", "T_color_depth", "T_base_depth", "classes", "instances"});
   RecordingInfo info;
   info.scene = root.at("scene").text();
   info.scene_hash = root.at("scene_hash").text();
@@ -177,6 +191,7 @@ RecordingInfo read_info(const std::filesystem::path& file) {
     info.motion_hash = root.at("motion_hash").text();
     if (info.motion.empty()) root.at("motion").refuse("is empty; name the motion's file");
   }
+  if (root.has("baked")) info.baked = baked_of(root.at("baked"));
   info.frame_count = static_cast<int>(root.at("frame_count").whole(1, kMaxFrames));
   info.has_truth = root.at("has_truth").boolean();
   info.odometry_count = count_of(root, "odometry_count");

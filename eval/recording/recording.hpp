@@ -24,6 +24,15 @@ namespace mapscore::eval {
 /// Version of the folder layout; a reader refuses any other.
 inline constexpr int kRecordingFormat = 1;
 
+/// Faults of depth and labels that the images of a recording hold, drawn as trials of seed index 0
+/// draw them: `key: value, ...` of the study's keys, empty where nothing was baked.
+struct BakedFaults {
+  std::uint64_t seed = 0;  ///< of the study
+  std::string depth, labels;
+
+  bool operator==(const BakedFaults&) const = default;
+};
+
 /// What recording.yaml holds: everything about a recording but its frames and surfaces.
 struct RecordingInfo {
   Calibration calibration;  ///< the true one, which rendered the images
@@ -35,6 +44,7 @@ struct RecordingInfo {
   std::string motion;          ///< file name of the scene's motion; empty where nothing moves
   std::string motion_hash;     ///< hash of its bytes
   std::uint64_t seed = 0;
+  std::optional<BakedFaults> baked;  ///< none: the images are exact
   int frame_count = 0;
   bool has_truth =
       true;  ///< truth/ and depth_label/ are there; without, maps can be made but not scored

@@ -31,7 +31,9 @@ bool dark(const mjModel& model) {
   const auto bright = [](const float* rgb) { return rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0; };
   if (headlight.active && (bright(headlight.ambient) || bright(headlight.diffuse))) return false;
   for (int light = 0; light < model.nlight; ++light)
-    if (model.light_active[light]) return false;
+    if (model.light_active[light] &&
+        (bright(model.light_diffuse + 3 * light) || bright(model.light_ambient + 3 * light)))
+      return false;
   return true;
 }
 

@@ -4,8 +4,8 @@
 
     python_renderer.py poses SCENE ROBOT           base poses "x y yaw_deg" a line in, TUM lines of the colour camera out
     python_renderer.py draw SCENE ROBOT RECORDING FOLDER WORKER WORKERS
-        waits for lines "REPETITION LEVEL SHADOWS" and draws and writes its share of the recording's frames for each;
-        level -1 is OpenCV's own
+        waits for lines "LEVEL SHADOWS" and draws and writes its share of the recording's frames for each, then says
+        `done` and the processor's seconds; level -1 is OpenCV's own
     python_renderer.py compare RECORDING FOLDER    shares of pixels that are the same, a line a kind of image
 
 As fast as the Renderer allows: one for all, its scene updated once a camera, arrays reused, each image drawn once. As
@@ -15,6 +15,7 @@ clip planes, size of shadow maps and flags; the head light where mapscore has it
 
 import os
 import sys
+import time
 
 os.environ["MUJOCO_GL"] = "osmesa"
 
@@ -172,12 +173,13 @@ def draw(scene, recording, folder, worker, workers):
     print("ready", flush=True)
     for order in sys.stdin:
         level, shadows = (int(word) for word in order.split())
+        started = time.process_time()
         options = [] if level < 0 else [cv2.IMWRITE_PNG_COMPRESSION, level]
         for frame in mine:
             scene.stand(poses[frame, :3], poses[frame, 3:])
             for channel, image in zip(CHANNELS, painter.draw(shadows)):
                 cv2.imwrite(os.path.join(folder, channel, f"{frame:06}.png"), image, options)
-        print("done", flush=True)
+        print("done", time.process_time() - started, flush=True)
     painter.renderer.close()
 
 

