@@ -8,6 +8,7 @@
 #include "eval/cli/verbs.hpp"
 #include "eval/cli/view_flag.hpp"
 #include "eval/experiment/study_store.hpp"
+#include "eval/report/believed_figures.hpp"
 #include "eval/report/contact_sheet.hpp"
 #include "eval/report/pictures.hpp"
 #include "eval/report/pictures_caption.hpp"
@@ -69,6 +70,7 @@ void draw_from_recording(const FigureFlags& flags, const PictureChoice& choice,
   if (!recording) return;
   print({write_picture(folder / "contact_sheet.png",
                        contact_sheet(record.study, record.table, *recording))});
+  print(draw_believed(record.study, *recording, choice, folder));
   const Pictures pictures = draw_pictures(record.study, record.table, *recording, choice, folder);
   print(pictures.files);
   if (!pictures.skipped.empty())
@@ -105,7 +107,8 @@ void add_figures(CLI::App& program) {
   verb->footer(
       "Writes trials.csv, table.txt, figures (PNG, PDF, and the gnuplot script and numbers they "
       "are made of),\n"
-      "a contact sheet of the recording, and pictures of maps and of their errors. Prints where "
+      "a contact sheet of the recording, the robot's way as its localisation believes it, and "
+      "pictures of maps and of their errors. Prints where "
       "each is.\n"
       "Examples:\n"
       "  mapscore figures results/demo\n"

@@ -177,9 +177,9 @@ cv::Mat3b draw_picture(const World& world, Offscreen& offscreen, const View& vie
   for (const Cube& cube : cubes) buffer.add(box_of(cube));
   mjvGLCamera eye = gl_camera(camera, pose_of(view));
   see_as_far_as(view, eye);
-  buffer.look_through(eye);
   buffer.show_colours(false);
   if (view.ghost_scene || view.class_colours) buffer.light_plainly();
+  buffer.look_through(eye);
   buffer.hide_sky();
   offscreen.draw(camera.width_px, camera.height_px, buffer.scene());
   cv::Mat3b large, picture;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <span>
 
 namespace mapscore::sim {
 namespace {
@@ -32,6 +33,15 @@ SceneBuffer::SceneBuffer(const mjModel& model, const DrawnScene& drawn, std::siz
 void SceneBuffer::light_as(const DrawnScene& drawn) {
   std::copy(drawn.lights.begin(), drawn.lights.end(), scene_.lights);
   scene_.nlight = static_cast<int>(drawn.lights.size());
+}
+
+void SceneBuffer::look_through(const mjvGLCamera& camera) {
+  scene_.camera[0] = scene_.camera[1] = camera;
+  for (mjvLight& light : std::span(scene_.lights, static_cast<std::size_t>(scene_.nlight))) {
+    if (!light.headlight) continue;
+    std::ranges::copy(camera.pos, light.pos);
+    std::ranges::copy(camera.forward, light.dir);
+  }
 }
 
 void SceneBuffer::light_plainly() {

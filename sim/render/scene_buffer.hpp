@@ -21,7 +21,8 @@ class SceneBuffer {
   /// Lit as another drawn scene is.
   void light_as(const DrawnScene& drawn);
   void add(const mjvGeom& geom) { scene_.geoms[scene_.ngeom++] = geom; }
-  void look_through(const mjvGLCamera& camera) { scene_.camera[0] = scene_.camera[1] = camera; }
+  /// Head lights shine from the camera along its view.
+  void look_through(const mjvGLCamera& camera);
 
   /// Lit colours, with or without shadows; no reflections.
   void show_colours(bool shadows);

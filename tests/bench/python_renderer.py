@@ -10,7 +10,7 @@
 
 As fast as the Renderer allows: one for all, its scene updated once a camera, arrays reused, each image drawn once. As
 alike as it can be: the robot is attached as mapscore attaches it and not drawn, nor is what is transparent; the same
-clip planes, size of shadow maps and flags; the head light where mapscore has it, at the free camera.
+clip planes, size of shadow maps and flags.
 """
 
 import os
@@ -87,21 +87,11 @@ class Painter:
         size = (info["height"], info["width"])
         self.rgb, self.metres = np.empty((*size, 3), np.uint8), np.empty(size, np.float32)
         self.ids = np.empty((*size, 2), np.int32)
-        free = mujoco.MjvCamera()
-        mujoco.mjv_defaultFreeCamera(scene.model, free)
-        self.renderer.update_scene(scene.data, free)
-        self.head_lights = [(number, light.pos.copy(), light.dir.copy())
-                            for number, light in enumerate(self.lights()) if light.headlight]
-
-    def lights(self):
-        return self.renderer.scene.lights[:self.renderer.scene.nlight]
 
     def draw(self, shadows):
         """The four images at the pose where the scene's robot stands."""
         renderer, flags = self.renderer, self.renderer.scene.flags
         renderer.update_scene(self.scene.data, "robot/color")
-        for number, position, direction in self.head_lights:
-            self.lights()[number].pos[:], self.lights()[number].dir[:] = position, direction
         flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = flags[mujoco.mjtRndFlag.mjRND_HAZE] = 0
         flags[mujoco.mjtRndFlag.mjRND_SHADOW] = shadows
         renderer.disable_segmentation_rendering()

@@ -55,7 +55,8 @@ class Baked : public testing::TinyExperiment {
     FrameCache frames(replayed, {.color = false, .label = true, .depth = true, .depth_label = true},
                       std::size_t{1} << 24);
     TruthCache truths(replayed, replayed.info().table, frames, 1);
-    TrialRun run(task, replayed, replayed.info().table, truths);
+    PoseSources poses(replayed);
+    TrialRun run(task, replayed, replayed.info().table, truths, poses);
     for (int i = 0; i < replayed.frame_count(); ++i) run.advance(*frames.get(i, run.depth_of(i)));
     std::vector<Voxel> voxels;
     for (const MapVoxel& voxel : run.map().voxels())
