@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kSourceKey = "localization.source";
 constexpr double kPointEvery_s = 0.1;    ///< of a drawn line
-constexpr double kEllipseEvery_s = 5.0;  ///< of the ellipses along it
+constexpr double kEllipseEvery_s = 30.0;  ///< of the ellipses along it
 
 /// Configurations, one for each source that does not put the robot where it is.
 std::vector<Study> sources_of(const Study& study, const PictureChoice& choice) {
