@@ -63,8 +63,7 @@ class Sweep {
         frames_(recording,
                 Channels{.color = false, .label = true, .depth = true, .depth_label = true},
                 options.memory_bytes),
-        truths_(recording, table, frames_,
-                static_cast<std::size_t>(std::max(1, options.jobs)) + 1),
+        truths_(recording, table, frames_, static_cast<std::size_t>(std::max(1, options.jobs)) + 1),
         poses_(recording) {}
 
   void run(const std::vector<const Task*>& tasks) {
@@ -97,7 +96,8 @@ class Sweep {
     for (int first = 0; first < recording_.frame_count(); first += block) {
       const int end = std::min(first + block, recording_.frame_count());
       for_each_in_parallel(batch.size(), options_.jobs, [&](std::size_t i) {
-        if (!runs[i]) runs[i] = std::make_unique<TrialRun>(*batch[i], recording_, table_, truths_, poses_);
+        if (!runs[i])
+          runs[i] = std::make_unique<TrialRun>(*batch[i], recording_, table_, truths_, poses_);
         advance(*runs[i], first, end);
         if (end < recording_.frame_count()) return;
         finish(*batch[i], *runs[i]);

@@ -50,14 +50,13 @@ std::string believed_text(const BelievedTrajectory& believed) {
 
 BelievedTrajectory read_believed(const std::filesystem::path& file) {
   BelievedTrajectory believed;
+  const LineFormat format{
+      {kPoseColumns, kBelievedColumns},
+      "'stamp_s tx ty tz qx qy qz qw', alone or with the 36 numbers of a covariance",
+      "give one pose or more"};
   std::size_t columns = 0;
-  for (const StampedLine& line : read_stamped_lines(file, "give one pose or more")) {
+  for (const StampedLine& line : read_stamped_lines(file, format)) {
     if (columns == 0) columns = line.words.size();
-    if (columns != kPoseColumns && columns != kBelievedColumns)
-      line.refuse(
-          fmt::format("{} columns; expected 'stamp_s tx ty tz qx qy qz qw', alone or with "
-                      "the 36 numbers of a covariance",
-                      columns));
     if (line.words.size() != columns)
       line.refuse(
           fmt::format("{} columns after lines of {}; mend the line", line.words.size(), columns));

@@ -17,20 +17,16 @@ constexpr const char* kNoFrames = "the recording has no frames, record it again"
 
 std::vector<StampedImage> read_stamp_list(const std::filesystem::path& file) {
   std::vector<StampedImage> images;
-  for (const StampedLine& line : read_stamped_lines(file, kNoFrames)) {
-    if (line.words.size() != 2) line.refuse("expected 'stamp_s path'; mend the line");
+  for (const StampedLine& line : read_stamped_lines(file, {{2}, "'stamp_s path'", kNoFrames}))
     images.push_back({line.stamp_s, line.words[1]});
-  }
   return images;
 }
 
 std::vector<TrajectoryPose> read_trajectory(const std::filesystem::path& file) {
   std::vector<TrajectoryPose> poses;
-  for (const StampedLine& line : read_stamped_lines(file, kNoFrames)) {
-    if (line.words.size() != kPoseColumns)
-      line.refuse("expected 'stamp_s tx ty tz qx qy qz qw'; mend the line");
+  const LineFormat format{{kPoseColumns}, "'stamp_s tx ty tz qx qy qz qw'", kNoFrames};
+  for (const StampedLine& line : read_stamped_lines(file, format))
     poses.push_back({line.stamp_s, line.pose()});
-  }
   return poses;
 }
 

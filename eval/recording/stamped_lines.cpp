@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -34,7 +35,7 @@ Pose StampedLine::pose() const {
 }
 
 std::vector<StampedLine> read_stamped_lines(const std::filesystem::path& file,
-                                            const std::string& mend_empty) {
+                                            const LineFormat& format) {
   std::istringstream text(read_file(file));
   std::vector<StampedLine> lines;
   std::string line;
@@ -43,6 +44,8 @@ std::vector<StampedLine> read_stamped_lines(const std::filesystem::path& file,
     std::istringstream words(line);
     for (std::string word; words >> word;) cut.words.push_back(word);
     if (cut.words.empty() || cut.words[0][0] == '#') continue;
+    if (std::ranges::find(format.words, cut.words.size()) == format.words.end())
+      cut.refuse(fmt::format("expected {}; mend the line", format.text));
     const auto stamp_s = parse_number(cut.words[0]);
     if (!stamp_s)
       cut.refuse(
@@ -53,7 +56,7 @@ std::vector<StampedLine> read_stamped_lines(const std::filesystem::path& file,
     cut.stamp_s = *stamp_s;
     lines.push_back(std::move(cut));
   }
-  if (lines.empty()) throw Error(fmt::format("{}: no lines; {}", file.string(), mend_empty));
+  if (lines.empty()) throw Error(fmt::format("{}: no lines; {}", file.string(), format.mend_empty));
   return lines;
 }
 

@@ -30,10 +30,17 @@ struct StampedLine {
   [[nodiscard]] Pose pose() const;
 };
 
+/// What a file of such lines is to hold.
+struct LineFormat {
+  std::vector<std::size_t> words;  ///< how many a line may have
+  std::string text;                ///< the same for people: "expected TEXT"
+  std::string mend_empty;          ///< what to do about a file without lines
+};
+
 /// All lines but empty ones and those that start with `#`. Throws Error with file and line when the
-/// file is missing, a stamp is none or does not come after the one before; when there is no line,
-/// with `mend_empty`.
+/// file is missing, a line has another number of words, a stamp is none or does not come after the
+/// one before, or there is no line.
 [[nodiscard]] std::vector<StampedLine> read_stamped_lines(const std::filesystem::path& file,
-                                                          const std::string& mend_empty);
+                                                          const LineFormat& format);
 
 }  // namespace mapscore::eval

@@ -46,7 +46,8 @@ class Replay {
         table_(recording_.info().table),
         frames_(recording_, Channels{.label = true, .depth = true, .depth_label = true},
                 std::size_t{1} << 30),
-        truths_(recording_, table_, frames_, 1) {}
+        truths_(recording_, table_, frames_, 1),
+        poses_(recording_) {}
   ~Replay() { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] Task task(const std::string& method) const {
@@ -56,7 +57,7 @@ class Replay {
     throw std::logic_error("no such method: " + method);
   }
   [[nodiscard]] std::unique_ptr<TrialRun> start(const Task& task) {
-    return std::make_unique<TrialRun>(task, recording_, table_, truths_);
+    return std::make_unique<TrialRun>(task, recording_, table_, truths_, poses_);
   }
   [[nodiscard]] int frame_count() const { return recording_.frame_count(); }
   [[nodiscard]] std::shared_ptr<const Frame> frame(int index) { return frames_.get(index); }
@@ -74,6 +75,7 @@ class Replay {
   ClassTable table_;
   FrameCache frames_;
   TruthCache truths_;
+  PoseSources poses_;
 };
 
 void replay(benchmark::State& state, const std::string& method) {

@@ -64,15 +64,20 @@ class PoseSourcesTest : public ::testing::Test {
     return Recording::open(folder_.path() / name);
   }
 
-  /// Crate, wall, and a wall behind the robot that no camera sees.
+  /// Crate and wall, and three walls behind and beside the robot that no camera sees.
   static std::vector<Shape> home() {
     std::vector<Shape> shapes = mapscore::testing::tiny_shapes();
-    Shape behind;
-    behind.kind = ShapeKind::box;
-    behind.name = "behind_geom";
-    behind.T_world_shape.translation() = Eigen::Vector3d(-1.5, 0.0, 0.5);
-    behind.size = {0.05, 2.5, 0.5};
-    shapes.push_back(behind);
+    const auto add_wall = [&](double x_m, double y_m, const Eigen::Vector3d& half_m) {
+      Shape wall;
+      wall.kind = ShapeKind::box;
+      wall.name = "unseen_geom";
+      wall.T_world_shape.translation() = Eigen::Vector3d(x_m, y_m, 0.5);
+      wall.size = half_m;
+      shapes.push_back(wall);
+    };
+    add_wall(-1.53, 0.0, {0.05, 2.5, 0.5});
+    add_wall(0.5, 2.51, {2.0, 0.05, 0.5});
+    add_wall(0.5, -2.49, {2.0, 0.05, 0.5});
     return shapes;
   }
 
@@ -151,15 +156,20 @@ TEST_F(PoseSourcesTest, OdometryDriftsFromTheTrueStart) {
 }
 
 TEST_F(PoseSourcesTest, ParticleFilterFindsWhereOdometryIsOff) {
-  const auto filter = beliefs(
-      recording(), source("particle_filter",
-                          ", grid_resolution_m: 0.02, filter: {start_sigma_xy_m: 0, "
-                          "start_sigma_yaw_deg: 0, temper: 0.5, sigma_hit_m: 0.02}"));
+  const auto filter =
+      beliefs(recording(), source("particle_filter",
+                                  ", grid_resolution_m: 0.02, filter: {start_sigma_xy_m: 0, "
+                                  "start_sigma_yaw_deg: 0, temper: 0.01}"));
   const auto odometry = beliefs(recording(), source("odometry"));
   const auto error_m = [&](const std::vector<PoseBelief>& believed) {
     return (mean_of(believed[3]).translation() - (T_map_world() * true_pose(3)).translation())
         .norm();
   };
+  for (int f = 0; f < 4; ++f)
+           mean_of(filter[f]).translation().x(), mean_of(filter[f]).translation().y(),
+           std::sqrt(filter[f].covariance(0, 0)), mean_of(odometry[f]).translation().x(),
+           mean_of(odometry[f]).translation().y(), (T_map_world() * true_pose(f)).translation().x(),
+           (T_map_world() * true_pose(f)).translation().y());
   EXPECT_GT(error_m(odometry), 0.03);
   EXPECT_LT(error_m(filter), 0.5 * error_m(odometry));
   EXPECT_GT(filter[3].covariance(0, 0), 0.0);

@@ -85,7 +85,7 @@ TEST_F(BelievedFile, RefusesWithLineAndMend) {
   EXPECT_THAT(refusal(first + "0 1 2 0 0 0 0 1\n"), HasSubstr(":2: stamp 0 does not come after 0"));
   EXPECT_THAT(refusal(first + "1 1 2 0 0 0 0 1.1\n"), HasSubstr(":2: quaternion"));
   EXPECT_THAT(refusal(first + "1 1 2 0 0 0 nan 1\n"), HasSubstr(":2: 'nan' is not a finite"));
-  EXPECT_THAT(refusal("0 1 2 0 0 0 0\n"), HasSubstr(":1: 7 columns; expected"));
+  EXPECT_THAT(refusal("0 1 2 0 0 0 0\n"), HasSubstr(":1: expected 'stamp_s"));
   EXPECT_THAT(refusal("# nothing\n"), HasSubstr("no lines; give one pose or more"));
   const std::string text = believed_text(three_entries());
   EXPECT_THAT(refusal(text + "9 1 2 0 0 0 0 1\n"), HasSubstr(":5: 8 columns after lines of 44"));
