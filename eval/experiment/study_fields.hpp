@@ -58,6 +58,13 @@ void fields(auto&& visit, Of<CameraSettings> auto& s) {
         s.range_min_m);
   visit(Field{"range_max_m", "greatest planar depth that the depth camera returns", above(0, 13)},
         s.range_max_m);
+  visit(Field{"height_m", "height of both cameras above the floor; default: the robot's",
+              above(0, 10)},
+        s.height_m);
+  visit(Field{"pan_deg", "turn of both cameras to the left; default: the robot's", {-180, 180}},
+        s.pan_deg);
+  visit(Field{"tilt_deg", "turn of both cameras downwards; default: the robot's", {-90, 90}},
+        s.tilt_deg);
   visit(Field{"shadows", "draw shadows in the colour images"}, s.shadows);
 }
 

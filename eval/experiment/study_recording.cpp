@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <numbers>
 #endif
 
 namespace mapscore::eval {
@@ -36,6 +37,14 @@ Recording replayed(const Study& study) {
 #ifdef MAPSCORE_SIMULATOR
 
 namespace {
+
+sim::CameraOverrides overrides_of(const CameraSettings& cameras) {
+  const auto radians = [](const std::optional<double>& degrees) {
+    return degrees ? std::optional(*degrees * std::numbers::pi / 180.0) : std::nullopt;
+  };
+  return {cameras.width_px, cameras.height_px,        cameras.range_min_m,      cameras.range_max_m,
+          cameras.height_m, radians(cameras.pan_deg), radians(cameras.tilt_deg)};
+}
 
 /// Base poses that put the colour camera at the poses of a file.
 std::vector<sim::StampedPose> poses_from(const std::filesystem::path& trajectory,
@@ -137,9 +146,7 @@ sim::World world_of(const Study& study) {
   files.scene = resolve_path(study, study.scene.value());
   if (study.classes) files.classes = resolve_path(study, *study.classes);
   files.robot = robot_path(study);
-  const CameraSettings& cameras = study.cameras;
-  const sim::World world = sim::World::load(
-      files, {cameras.width_px, cameras.height_px, cameras.range_min_m, cameras.range_max_m});
+  const sim::World world = sim::World::load(files, overrides_of(study.cameras));
   return study.motion ? world.moving(sim::read_motion(resolve_path(study, *study.motion))) : world;
 }
 

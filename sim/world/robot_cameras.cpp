@@ -64,6 +64,24 @@ Pose rounded(const Pose& pose) {
   return result;
 }
 
+/// The rig at the height and angles of the overrides: R = Rz(pan) Ry(tilt) Rx(roll).
+Pose aimed(const Pose& T_base_rig, const CameraOverrides& overrides) {
+  const Eigen::Matrix3d& R = T_base_rig.linear();
+  const auto turn = [](double pan_rad, double tilt_rad) {
+    return (Eigen::AngleAxisd(pan_rad, Eigen::Vector3d::UnitZ()) *
+            Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d::UnitY()))
+        .toRotationMatrix();
+  };
+  const double pan_rad = std::atan2(R(1, 0), R(0, 0));
+  const double tilt_rad = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
+  const Eigen::Matrix3d roll = turn(pan_rad, tilt_rad).transpose() * R;
+  Pose pose = T_base_rig;
+  pose.linear() =
+      turn(overrides.pan_rad.value_or(pan_rad), overrides.tilt_rad.value_or(tilt_rad)) * roll;
+  pose.translation().z() = overrides.height_m.value_or(pose.translation().z());
+  return pose;
+}
+
 }  // namespace
 
 Calibration read_calibration(const mjModel& model, const mjData& data, int base_body,
@@ -78,6 +96,12 @@ Calibration read_calibration(const mjModel& model, const mjData& data, int base_
   calibration.depth = intrinsics(model, depth, overrides);
   calibration.T_color_depth = rounded(optical_pose(data, color).inverse() * T_world_depth);
   calibration.T_base_depth = T_base_world * T_world_depth;
+  if (overrides.height_m || overrides.pan_rad || overrides.tilt_rad) {
+    const int rig = model.cam_bodyid[color];
+    const Pose T_base_rig = T_base_world * pose_of(data.xpos + 3 * rig, data.xmat + 9 * rig);
+    calibration.T_base_depth =
+        aimed(T_base_rig, overrides) * T_base_rig.inverse() * calibration.T_base_depth;
+  }
   calibration.range_min_m = overrides.range_min_m;
   calibration.range_max_m = overrides.range_max_m;
   return calibration;

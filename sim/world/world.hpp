@@ -33,6 +33,9 @@ struct WorldFiles {
 struct CameraOverrides {
   int width_px = 640, height_px = 480;  ///< both cameras; the fields of view stay
   double range_min_m = 0.6, range_max_m = 8.0;
+  /// Of the body that holds the colour camera, which both cameras move with: z in base_footprint,
+  /// heading, and turn downwards about its y axis after that. Default: as the MJCF has it.
+  std::optional<double> height_m{}, pan_rad{}, tilt_rad{};
 };
 
 /// A compiled scene with the robot attached, its class table and its exact drawn surfaces.

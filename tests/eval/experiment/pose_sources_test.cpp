@@ -165,11 +165,6 @@ TEST_F(PoseSourcesTest, ParticleFilterFindsWhereOdometryIsOff) {
     return (mean_of(believed[3]).translation() - (T_map_world() * true_pose(3)).translation())
         .norm();
   };
-  for (int f = 0; f < 4; ++f)
-           mean_of(filter[f]).translation().x(), mean_of(filter[f]).translation().y(),
-           std::sqrt(filter[f].covariance(0, 0)), mean_of(odometry[f]).translation().x(),
-           mean_of(odometry[f]).translation().y(), (T_map_world() * true_pose(f)).translation().x(),
-           (T_map_world() * true_pose(f)).translation().y());
   EXPECT_GT(error_m(odometry), 0.03);
   EXPECT_LT(error_m(filter), 0.5 * error_m(odometry));
   EXPECT_GT(filter[3].covariance(0, 0), 0.0);

@@ -51,6 +51,35 @@ const Shape& only_shape(const World& world) {
 
 const char* const kBox = "<body name='box_1'><geom type='box' size='.1 .2 .3'/></body>";
 
+TEST(WorldCalibration, RigStandsAndLooksAsTheOverridesSay) {
+  const auto load = [](const CameraOverrides& cameras) {
+    const SceneFolder folder;
+    const auto robot = std::filesystem::path(MAPSCORE_SOURCE_DIR) / "scenes" / "robot.xml";
+    return World::load({folder.write("s.xml", mjcf(kBox)), {}, robot}, cameras).calibration();
+  };
+  const Calibration plain = load({});
+  CameraOverrides overrides;
+  overrides.height_m = 0.6;
+  overrides.pan_rad = 0.5;
+  overrides.tilt_rad = -0.25;
+  const Calibration turned = load(overrides);
+  // The depth camera sits 25 mm to the left of the rig, which stands 5 cm before the base's middle.
+  EXPECT_LT((turned.T_base_depth.translation() -
+             Eigen::Vector3d(0.05 - 0.025 * std::sin(0.5), 0.025 * std::cos(0.5), 0.6))
+                .norm(),
+            1e-12);
+  const Eigen::Vector3d view(std::cos(0.25) * std::cos(0.5), std::cos(0.25) * std::sin(0.5),
+                             std::sin(0.25));
+  EXPECT_LT((turned.T_base_depth.linear().col(2) - view).norm(), 1e-12);
+  EXPECT_NEAR(turned.T_base_depth.linear().col(0).z(), 0.0, 1e-12) << "no roll";
+  EXPECT_EQ(turned.T_color_depth.matrix(), plain.T_color_depth.matrix());
+
+  CameraOverrides as_it_is;
+  as_it_is.height_m = 1.15;
+  as_it_is.tilt_rad = 12.0 * M_PI / 180.0;
+  EXPECT_TRUE(load(as_it_is).T_base_depth.isApprox(plain.T_base_depth, 1e-12));
+}
+
 TEST(WorldCalibration, AlignedCamerasAreExactlyAligned) {
   for (const auto& robot : {data_file("robot.xml"),
                             std::filesystem::path(MAPSCORE_SOURCE_DIR) / "scenes" / "robot.xml"}) {
