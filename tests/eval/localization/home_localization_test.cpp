@@ -122,7 +122,7 @@ TEST(HomeLocalization, FiltersThroughTheCottage) {
 
 TEST(HomeLocalization, BeamModelTracksAndSeedsRepeat) {
   sim::Drive begin = testing::cottage_drive();
-  begin.waypoints.resize(4);
+  begin.waypoints.resize(3);
   const HomeDrive drive = driven("cottage", begin, {0.0, 0.0}, 0.05);
   FilterSettings settings;
   settings.model = BeamModelParams{};
