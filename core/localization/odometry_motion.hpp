@@ -14,10 +14,10 @@ namespace mapscore {
 /// section 5.4. Each squares to a variance: the model's alphas are those of the book's text, which
 /// multiply squares (sigma^2 = alpha u^2).
 struct OdometryNoise {
-  double alpha1 = 0.03;   ///< of a turn, per turn squared: rad^2 / rad^2
-  double alpha2 = 0.001;  ///< of a turn, per way squared: rad^2 / m^2
-  double alpha3 = 0.01;   ///< of the way, per way squared: m^2 / m^2
-  double alpha4 = 0.001;  ///< of the way, per turn squared: m^2 / rad^2
+  double alpha1 = 0.003;   ///< of a turn, per turn squared: rad^2 / rad^2
+  double alpha2 = 0.0003;  ///< of a turn, per way squared: rad^2 / m^2
+  double alpha3 = 0.003;   ///< of the way, per way squared: m^2 / m^2
+  double alpha4 = 0.001;   ///< of the way, per turn squared: m^2 / rad^2
   /// Below this way the direction of travel says nothing: the motion counts as a turn on the spot.
   double least_way_m = 0.005;
 };

@@ -64,14 +64,24 @@ double exponent_of(const std::vector<double>& log_weights, const std::vector<dou
   return low;
 }
 
-/// Gaussian kernel of `share` of a bin on each axis of the robot.
+/// Gaussian kernel of `share` of a bin on each axis of the robot, no wider than what suits the
+/// particles' own spread: Silverman's 0.97 n^(-1/7) standard deviations, for three dimensions.
 void smooth(std::vector<PlanarPose>& poses, double share, const KldParams& kld,
-            RandomStream& stream) {
-  const double way = share * kld.bin_m, turn = share * kld.bin_rad;
+            const Eigen::Matrix3d& covariance, RandomStream& stream) {
+  const double bandwidth = 0.97 * std::pow(static_cast<double>(poses.size()), -1.0 / 7.0);
+  const Eigen::Array3d bins(kld.bin_m, kld.bin_m, kld.bin_rad);
+  const Eigen::Array3d width =
+      share * bins.min(bandwidth * covariance.diagonal().array().max(0.0).sqrt());
   for (PlanarPose& pose : poses) {
-    const double x = way * stream.normal(), y = way * stream.normal();
-    pose = pose * PlanarPose{x, y, turn * stream.normal()};
+    const double x = width[0] * stream.normal(), y = width[1] * stream.normal();
+    pose = pose * PlanarPose{x, y, width[2] * stream.normal()};
   }
+}
+
+/// What the map's cells add to the covariance of a position.
+Eigen::Matrix3d map_covariance(const ScanModel& model) {
+  const double sigma = std::visit([](const auto& scans) { return scans.map_sigma_m(); }, model);
+  return Eigen::Vector3d(sigma * sigma, sigma * sigma, 0.0).asDiagonal();
 }
 
 }  // namespace
@@ -147,8 +157,10 @@ bool ParticleFilter::step(const PlanarPose& T_odom_base, const LaserScan& scan) 
   const OdometryMotion motion = motion_parts(T_before_after, params_.noise.least_way_m);
   predict(motion, motion_sigmas(motion, params_.noise));
   weigh(scan);
-  estimate_ = updated_ = estimate_of(poses_, weights_);
+  estimate_ = estimate_of(poses_, weights_);
   resample();
+  estimate_.covariance += map_covariance(*model_);
+  updated_ = estimate_;
   T_odom_base_updated_ = T_odom_base;
   has_odometry_ = true;
   ++updates_;
@@ -195,7 +207,7 @@ void ParticleFilter::resample() {
   picked.reserve(wanted);
   for (const std::size_t pick : low_variance_picks(weights_, wanted, draws.uniform()))
     picked.push_back(poses_[pick]);
-  if (held_back_ > 0.0) smooth(picked, held_back_, params_.kld, draws);
+  if (held_back_ > 0.0) smooth(picked, held_back_, params_.kld, estimate_.covariance, draws);
   poses_ = std::move(picked);
   log_weights_.assign(wanted, 0.0);
   weights_.assign(wanted, 1.0 / static_cast<double>(wanted));

@@ -24,10 +24,10 @@ struct ParticleFilterParams {
   double resample_below = 0.5;
   /// A scan that would leave less than this share effective is tempered further, by the largest
   /// exponent e <= 1 that leaves it. Such particles lie too far apart for the scan: when they are
-  /// resampled, each is moved by a Gaussian kernel of (1 - e) bins on each axis (a regularised
-  /// filter: C. Musso, N. Oudjane, F. Le Gland, Improving Regularised Particle Filters, in
-  /// Sequential Monte Carlo Methods in Practice, 2001). 0 turns both off; a global start then
-  /// settles on whatever mode a particle happens to lie near.
+  /// resampled, each is moved by a Gaussian kernel of (1 - e) bins on each axis, or less where they
+  /// lie close together (a regularised filter: C. Musso, N. Oudjane, F. Le Gland, Improving
+  /// Regularised Particle Filters, in Sequential Monte Carlo Methods in Practice, 2001). 0 turns
+  /// both off; a global start then settles on whatever mode a particle happens to lie near.
   double least_effective = 0.2;
   /// A step updates the particles when the robot has moved this far, or turned this much, since the
   /// last update; a standing robot would take the same scan for ever more news.

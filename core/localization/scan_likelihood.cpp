@@ -40,6 +40,10 @@ int bordered(float at, float last) {
 
 }  // namespace
 
+double map_sigma(const GridFrame& frame) {
+  return frame.resolution_m / std::sqrt(48.0);
+}
+
 LikelihoodField::LikelihoodField(const OccupancyGrid& grid, const LikelihoodFieldParams& params,
                                  double range_max_m)
     : frame_(grid.frame()), params_(params) {

@@ -18,10 +18,10 @@ struct LikelihoodFieldParams {
   std::size_t beams = 360;           ///< of a scan, at most
   double sigma_hit_m = 0.05;         ///< of the distance from an end point to the nearest obstacle
   double z_hit = 0.9, z_rand = 0.1;  ///< shares; sum 1
-  /// Exponent of the scan's likelihood. Beams are not independent: their errors come from the map's
-  /// cells and from what the map does not hold, which neighbouring beams, and scans in a row,
-  /// share. `temper` times the beams is how many independent ones a scan is worth.
-  double temper = 0.01;
+  /// Exponent of the scan's likelihood. Beams are not independent: neighbours share what the map
+  /// does not hold and where in their cells its surfaces lie. `temper` times the beams is how many
+  /// independent ones a scan is worth. What no number of beams makes smaller is in map_sigma.
+  double temper = 0.8;
 };
 
 /// Beam model: the same, section 6.3, table 6.1.
@@ -30,8 +30,14 @@ struct BeamModelParams {
   double sigma_hit_m = 0.06;
   double lambda_short_per_m = 1.0;  ///< rate at which unexpected obstacles end a beam
   double z_hit = 0.8, z_short = 0.05, z_max = 0.05, z_rand = 0.1;  ///< shares; sum 1
-  double temper = 0.02;
+  double temper = 0.1;
 };
+
+/// Standard deviation, on each axis, of the offset that a grid's cells give a position, metres. A
+/// surface lies anywhere in its cell: variance r^2 / 12. A position rests on several of them; with
+/// four, r^2 / 48. It is the same for all scans that see these surfaces, so that no number of beams
+/// makes it smaller: the filter adds it to its covariance.
+[[nodiscard]] double map_sigma(const GridFrame& frame);
 
 /// ln p(scan | pose, map) of the likelihood field, up to a constant:
 ///
@@ -46,6 +52,8 @@ class LikelihoodField {
   LikelihoodField(const OccupancyGrid& grid, const LikelihoodFieldParams& params,
                   double range_max_m);
 
+  /// See map_sigma.
+  [[nodiscard]] double map_sigma_m() const { return map_sigma(frame_); }
   /// One number for each pose T_map_base. Throws Error as beams_of.
   void log_likelihoods(const LaserScan& scan, std::span<const PlanarPose> poses,
                        std::span<double> results) const;
@@ -71,6 +79,8 @@ class BeamModel {
   /// Throws Error naming the parameter that is out of range. `range_max_m` is the lidar's.
   BeamModel(const OccupancyGrid& grid, const BeamModelParams& params, double range_max_m);
 
+  /// See map_sigma.
+  [[nodiscard]] double map_sigma_m() const { return map_sigma(grid_.frame()); }
   /// One number for each pose T_map_base. Throws Error as beams_of.
   void log_likelihoods(const LaserScan& scan, std::span<const PlanarPose> poses,
                        std::span<double> results) const;

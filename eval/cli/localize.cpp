@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "eval/cli/localization_picture.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/verbs.hpp"
@@ -35,7 +36,7 @@ struct LocalizeFlags {
   bool global_start = false;
   int seeds = 1;
   std::uint64_t seed = 0;
-  double resolution_m = 0.05;
+  double resolution_m = FloorGridOptions{}.resolution_m;
   WorkFlags work;
 };
 
@@ -47,27 +48,11 @@ struct DriveLogs {
   Pose T_map_base_start = Pose::Identity();
 };
 
-void check_logged(const fs::path& file) {
-  if (fs::is_regular_file(file)) return;
-  throw Error(
-      fmt::format("{}: file is missing, the recording was not driven with wheels and lidar; record "
-                  "it with a driven robot",
-                  file.string()));
-}
-
 DriveLogs read_logs(const Recording& recording) {
-  const fs::path folder = recording.folder();
-  check_logged(folder / "odometry.txt");
-  check_logged(folder / "scan" / "scans.bin");
-  DriveLogs logs{read_odometry(folder / "odometry.txt"),
-                 read_scan_log(folder / "scan" / "scans.bin"),
-                 {},
-                 Pose::Identity()};
-  const std::vector<StampedImage> images = read_stamp_list(folder / "color.txt");
+  DriveLogs logs{recording.read_odometry(), recording.read_scans(), {}, Pose::Identity()};
   for (int n = 0; n < recording.frame_count(); ++n)
-    logs.frames.push_back(
-        {images[static_cast<std::size_t>(n)].stamp_s, recording.T_world_base_of_color(n)});
-  const fs::path truth = folder / "groundtruth.txt";
+    logs.frames.push_back({recording.color_stamp_s(n), recording.T_world_base_of_color(n)});
+  const fs::path truth = recording.folder() / "groundtruth.txt";
   const double start_s = logs.odometry.front().stamp_s;
   const auto start = interpolated(read_trajectory(truth), start_s);
   if (!start)
@@ -79,7 +64,11 @@ DriveLogs read_logs(const Recording& recording) {
 
 OccupancyGrid grid_for(const LocalizeFlags& flags, const Recording& recording,
                        const DriveLogs& logs) {
-  if (flags.grid) return load_grid(*flags.grid);
+  if (flags.grid) {
+    OccupancyGrid grid = load_grid(*flags.grid);
+    check_start(grid, planar(logs.T_map_base_start), *flags.grid);
+    return grid;
+  }
   if (!recording.info().has_truth)
     throw Error(fmt::format("{}: has no truth to cut a grid from; give one by --grid",
                             recording.folder().string()));
@@ -141,7 +130,10 @@ void localize(const LocalizeFlags& flags) {
     for (int run = 0; run < flags.seeds; ++run) {
       const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
       const BelievedTrajectory believed = localised(flags, logs, grid, seed, progress, run);
-      if (run == 0) write_whole_file(folder / "localization.txt", believed_text(believed));
+      if (run == 0) {
+        write_whole_file(folder / "localization.txt", believed_text(believed));
+        draw_localization(grid, believed, logs.frames, flags.source, folder);
+      }
       scores.push_back(score_localization(believed, logs.frames));
       csv += csv_of(seed, scores.back());
     }
@@ -182,8 +174,9 @@ void add_localize(CLI::App& program) {
   verb->add_option("--seed", flags->seed, "Of the first run")->capture_default_str();
   flags->work.add_to(*verb);
   verb->footer(
-      "Writes grid.yaml and .pgm, localization.txt (first seed) and localization.csv (errors by\n"
-      "frame, all seeds); prints the errors after convergence (docs/metrics.md).\n"
+      "Writes grid.yaml and .pgm, localization.txt and trajectory.png and .pdf (first seed), and\n"
+      "localization.csv (errors by frame, all seeds); prints the errors after convergence\n"
+      "(docs/metrics.md).\n"
       "Examples:\n"
       "  mapscore localize results/home/recordings/home-* -o results/home/localized --seeds 10\n"
       "  mapscore localize /data/home -o out --global --grid /data/home/map.yaml\n"

@@ -3,6 +3,8 @@
 
 #include "eval/experiment/localization_doses.hpp"
 
+#include "eval/truth/floor_grid.hpp"
+
 #include <numbers>
 #include <type_traits>
 #include <variant>
@@ -93,7 +95,7 @@ LidarFaultSettings resolved(const LidarFaultSettings& settings) {
 }  // namespace
 
 double grid_resolution_m(const LocalizationSettings& settings) {
-  return settings.grid_resolution_m.value_or(0.05);
+  return settings.grid_resolution_m.value_or(FloorGridOptions{}.resolution_m);
 }
 
 sim::LidarNoise noise_of(const LidarFaultSettings& settings) {

@@ -37,15 +37,6 @@ PoseEstimate start_estimate(const FilterSettings& settings, const PlanarPose& T_
   return {T_map_base_start * planar(exp_pose(-xi)), sigmas.cwiseAbs2().asDiagonal()};
 }
 
-void check_start(const OccupancyGrid& grid, const PlanarPose& start) {
-  const GridCell cell = grid.cell_of({start.x_m, start.y_m});
-  if (grid.at_or_unknown(cell) != kOccupiedCell) return;
-  throw Error(
-      fmt::format("grid: the drive starts at ({:.3f}, {:.3f}) m, in the occupied cell {}, {}; give "
-                  "a grid of this scene, in its frame",
-                  start.x_m, start.y_m, cell.column, cell.row));
-}
-
 /// What the lidar's noise leaves of its range.
 LaserScan scan_frame(const ScanGeometry& geometry, const sim::LidarNoise& noise) {
   LaserScan scan;
@@ -78,13 +69,24 @@ PoseBelief belief_of(const PoseEstimate& estimate, const PlanarPose& T_odom_base
 
 }  // namespace
 
+void check_start(const OccupancyGrid& grid, const PlanarPose& T_map_base_start,
+                 const std::string& grid_name) {
+  const PlanarPose& start = T_map_base_start;
+  const GridCell cell = grid.cell_of({start.x_m, start.y_m});
+  if (grid.at_or_unknown(cell) != kOccupiedCell) return;
+  throw Error(
+      fmt::format("{}: the drive starts at ({:.3f}, {:.3f}) m, in the occupied cell {}, {}; give "
+                  "a grid of this scene, in its frame",
+                  grid_name, start.x_m, start.y_m, cell.column, cell.row));
+}
+
 BelievedTrajectory run_filter(const std::vector<OdometryPose>& odometry, const ScanLog& scans,
                               const OccupancyGrid& grid, const FilterSettings& settings,
                               const PlanarPose& T_map_base_start, std::uint64_t seed,
                               const std::function<void(int, int)>& progress) {
   check(settings);
   if (odometry.empty()) throw Error("odometry: has no pose; record the drive again");
-  check_start(grid, T_map_base_start);
+  check_start(grid, T_map_base_start, "grid");
   LaserScan scan = scan_frame(scans.geometry, settings.lidar_noise);
   ParticleFilter filter = make_filter(grid, settings, scan.range_max_m, seed);
   if (settings.global_start)

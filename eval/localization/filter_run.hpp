@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct FilterSettings {
   double start_sigma_xy_m = 0.1, start_sigma_yaw_rad = 0.05;
   sim::LidarNoise lidar_noise;  ///< added to the recording's noise-free turns
 };
+
+/// Throws Error, beginning with the grid's name, where a drive would start in an occupied cell.
+void check_start(const OccupancyGrid& grid, const PlanarPose& T_map_base_start,
+                 const std::string& grid_name);
 
 /// Replays the particle filter over the turns of a drive, one step a turn, with the odometry at the
 /// turn's stamp. T_map_base_start: true pose at the first line of the odometry, where the first

@@ -246,7 +246,7 @@ TEST_F(PoseSourcesTest, DecideTheKeyOfATrial) {
   EXPECT_NE(key(source("particle_filter")),
             key(source("particle_filter", ", filter: {temper: 0.5}")));
   EXPECT_EQ(key(source("particle_filter")),
-            key(source("particle_filter", ", grid_resolution_m: 0.05")));
+            key(source("particle_filter", ", grid_resolution_m: 0.02")));
 
   const std::string given =
       source("trajectory", fmt::format(", trajectory: {}", (folder() / "given.txt").string()));
