@@ -40,11 +40,11 @@ void fields(auto&& visit, Of<ParticleFilterSettings> auto& s) {
               .unkeyed = "tracking"},
         s.start);
   visit(
-      Field{"start_sigma_xy_m", "standard deviation of the start, x and y; default 0.05", {0, 10}},
+      Field{"start_sigma_xy_m", "standard deviation of the start, x and y; default 0.1", {0, 10}},
       s.start_sigma_xy_m);
   visit(
       Field{
-          "start_sigma_yaw_deg", "standard deviation of the start's heading; default 2", {0, 180}},
+          "start_sigma_yaw_deg", "standard deviation of the start's heading; default 2.9", {0, 180}},
       s.start_sigma_yaw_deg);
   visit(Field{"least_particles", "however narrow the belief is", kCount}, s.least_particles);
   visit(Field{"most_particles", "however wide it is; those of a global start", kCount},
