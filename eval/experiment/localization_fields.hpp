@@ -39,13 +39,12 @@ void fields(auto&& visit, Of<ParticleFilterSettings> auto& s) {
               .meaning = "about the true pose (tracking), or anywhere on the grid (global)",
               .unkeyed = "tracking"},
         s.start);
-  visit(
-      Field{"start_sigma_xy_m", "standard deviation of the start, x and y; default 0.1", {0, 10}},
-      s.start_sigma_xy_m);
-  visit(
-      Field{
-          "start_sigma_yaw_deg", "standard deviation of the start's heading; default 2.9", {0, 180}},
-      s.start_sigma_yaw_deg);
+  visit(Field{"start_sigma_xy_m", "standard deviation of the start, x and y; default 0.1", {0, 10}},
+        s.start_sigma_xy_m);
+  visit(Field{"start_sigma_yaw_deg",
+              "standard deviation of the start's heading; default 2.9",
+              {0, 180}},
+        s.start_sigma_yaw_deg);
   visit(Field{"least_particles", "however narrow the belief is", kCount}, s.least_particles);
   visit(Field{"most_particles", "however wide it is; those of a global start", kCount},
         s.most_particles);

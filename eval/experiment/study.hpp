@@ -41,8 +41,8 @@ struct TrajectorySettings {
 struct CameraSettings {
   int width_px = 640, height_px = 480;
   double range_min_m = 0.6, range_max_m = 8;
-  std::optional<double> height_m, pan_deg, tilt_deg;  ///< empty: as the robot has it
   bool shadows = false;
+  std::optional<double> height_m{}, pan_deg{}, tilt_deg{};  ///< empty: as the robot has it
 
   bool operator==(const CameraSettings&) const = default;
 };
