@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/cli/localization_picture.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/verbs.hpp"
+#include "eval/experiment/pose_sources.hpp"
+#include "eval/experiment/study.hpp"
 #include "eval/localization/believed_file.hpp"
-#include "eval/localization/filter_run.hpp"
 #include "eval/localization/localization_score.hpp"
-#include "eval/localization/odometry_run.hpp"
 #include "eval/recording/grid_file.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/recording/whole_file.hpp"
-#include "eval/truth/floor_grid.hpp"
+#include "eval/report/believed_figures.hpp"
 
 #include <fmt/format.h>
 
@@ -23,7 +22,8 @@
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <utility>
+#include <string>
+#include <vector>
 
 namespace mapscore::eval {
 namespace {
@@ -35,67 +35,42 @@ struct LocalizeFlags {
   std::optional<std::string> grid;
   bool global_start = false;
   int seeds = 1;
-  std::uint64_t seed = 0;
-  double resolution_m = FloorGridOptions{}.resolution_m;
-  WorkFlags work;
+  std::uint64_t seed = 1;
+  std::vector<std::string> overrides;
+  bool quiet = false;
 };
 
-/// What a recording says of its drive.
-struct DriveLogs {
-  std::vector<OdometryPose> odometry;
-  ScanLog scans;
-  std::vector<TrajectoryPose> frames;  ///< true pose at each colour image
-  Pose T_map_base_start = Pose::Identity();
-};
-
-DriveLogs read_logs(const Recording& recording) {
-  DriveLogs logs{recording.read_odometry(), recording.read_scans(), {}, Pose::Identity()};
-  for (int n = 0; n < recording.frame_count(); ++n)
-    logs.frames.push_back({recording.color_stamp_s(n), recording.T_world_base_of_color(n)});
-  const fs::path truth = recording.folder() / "groundtruth.txt";
-  const double start_s = logs.odometry.front().stamp_s;
-  const auto start = interpolated(read_trajectory(truth), start_s);
-  if (!start)
-    throw Error(fmt::format("{}: has no pose at {} s, where odometry.txt starts; lengthen it",
-                            truth.string(), start_s));
-  logs.T_map_base_start = *start;
-  return logs;
-}
-
-OccupancyGrid grid_for(const LocalizeFlags& flags, const Recording& recording,
-                       const DriveLogs& logs) {
-  if (flags.grid) {
-    OccupancyGrid grid = load_grid(*flags.grid);
-    check_start(grid, planar(logs.T_map_base_start), *flags.grid);
-    return grid;
+/// A study of nothing but the localisation, with a lidar as one buys it.
+Study study_of(const LocalizeFlags& flags) {
+  Study study;
+  study.name = fs::path(flags.recording).filename().string();
+  study.recording = flags.recording;
+  study.methods = {{"direct", DirectSettings{}, {}}};  // a study has one; nothing is mapped here
+  study.seed = flags.seed;
+  study.seeds = flags.seeds;
+  set_leaf(study, "localization.source", flags.source);
+  set_leaf(study, "localization.filter.scan_model", flags.model);
+  set_leaf(study, "faults.lidar.preset", "rplidar_a2");
+  if (flags.global_start) set_leaf(study, "localization.filter.start", "global");
+  study.localization.grid = flags.grid;
+  for (const std::string& override : flags.overrides) {
+    const std::size_t equals = override.find('=');
+    if (equals == std::string::npos)
+      throw Error("--set " + override + ": must be path=value, e.g. localization.filter.beams=60");
+    set_leaf(study, override.substr(0, equals), override.substr(equals + 1));
   }
-  if (!recording.info().has_truth)
-    throw Error(fmt::format("{}: has no truth to cut a grid from; give one by --grid",
-                            recording.folder().string()));
-  FloorGridOptions options;
-  options.height_m = logs.scans.geometry.T_base_lidar.translation().z();
-  options.resolution_m = flags.resolution_m;
-  options.start_m = logs.T_map_base_start.translation().head<2>();
-  options.jobs = flags.work.jobs;
-  return floor_grid(recording.read_shapes(), Pose::Identity(), options);
+  check(study);
+  return study;
 }
 
-BelievedTrajectory localised(const LocalizeFlags& flags, const DriveLogs& logs,
-                             const OccupancyGrid& grid, std::uint64_t seed, Progress& progress,
-                             int run) {
-  FilterSettings settings;
-  settings.global_start = flags.global_start;
-  settings.filter.jobs = flags.work.jobs;
-  if (flags.model == "beam") settings.model = BeamModelParams{};
-  const PlanarPose start = planar(logs.T_map_base_start);
-  if (flags.source == "odometry") return odometry_only(logs.odometry, start, settings.filter.noise);
-  return run_filter(
-      logs.odometry, logs.scans, grid, settings, start, seed, [&](int done, int total) {
-        progress.show(std::int64_t{run} * total + done, std::int64_t{flags.seeds} * total);
-      });
+std::vector<TrajectoryPose> true_poses(const Recording& recording) {
+  std::vector<TrajectoryPose> poses;
+  for (int n = 0; n < recording.frame_count(); ++n)
+    poses.push_back({recording.color_stamp_s(n), recording.T_world_base_of_color(n)});
+  return poses;
 }
 
-std::string csv_of(std::uint64_t seed, const LocalizationScore& score) {
+std::string csv_of(int seed, const LocalizationScore& score) {
   std::string text;
   for (const FrameError& frame : score.frames)
     text += fmt::format("{},{},{:.6f},{:.5f},{:.5g},{:.6f},{}\n", seed, frame.stamp_s,
@@ -104,7 +79,7 @@ std::string csv_of(std::uint64_t seed, const LocalizationScore& score) {
   return text;
 }
 
-void print_row(const std::string& source, std::uint64_t seed, const LocalizationScore& score) {
+void print_row(const std::string& source, int seed, const LocalizationScore& score) {
   if (!score.converged_s) {
     std::cout << fmt::format("{:<16} {:>5} {:>11}\n", source, seed, "never");
     return;
@@ -116,34 +91,49 @@ void print_row(const std::string& source, std::uint64_t seed, const Localization
                            share);
 }
 
+/// Scores of all repetitions; the files of the first one.
+std::vector<LocalizationScore> localised(const Study& study, const Recording& recording,
+                                         const OccupancyGrid& grid, bool quiet,
+                                         const fs::path& folder) {
+  const std::vector<TrajectoryPose> frames = true_poses(recording);
+  Progress progress("localize", "turns", quiet);
+  std::vector<LocalizationScore> scores;
+  for (int run = 0; run < study.seeds; ++run) {
+    Task task;
+    task.config = study;
+    task.seed_index = run;
+    const BelievedTrajectory believed =
+        believed_trajectory(recording, task, &grid, [&](int done, int total) {
+          progress.show(std::int64_t{run} * total + done, std::int64_t{study.seeds} * total);
+        });
+    if (run == 0) write_whole_file(folder / "localization.txt", believed_text(believed));
+    scores.push_back(score_localization(believed, frames));
+  }
+  return scores;
+}
+
 void localize(const LocalizeFlags& flags) {
+  Study study = study_of(flags);
   const Recording recording = Recording::open(flags.recording);
-  const DriveLogs logs = read_logs(recording);
-  const OccupancyGrid grid = grid_for(flags, recording, logs);
+  const OccupancyGrid grid = grid_of(recording, study);
   const fs::path folder = flags.output;
   fs::create_directories(folder);
   save_grid(grid, folder / "grid.yaml");
+  const std::vector<LocalizationScore> scores =
+      localised(study, recording, grid, flags.quiet, folder);
   std::string csv = "seed,stamp_s,position_error_m,heading_error_deg,nees,sigma_m,converged\n";
-  std::vector<LocalizationScore> scores;
-  {
-    Progress progress("localize", "scans", flags.work.quiet);
-    for (int run = 0; run < flags.seeds; ++run) {
-      const std::uint64_t seed = flags.seed + static_cast<std::uint64_t>(run);
-      const BelievedTrajectory believed = localised(flags, logs, grid, seed, progress, run);
-      if (run == 0) {
-        write_whole_file(folder / "localization.txt", believed_text(believed));
-        draw_localization(grid, believed, logs.frames, flags.source, folder);
-      }
-      scores.push_back(score_localization(believed, logs.frames));
-      csv += csv_of(seed, scores.back());
-    }
-  }
+  for (int run = 0; run < study.seeds; ++run)
+    csv += csv_of(run, scores[static_cast<std::size_t>(run)]);
   write_whole_file(folder / "localization.csv", csv);
+  if (flags.source != "odometry")
+    study.sweep = {{"localization.source", {flags.source, "odometry"}}};
+  for (const fs::path& file : draw_believed(study, recording, {}, folder))
+    std::cout << file.string() << '\n';
   std::cout << fmt::format("{:<16} {:>5} {:>11} {:>9} {:>9} {:>10} {:>10} {:>10}\n", "source",
                            "seed", "converged_s", "mean_m", "p95_m", "mean_deg", "p95_deg",
                            "nees_share");
-  for (std::size_t run = 0; run < scores.size(); ++run)
-    print_row(flags.source, flags.seed + run, scores[run]);
+  for (int run = 0; run < study.seeds; ++run)
+    print_row(flags.source, run, scores[static_cast<std::size_t>(run)]);
 }
 
 }  // namespace
@@ -165,22 +155,27 @@ void add_localize(CLI::App& program) {
   verb->add_option("--grid", flags->grid,
                    "YAML of a ROS map_server grid in the scene's world; default: cut from the "
                    "truth at the lidar's height");
-  verb->add_option("--resolution_m", flags->resolution_m, "Cell of the grid that is cut")
-      ->check(finite_within(0.005, 1.0))
-      ->capture_default_str();
-  verb->add_option("--seeds", flags->seeds, "Runs, each with noise and draws of its own")
+  verb->add_option("--seeds", flags->seeds,
+                   "Repetitions, each with noise and draws of its own: those of a study")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  verb->add_option("--seed", flags->seed, "Of the first run")->capture_default_str();
-  flags->work.add_to(*verb);
+  verb->add_option("--seed", flags->seed, "Of all draws, as a study's `seed`")
+      ->capture_default_str();
+  verb->add_option("--set", flags->overrides,
+                   "A key localization.* or faults.lidar.* of a study; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_flag("-q,--quiet", flags->quiet, "No progress");
   verb->footer(
-      "Writes grid.yaml and .pgm, localization.txt and trajectory.png and .pdf (first seed), and\n"
+      "Writes grid.yaml and .pgm, localization.txt and trajectory_on_grid.png and .pdf (first "
+      "seed), and\n"
       "localization.csv (errors by frame, all seeds); prints the errors after convergence\n"
       "(docs/metrics.md).\n"
       "Examples:\n"
       "  mapscore localize results/home/recordings/home-* -o results/home/localized --seeds 10\n"
       "  mapscore localize /data/home -o out --global --grid /data/home/map.yaml\n"
-      "  mapscore localize /data/home -o out --source odometry");
+      "  mapscore localize /data/home -o out --source odometry\n"
+      "  mapscore localize /data/home -o out --set localization.grid_resolution_m=0.05 "
+      "--set localization.filter.temper=0.2");
   verb->callback([flags] { localize(*flags); });
 }
 

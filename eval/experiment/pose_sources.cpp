@@ -76,18 +76,6 @@ std::vector<PoseBelief> gaussian(const Recording& recording, const Task& task,
   return beliefs;
 }
 
-std::vector<PoseBelief> believed_at(const Recording& recording, const Task& task,
-                                    const std::vector<int>& depth_of) {
-  const BelievedTrajectory believed = believed_trajectory(recording, task);
-  const double reported_scale = task.config.faults.pose.reported_scale;
-  std::vector<PoseBelief> beliefs;
-  for (const double stamp_s : stamps_of(recording, task, depth_of)) {
-    beliefs.push_back(believed.at(stamp_s));
-    beliefs.back().covariance *= reported_scale;
-  }
-  return beliefs;
-}
-
 /// Names what decides the beliefs of a task whose source is no Gaussian.
 std::string poses_key(const Task& task) {
   Study deciding;
@@ -101,12 +89,18 @@ std::string poses_key(const Task& task) {
 }  // namespace
 
 OccupancyGrid grid_of(const Recording& recording, const Study& config) {
-  if (config.localization.grid) return load_grid(resolve_path(config, *config.localization.grid));
+  check_logs(recording, PoseSource::particle_filter);
+  const Pose start = start_of(recording, recording.read_odometry());
+  if (config.localization.grid) {
+    const std::filesystem::path file = resolve_path(config, *config.localization.grid);
+    OccupancyGrid grid = load_grid(file);
+    check_start(grid, planar(start), file.string());
+    return grid;
+  }
   if (!recording.info().has_truth)
     throw Error(fmt::format(
         "localization.grid: is missing, and {} has no truth to cut one from; write grid: FILE.yaml",
         recording.folder().string()));
-  const Pose start = start_of(recording, recording.read_odometry());
   const Pose lidar = start * recording.read_scans().geometry.T_base_lidar;
   return floor_grid(recording.read_shapes(), Pose::Identity(),
                     {.height_m = lidar.translation().z(),
@@ -114,7 +108,9 @@ OccupancyGrid grid_of(const Recording& recording, const Study& config) {
                      .start_m = start.translation().head<2>()});
 }
 
-BelievedTrajectory believed_trajectory(const Recording& recording, const Task& task) {
+BelievedTrajectory believed_trajectory(const Recording& recording, const Task& task,
+                                       const OccupancyGrid* grid,
+                                       const std::function<void(int, int)>& progress) {
   const LocalizationSettings& settings = task.config.localization;
   if (settings.source == PoseSource::trajectory)
     return read_believed(resolve_path(task.config, settings.trajectory.value()));
@@ -124,9 +120,10 @@ BelievedTrajectory believed_trajectory(const Recording& recording, const Task& t
   BelievedTrajectory believed =
       settings.source == PoseSource::odometry
           ? odometry_only(odometry, planar(start), noise_of(settings.odometry_noise))
-          : run_filter(odometry, recording.read_scans(), grid_of(recording, task.config),
+          : run_filter(odometry, recording.read_scans(),
+                       grid ? *grid : grid_of(recording, task.config),
                        filter_of(settings, task.config.faults.lidar), planar(start),
-                       trial_seed(task));
+                       trial_seed(task), progress);
   lift(believed, start.translation().z());
   return believed;
 }
@@ -153,11 +150,34 @@ PoseSources::Beliefs PoseSources::shared(const Task& task, const std::vector<int
   }
   if (is_first) try {
       promise.set_value(
-          std::make_shared<const std::vector<PoseBelief>>(believed_at(recording_, task, depth_of)));
+          std::make_shared<const std::vector<PoseBelief>>(believed_at(task, depth_of)));
     } catch (...) {
       promise.set_exception(std::current_exception());
     }
   return made.get();
+}
+
+std::vector<PoseBelief> PoseSources::believed_at(const Task& task,
+                                                 const std::vector<int>& depth_of) {
+  const BelievedTrajectory believed = believed_trajectory(recording_, task, grid(task).get());
+  const double reported_scale = task.config.faults.pose.reported_scale;
+  std::vector<PoseBelief> beliefs;
+  for (const double stamp_s : stamps_of(recording_, task, depth_of)) {
+    beliefs.push_back(believed.at(stamp_s));
+    beliefs.back().covariance *= reported_scale;
+  }
+  return beliefs;
+}
+
+std::shared_ptr<const OccupancyGrid> PoseSources::grid(const Task& task) {
+  const LocalizationSettings& settings = task.config.localization;
+  if (settings.source != PoseSource::particle_filter) return nullptr;
+  const std::string key = settings.grid ? resolve_path(task.config, *settings.grid).string()
+                                        : fmt::format("{}", grid_resolution_m(settings));
+  const std::scoped_lock lock(grids_mutex_);
+  std::shared_ptr<const OccupancyGrid>& grid = grids_[key];
+  if (!grid) grid = std::make_shared<const OccupancyGrid>(grid_of(recording_, task.config));
+  return grid;
 }
 
 }  // namespace mapscore::eval

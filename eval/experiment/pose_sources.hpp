@@ -9,6 +9,7 @@
 #include "eval/localization/believed_trajectory.hpp"
 #include "eval/recording/recording.hpp"
 
+#include <functional>
 #include <future>
 #include <map>
 #include <memory>
@@ -35,18 +36,29 @@ class PoseSources {
   using Beliefs = std::shared_ptr<const std::vector<PoseBelief>>;
 
   [[nodiscard]] Beliefs shared(const Task& task, const std::vector<int>& depth_of);
+  [[nodiscard]] std::vector<PoseBelief> believed_at(const Task& task,
+                                                    const std::vector<int>& depth_of);
+  /// Made once for all tasks that share it; none where the source needs none.
+  [[nodiscard]] std::shared_ptr<const OccupancyGrid> grid(const Task& task);
 
   const Recording& recording_;
-  std::mutex mutex_;  // guards the map
+  std::mutex mutex_;  // guards what is made
   std::map<std::string, std::shared_future<Beliefs>> made_;
+  std::mutex grids_mutex_;  // guards the grids, while one is made, too
+  std::map<std::string, std::shared_ptr<const OccupancyGrid>> grids_;
 };
 
 /// What the robot believes along a whole recording, in the scene's world, as a task's source says:
-/// odometry, particle filter or a file. Throws Error as PoseSources.
-[[nodiscard]] BelievedTrajectory believed_trajectory(const Recording& recording, const Task& task);
+/// odometry, particle filter or a file. `grid`: grid_of the task's configuration where it is at
+/// hand, else the filter has it made. `progress(turns done, all)` of the filter. Throws Error as
+/// PoseSources.
+[[nodiscard]] BelievedTrajectory believed_trajectory(
+    const Recording& recording, const Task& task, const OccupancyGrid* grid = nullptr,
+    const std::function<void(int, int)>& progress = {});
 
-/// The grid that a task's filter localises in: its file, or cut from the recording's truth. Throws
-/// Error when the file is refused or the recording has no truth.
+/// The grid that a configuration's filter localises in: its file, or cut from the recording's truth
+/// at the lidar's height. Throws Error when the file is refused, the recording has no truth or no
+/// logs, or the robot starts in an occupied cell.
 [[nodiscard]] OccupancyGrid grid_of(const Recording& recording, const Study& config);
 
 }  // namespace mapscore::eval

@@ -221,7 +221,7 @@ TEST(BadFlag, IsNamedWithItsKey) {
             "flag voxel=1: voxel: unknown key 'voxel'; did you mean 'voxel_m'?");
   EXPECT_EQ(refusal(kSound, {"cameras={}"}),
             "flag cameras={}: cameras: is a section, not a value; name a key below it: width_px, "
-            "height_px, range_min_m, range_max_m, shadows");
+            "height_px, range_min_m, range_max_m, height_m, pan_deg, tilt_deg, shadows");
   EXPECT_EQ(refusal(kSound, {"voxel_m"}), "flag voxel_m: write it as path=value");
 }
 
