@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "covariance"},
         BadLine{"merge_key", "cameras: {<<: {width_px: 5}}\n",
                 "6: cameras.<<: unknown key '<<'; write one of width_px, height_px, range_min_m, "
-                "range_max_m, shadows"},
+                "range_max_m, height_m, pan_deg, tilt_deg, shadows"},
         BadLine{"text_for_number", "voxel_m: wide\n", "6: voxel_m: is wide; write a number"},
         BadLine{"quoted_number", "voxel_m: \"0.05\"\n",
                 "6: voxel_m: is the text 0.05; write a number, without quotes"},
