@@ -73,9 +73,10 @@ std::vector<TrajectoryPose> true_poses(const Recording& recording) {
 std::string csv_of(int seed, const LocalizationScore& score) {
   std::string text;
   for (const FrameError& frame : score.frames)
-    text += fmt::format("{},{},{:.6f},{:.5f},{:.5g},{:.6f},{}\n", seed, frame.stamp_s,
-                        frame.position_m, frame.heading_rad * 180.0 / std::numbers::pi, frame.nees,
-                        frame.sigma_m, frame.converged ? 1 : 0);
+    text += fmt::format("{},{},{:.6f},{:.5f},{},{:.6f},{}\n", seed, frame.stamp_s, frame.position_m,
+                        frame.heading_rad * 180.0 / std::numbers::pi,
+                        frame.nees ? fmt::format("{:.5g}", *frame.nees) : "", frame.sigma_m,
+                        frame.converged ? 1 : 0);
   return text;
 }
 

@@ -77,9 +77,9 @@ void fields(auto&& visit, Of<LocalizationSettings> auto& s) {
               "grid of ROS's map_server (YAML) in the scene's world; default: cut from the scene "
               "at the lidar's height"},
         s.grid);
-  visit(Field{"grid_resolution_m", "edge of a cell of a grid that is cut; default 0.02",
-              above(0, 10)},
-        s.grid_resolution_m);
+  visit(
+      Field{"grid_resolution_m", "edge of a cell of a grid that is cut; default 0.02", {0.005, 1}},
+      s.grid_resolution_m);
   visit(Field{.key = "odometry_noise",
               .meaning = "of the odometry, as sources odometry and particle_filter believe it",
               .unkeyed = "{}"},

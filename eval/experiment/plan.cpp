@@ -7,6 +7,7 @@
 #include "eval/experiment/localization_doses.hpp"
 #include "eval/experiment/sensor_doses.hpp"
 #include "eval/experiment/trial_seed.hpp"
+#include "eval/localization/believed_file.hpp"
 #include "eval/recording/file_bytes.hpp"
 #include "eval/recording/grid_file.hpp"
 
@@ -28,13 +29,18 @@ class PoseFiles {
   std::string content(const Study& config) {
     const LocalizationSettings& settings = config.localization;
     if (settings.source == PoseSource::trajectory)
-      return of(resolve_path(config, settings.trajectory.value()), read_file);
+      return of(resolve_path(config, settings.trajectory.value()), trajectory_bytes);
     if (settings.source == PoseSource::particle_filter && settings.grid)
       return of(resolve_path(config, *settings.grid), grid_bytes);
     return "";
   }
 
  private:
+  static std::string trajectory_bytes(const std::filesystem::path& file) {
+    static_cast<void>(read_believed(file));  // refuses what is no trajectory
+    return read_file(file);
+  }
+
   static std::string grid_bytes(const std::filesystem::path& file) {
     const OccupancyGrid grid = load_grid(file);
     const GridFrame& frame = grid.frame();
@@ -130,6 +136,11 @@ class TaskList {
 
 std::uint64_t trial_seed(const Task& task) {
   return trial_seed(task.config.seed, task.seed_index);
+}
+
+void check_pose_files(const Study& study) {
+  PoseFiles files;
+  for (const Cell& cell : cells(study)) static_cast<void>(files.content(resolve(study, cell)));
 }
 
 Task task_of(const Study& study, const TrialSpec& spec, Labels labels,

@@ -158,7 +158,7 @@ PoseSources::Beliefs PoseSources::shared(const Task& task, const std::vector<int
 }
 
 std::vector<PoseBelief> PoseSources::believed_at(const Task& task,
-                                                 const std::vector<int>& depth_of) {
+                                                 const std::vector<int>& depth_of) try {
   const BelievedTrajectory believed = believed_trajectory(recording_, task, grid(task).get());
   const double reported_scale = task.config.faults.pose.reported_scale;
   std::vector<PoseBelief> beliefs;
@@ -167,6 +167,10 @@ std::vector<PoseBelief> PoseSources::believed_at(const Task& task,
     beliefs.back().covariance *= reported_scale;
   }
   return beliefs;
+} catch (const Error& error) {
+  const LocalizationSettings& settings = task.config.localization;
+  if (settings.source != PoseSource::trajectory) throw;
+  throw Error(fmt::format("localization.trajectory: {}: {}", *settings.trajectory, error.what()));
 }
 
 std::shared_ptr<const OccupancyGrid> PoseSources::grid(const Task& task) {

@@ -139,6 +139,16 @@ void check_methods(const std::vector<MethodSettings>& methods, const Blame& blam
   }
 }
 
+/// The controller creeps no slower (sim::WaypointController).
+void check_wheels(const Study& study, const Blame& blame) {
+  constexpr double kSlowest_mps = 0.01;
+  if (!on_wheels(study) || study.trajectory.speed_mps >= kSlowest_mps) return;
+  blame("trajectory.speed_mps",
+        fmt::format("{} is below {}, the slowest that wheels drive; write a "
+                    "greater number",
+                    study.trajectory.speed_mps, kSlowest_mps));
+}
+
 void check_localization(const Study& study, const Blame& blame) {
   const LocalizationSettings& localization = study.localization;
   if (localization.source == PoseSource::trajectory && !localization.trajectory)
@@ -181,6 +191,7 @@ void check_leaves(const Study& study, const Blame& blame) {
   check_rigid(study.faults.misregistration, "faults.misregistration", blame);
   check_rigid(study.faults.mount, "faults.mount", blame);
   check_covariance(study.faults.pose, blame);
+  check_wheels(study, blame);
   check_localization(study, blame);
   check_time(study.score, blame);
   check_confusion(study.faults.labels, blame);

@@ -7,6 +7,7 @@
 #include "eval/experiment/baked_frames.hpp"
 #include "eval/experiment/folder_lock.hpp"
 #include "eval/experiment/own_robot.hpp"
+#include "eval/experiment/plan.hpp"
 #include "eval/experiment/replay_check.hpp"
 #include "eval/recording/stamp_list.hpp"
 
@@ -167,6 +168,7 @@ void record_study(const Study& study, const std::filesystem::path& folder, int j
 
 Recording recording_of(const Study& study, const std::filesystem::path& results, int jobs,
                        const RecordingProgress& progress) {
+  check_pose_files(study);
   if (study.recording) return replayed(study);
   const sim::World world = world_of(study);
   check_classes(study, world.classes());

@@ -73,11 +73,17 @@ void check_start(const OccupancyGrid& grid, const PlanarPose& T_map_base_start,
                  const std::string& grid_name) {
   const PlanarPose& start = T_map_base_start;
   const GridCell cell = grid.cell_of({start.x_m, start.y_m});
-  if (grid.at_or_unknown(cell) != kOccupiedCell) return;
-  throw Error(
-      fmt::format("{}: the drive starts at ({:.3f}, {:.3f}) m, in the occupied cell {}, {}; give "
-                  "a grid of this scene, in its frame",
-                  grid_name, start.x_m, start.y_m, cell.column, cell.row));
+  const auto refuse = [&](const std::string& where) {
+    throw Error(
+        fmt::format("{}: the drive starts at ({:.3f}, {:.3f}) m, {}; give a grid of this scene, in "
+                    "its frame, with cells of a few centimetres",
+                    grid_name, start.x_m, start.y_m, where));
+  };
+  if (!grid.contains(cell)) refuse("outside of it");
+  if (grid.at(cell) == kOccupiedCell)
+    refuse(fmt::format("in the occupied cell {}, {}", cell.column, cell.row));
+  if (std::ranges::find(grid.cells(), kOccupiedCell) == grid.cells().end())
+    throw Error(grid_name + ": has no occupied cell; give a grid that shows walls");
 }
 
 BelievedTrajectory run_filter(const std::vector<OdometryPose>& odometry, const ScanLog& scans,

@@ -21,7 +21,7 @@ FrameError error_at(const BelievedTrajectory& believed, const TrajectoryPose& tr
   error.position_m =
       std::hypot(estimate.mean.x_m - T_map_base.x_m, estimate.mean.y_m - T_map_base.y_m);
   error.heading_rad = std::abs(wrapped_angle(estimate.mean.yaw_rad - T_map_base.yaw_rad));
-  error.nees = nees(estimate, T_map_base);
+  if (!estimate.covariance.isZero(0.0)) error.nees = nees(estimate, T_map_base);
   error.sigma_m = std::sqrt(estimate.covariance.topLeftCorner<2, 2>().trace());
   return error;
 }
@@ -47,8 +47,7 @@ LocalizationScore score_localization(const BelievedTrajectory& believed,
                                      const std::vector<TrajectoryPose>& truth) {
   LocalizationScore score;
   std::vector<double> positions_m, headings_deg;
-  int in_band = 0;
-  bool has_covariance = false;
+  int in_band = 0, with_nees = 0;
   for (const TrajectoryPose& pose : truth) {
     FrameError error = error_at(believed, pose);
     if (!score.converged_s && error.sigma_m < kConvergedSigma) score.converged_s = pose.stamp_s;
@@ -57,11 +56,12 @@ LocalizationScore score_localization(const BelievedTrajectory& believed,
     if (!error.converged) continue;
     positions_m.push_back(error.position_m);
     headings_deg.push_back(error.heading_rad * 180.0 / std::numbers::pi);
-    has_covariance |= error.sigma_m > 0.0;
-    if (error.nees >= kNeesBand.low && error.nees <= kNeesBand.high) ++in_band;
+    if (!error.nees) continue;
+    ++with_nees;
+    if (*error.nees >= kNeesBand.low && *error.nees <= kNeesBand.high) ++in_band;
   }
   score.converged_frames = static_cast<int>(positions_m.size());
-  if (has_covariance) score.nees_share = static_cast<double>(in_band) / score.converged_frames;
+  if (with_nees > 0) score.nees_share = static_cast<double>(in_band) / with_nees;
   score.position_m = summary_of(std::move(positions_m));
   score.heading_deg = summary_of(std::move(headings_deg));
   return score;

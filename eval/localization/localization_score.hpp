@@ -16,9 +16,10 @@ struct FrameError {
   double stamp_s = 0.0;
   double position_m = 0.0;   ///< distance on the floor from the true place
   double heading_rad = 0.0;  ///< of the believed yaw, from 0 to pi
-  double nees = 0.0;         ///< see core's nees; infinite where the covariance is singular
-  double sigma_m = 0.0;      ///< square root of the trace of the position's covariance
-  bool converged = false;    ///< at this frame or before it
+  /// See core's nees; infinite where the covariance is singular, nothing where all of it is 0.
+  std::optional<double> nees;
+  double sigma_m = 0.0;    ///< square root of the trace of the position's covariance
+  bool converged = false;  ///< at this frame or before it
 };
 
 /// Of the frames after convergence.
@@ -31,8 +32,8 @@ struct LocalizationScore {
   std::optional<double> converged_s;  ///< stamp of the first frame that is; nothing: never
   int converged_frames = 0;
   ErrorSummary position_m, heading_deg;  ///< of the converged frames
-  /// Share of the converged frames whose NEES lies in kNeesBand; nothing where no frame converged,
-  /// and where no covariance was given (all are 0).
+  /// Of the converged frames that have a NEES, the share that lies in kNeesBand; nothing where none
+  /// has.
   std::optional<double> nees_share;
 };
 

@@ -58,7 +58,8 @@ GreyRule rule_of(const YamlValue& root) {
   if (!root.has("mode")) return rule;
   const YamlValue mode = root.at("mode");
   rule.scale = mode.text() == "scale";
-  if (!rule.scale && mode.text() != "trinary") mode.refuse("must be trinary or scale");
+  if (!rule.scale && mode.text() != "trinary")
+    mode.refuse("must be trinary or scale; write one of them");
   return rule;
 }
 
@@ -67,7 +68,8 @@ GridFrame frame_of(const YamlValue& root) {
   frame.resolution_m = root.at("resolution").positive();
   const YamlValue origin = root.at("origin");
   const std::vector<YamlValue> items = origin.items();
-  if (items.size() != 3) origin.refuse("expected [x, y, yaw] in metres and radians");
+  if (items.size() != 3)
+    origin.refuse("expected [x, y, yaw] in metres and radians; write three numbers");
   frame.T_map_grid = {items[0].number(), items[1].number(), items[2].number()};
   return frame;
 }

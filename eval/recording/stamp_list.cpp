@@ -11,7 +11,7 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr const char* kNoFrames = "the recording has no frames, record it again";
+constexpr const char* kNoFrames = "the file was cut off, or nothing was recorded; record anew";
 
 }  // namespace
 

@@ -19,10 +19,10 @@ namespace mapscore::eval {
 YamlValue YamlValue::load(const std::filesystem::path& file) {
   try {
     YamlValue value(file.string(), "", YAML::Load(read_file(file)));
-    if (!value.node_.IsMap()) value.refuse("not a map of keys; make the recording again");
+    if (!value.node_.IsMap()) value.refuse("not a map of keys; write key: value lines");
     return value;
   } catch (const YAML::Exception& error) {
-    throw Error(fmt::format("{}:{}: broken YAML ({}); mend the line or make the recording again",
+    throw Error(fmt::format("{}:{}: broken YAML ({}); mend the line or make the file anew",
                             file.string(), std::max(error.mark.line, 0) + 1, one_line(error.msg)));
   }
 }
@@ -70,12 +70,12 @@ bool YamlValue::boolean() const {
 
 double YamlValue::number() const {
   const auto number = node_.IsScalar() ? parse_number(node_.Scalar()) : std::nullopt;
-  if (!number) refuse("expected a finite number");
+  if (!number) refuse("expected a finite number; write one");
   return *number;
 }
 
 double YamlValue::positive() const {
-  if (number() <= 0.0) refuse(fmt::format("{} is not above 0", number()));
+  if (number() <= 0.0) refuse(fmt::format("{} is not above 0; write a greater number", number()));
   return number();
 }
 

@@ -19,7 +19,7 @@ namespace mapscore::eval {
 namespace {
 
 constexpr const char* kSourceKey = "localization.source";
-constexpr double kPointEvery_s = 0.1;    ///< of a drawn line
+constexpr double kPointEvery_s = 0.1;     ///< of a drawn line
 constexpr double kEllipseEvery_s = 30.0;  ///< of the ellipses along it
 
 /// Configurations, one for each source that does not put the robot where it is.
@@ -63,15 +63,17 @@ DrawnTrajectory drawn_truth(const Recording& recording) {
   return truth;
 }
 
+/// From its convergence on.
 DrawnTrajectory drawn(const Recording& recording, const std::string& name,
-                      const BelievedTrajectory& believed) {
+                      const BelievedTrajectory& believed, double from_s) {
   DrawnTrajectory line{name, {}, {}};
   for (const double stamp_s : stamps_of(recording, kPointEvery_s)) {
+    if (stamp_s < from_s) continue;
     const PlanarPose mean = planar_estimate(believed.at(stamp_s)).mean;
     line.points_map.emplace_back(mean.x_m, mean.y_m);
   }
   for (const double stamp_s : stamps_of(recording, kEllipseEvery_s))
-    line.beliefs.push_back(planar_estimate(believed.at(stamp_s)));
+    if (stamp_s >= from_s) line.beliefs.push_back(planar_estimate(believed.at(stamp_s)));
   return line;
 }
 
@@ -99,16 +101,19 @@ std::vector<std::filesystem::path> draw_believed(const Study& study, const Recor
   const std::vector<Study> configs = sources_of(study, choice);
   if (configs.empty() || !recording.has_scans()) return {};
   std::vector<DrawnTrajectory> lines{drawn_truth(recording)};
-  TrajectoryNotes notes{
-      "trajectory_on_grid", fmt::format("{}: where the robot believes it is", study.name), "", {}};
+  TrajectoryNotes notes{"trajectory_on_grid",
+                        fmt::format("{}: where the robot believes it is", study.name),
+                        fmt::format("Seed {}. ", choice.seed_index),
+                        {}};
   for (const Study& config : configs) {
     Task task;
     task.config = config;
     task.seed_index = choice.seed_index;
     const BelievedTrajectory believed = believed_trajectory(recording, task);
     const std::string name = name_of(config.localization.source);
-    lines.push_back(drawn(recording, name, believed));
-    notes.caption += errors_text(name, score_localization(believed, true_poses(recording)));
+    const LocalizationScore score = score_localization(believed, true_poses(recording));
+    if (score.converged_s) lines.push_back(drawn(recording, name, believed, *score.converged_s));
+    notes.caption += errors_text(name, score);
   }
   if (study.scene)
     for (const auto& [x, y, yaw] : study.trajectory.waypoints_m_deg)

@@ -18,6 +18,8 @@
 namespace mapscore::eval {
 namespace {
 
+constexpr double kThinnestM =
+    1e-3;  ///< axis of a drawn ellipse; gnuplot takes 0 for its own default
 constexpr double kLongestSide_in = 6.2, kHighest_in = 7.5, kMargin_m = 0.25;
 constexpr double kTurned_rad = 1e-9;  ///< a grid turned by less lies along the map's axes
 constexpr const char* kTruthColour = "#999999";
@@ -167,7 +169,9 @@ class TrajectoryFigure {
     const std::string what = trajectories_[t].name + ", 2 sigma";
     const std::string of = block(what, "x y first_axis_m second_axis_m angle_deg");
     for (const PoseEstimate& belief : trajectories_[t].beliefs) {
-      const PlanarEllipse e = two_sigma_ellipse(belief);
+      PlanarEllipse e = two_sigma_ellipse(belief);
+      e.first_axis_m = std::max(e.first_axis_m, kThinnestM);
+      e.second_axis_m = std::max(e.second_axis_m, kThinnestM);
       sheet_.data +=
           fmt::format("{:.4f} {:.4f} {:.4f} {:.4f} {:.2f}\n", e.centre.x(), e.centre.y(),
                       e.first_axis_m, e.second_axis_m, e.angle_rad * 180.0 / std::numbers::pi);

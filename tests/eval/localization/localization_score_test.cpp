@@ -42,8 +42,8 @@ TEST(LocalizationScore, CountsFromConvergenceOn) {
   EXPECT_NEAR(score.position_m.p95, 0.1 + 0.85 * 0.1, 1e-12);
   EXPECT_NEAR(score.position_m.max, 0.2, 1e-12);
   EXPECT_NEAR(score.heading_deg.mean, 0.5, 1e-9);
-  EXPECT_NEAR(score.frames[1].nees, 0.25, 1e-12);
-  EXPECT_NEAR(score.frames[4].nees, 4.0 / 9.0, 1e-12);
+  EXPECT_NEAR(score.frames[1].nees.value(), 0.25, 1e-12);
+  EXPECT_NEAR(score.frames[4].nees.value(), 4.0 / 9.0, 1e-12);
   EXPECT_EQ(score.nees_share, 0.75);  // the exact frame lies below the band
 }
 
