@@ -53,21 +53,9 @@ Study study_of(const LocalizeFlags& flags) {
   set_leaf(study, "faults.lidar.preset", "rplidar_a2");
   if (flags.global_start) set_leaf(study, "localization.filter.start", "global");
   study.localization.grid = flags.grid;
-  for (const std::string& override : flags.overrides) {
-    const std::size_t equals = override.find('=');
-    if (equals == std::string::npos)
-      throw Error("--set " + override + ": must be path=value, e.g. localization.filter.beams=60");
-    set_leaf(study, override.substr(0, equals), override.substr(equals + 1));
-  }
+  set_leaves(study, flags.overrides);
   check(study);
   return study;
-}
-
-std::vector<TrajectoryPose> true_poses(const Recording& recording) {
-  std::vector<TrajectoryPose> poses;
-  for (int n = 0; n < recording.frame_count(); ++n)
-    poses.push_back({recording.color_stamp_s(n), recording.T_world_base_of_color(n)});
-  return poses;
 }
 
 std::string csv_of(int seed, const LocalizationScore& score) {
@@ -96,7 +84,6 @@ void print_row(const std::string& source, int seed, const LocalizationScore& sco
 std::vector<LocalizationScore> localised(const Study& study, const Recording& recording,
                                          const OccupancyGrid& grid, bool quiet,
                                          const fs::path& folder) {
-  const std::vector<TrajectoryPose> frames = true_poses(recording);
   Progress progress("localize", "turns", quiet);
   std::vector<LocalizationScore> scores;
   for (int run = 0; run < study.seeds; ++run) {
@@ -108,7 +95,7 @@ std::vector<LocalizationScore> localised(const Study& study, const Recording& re
           progress.show(std::int64_t{run} * total + done, std::int64_t{study.seeds} * total);
         });
     if (run == 0) write_whole_file(folder / "localization.txt", believed_text(believed));
-    scores.push_back(score_localization(believed, frames));
+    scores.push_back(score_localization(believed, recording));
   }
   return scores;
 }

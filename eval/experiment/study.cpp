@@ -43,6 +43,15 @@ void set_leaf(Study& study, std::string_view path, const std::string& yaml_value
   set_leaf(study, path, parse_yaml_value(yaml_value, "", std::string(path)));
 }
 
+void set_leaves(Study& study, const std::vector<std::string>& overrides) {
+  for (const std::string& override : overrides) {
+    const std::size_t equals = override.find('=');
+    if (equals == std::string::npos)
+      throw Error("--set " + override + ": must be path=value, e.g. cameras.width_px=320");
+    set_leaf(study, override.substr(0, equals), override.substr(equals + 1));
+  }
+}
+
 std::string leaf_text(const Study& study, std::string_view path) {
   std::string text;
   const auto get = [&](const Field&, const auto& leaf) {

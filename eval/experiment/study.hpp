@@ -245,6 +245,9 @@ struct Study {
 /// Error naming the path, and then leaves the study as it was.
 void set_leaf(Study& study, std::string_view path, const std::string& yaml_value);
 
+/// The same for `path=value` texts of flags, in their order.
+void set_leaves(Study& study, const std::vector<std::string>& overrides);
+
 /// Canonical text of the leaf at a dotted path; an unset optional leaf is "-". Throws as set_leaf.
 [[nodiscard]] std::string leaf_text(const Study& study, std::string_view path);
 

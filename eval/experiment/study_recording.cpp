@@ -228,12 +228,7 @@ Study study_of_scene(const std::filesystem::path& scene,
   study.name = scene.stem().string();
   study.scene = scene.filename().string();
   study.base_folder = scene.parent_path();
-  for (const std::string& override : overrides) {
-    const std::size_t equals = override.find('=');
-    if (equals == std::string::npos)
-      throw Error("--set " + override + ": must be path=value, e.g. cameras.width_px=320");
-    set_leaf(study, override.substr(0, equals), override.substr(equals + 1));
-  }
+  set_leaves(study, overrides);
   if (const auto own = own_robot(); own && !study.robot && !names_base_footprint(robot_path(study)))
     study.robot = own->string();
   return study;

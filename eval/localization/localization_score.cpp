@@ -67,4 +67,12 @@ LocalizationScore score_localization(const BelievedTrajectory& believed,
   return score;
 }
 
+LocalizationScore score_localization(const BelievedTrajectory& believed,
+                                     const Recording& recording) {
+  std::vector<TrajectoryPose> truth;
+  for (int frame = 0; frame < recording.frame_count(); ++frame)
+    truth.push_back({recording.color_stamp_s(frame), recording.T_world_base_of_color(frame)});
+  return score_localization(believed, truth);
+}
+
 }  // namespace mapscore::eval

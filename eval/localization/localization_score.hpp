@@ -4,6 +4,7 @@
 #pragma once
 
 #include "eval/localization/believed_trajectory.hpp"
+#include "eval/recording/recording.hpp"
 #include "eval/recording/stamp_list.hpp"
 
 #include <optional>
@@ -46,5 +47,9 @@ inline constexpr double kConvergedSigma = 0.2;
 /// Throws Error where the belief does not reach a stamp.
 [[nodiscard]] LocalizationScore score_localization(const BelievedTrajectory& believed,
                                                    const std::vector<TrajectoryPose>& truth);
+
+/// As above, at each colour image of a recording.
+[[nodiscard]] LocalizationScore score_localization(const BelievedTrajectory& believed,
+                                                   const Recording& recording);
 
 }  // namespace mapscore::eval

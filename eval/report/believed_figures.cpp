@@ -37,14 +37,6 @@ std::vector<Study> sources_of(const Study& study, const PictureChoice& choice) {
   return configs;
 }
 
-/// True poses at each frame's colour image.
-std::vector<TrajectoryPose> true_poses(const Recording& recording) {
-  std::vector<TrajectoryPose> poses;
-  for (int frame = 0; frame < recording.frame_count(); ++frame)
-    poses.push_back({recording.color_stamp_s(frame), recording.T_world_base_of_color(frame)});
-  return poses;
-}
-
 /// Stamps from the first to the last frame.
 std::vector<double> stamps_of(const Recording& recording, double every_s) {
   const double first_s = recording.color_stamp_s(0);
@@ -111,7 +103,7 @@ std::vector<std::filesystem::path> draw_believed(const Study& study, const Recor
     task.seed_index = choice.seed_index;
     const BelievedTrajectory believed = believed_trajectory(recording, task);
     const std::string name = name_of(config.localization.source);
-    const LocalizationScore score = score_localization(believed, true_poses(recording));
+    const LocalizationScore score = score_localization(believed, recording);
     if (score.converged_s) lines.push_back(drawn(recording, name, believed, *score.converged_s));
     notes.caption += errors_text(name, score);
   }

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path temporary_file() {
-  std::string name = fs::temp_directory_path() / "mapscore_output_XXXXXX";
+  std::string name = fs::temp_directory_path() / ("mapscore_output_" + std::string(6, 'X'));
   const int file = mkstemp(name.data());
   if (file < 0) throw std::runtime_error(name + ": cannot be created");
   close(file);
