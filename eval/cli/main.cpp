@@ -48,6 +48,7 @@ int run(CLI::App& program, int argc, char** argv) {
   namespace verbs = mapscore::eval;
   verbs::add_record(program);
   verbs::add_run(program);
+  verbs::add_frames(program);
   verbs::add_sweep(program);
   verbs::add_localize(program);
   verbs::add_truth(program);

@@ -11,6 +11,7 @@ namespace mapscore::eval {
 /// when the input is wrong; `check` sets `exit_code` to 1 when the answer is no.
 void add_record(CLI::App& program);
 void add_run(CLI::App& program);
+void add_frames(CLI::App& program);
 void add_sweep(CLI::App& program);
 void add_localize(CLI::App& program);
 void add_truth(CLI::App& program);

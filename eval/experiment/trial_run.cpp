@@ -97,10 +97,13 @@ void TrialRun::advance(const Frame& frame) {
   const bool by_itself = task_.config.score.unit == ScoreUnit::frame;
   if (by_itself) map_ = SemanticMap(map_.edge_m());
   Counts counts = no_counts();
+  times_ = {};
   const Observation observation =
       task_.labels == Labels::truth ? observe_truth(frame) : observe(frame, counts);
+  const double before_mapping_s = thread_seconds();
   const auto hits = place(observation, sensor_poses(frame.index), map_.edge_m());
   map_.blend(hits, blend_.N, blend_.K);
+  times_.mapping_s = thread_seconds() - before_mapping_s;
   ++result_.accounting.frames;
   if (by_itself) {
     look_up_truth_of(frame.depth_index);
@@ -108,7 +111,7 @@ void TrialRun::advance(const Frame& frame) {
   }
   pool_into(result_.counts, counts);
   if (by_itself && keeps_frames_)
-    frames_.push_back({frame.index, frame.stamp_s, std::move(counts)});
+    frames_.push_back({frame.index, frame.stamp_s, std::move(counts), times_});
 }
 
 TrialResult TrialRun::finish() {
@@ -122,12 +125,16 @@ Observation TrialRun::observe(const Frame& frame, Counts& counts) {
       sim::corrupt_detections(frame.label, table_, label_dose_, seed, frame.index);
   const cv::Mat1w depth =
       sim::corrupt_depth(frame.depth, true_.depth, depth_dose_, seed, frame.depth_index);
+  const double before_s = thread_seconds();
   const RegisteredCloud cloud = register_depth(
       depth, believed_, pixels_wanted(detections, frame.label.cols, frame.label.rows));
+  times_.registration_s = thread_seconds() - before_s;
   const std::vector<Eigen::AlignedBox3d>& true_boxes = boxes_.of(frame);
   Observation observation;
   for (const Detection& detection : detections) {
+    const double before_segment_s = thread_seconds();
     Segment found = segment(detection, cloud, map_.edge_m(), segmentation_, place_voxels_);
+    times_.segmentation_s += thread_seconds() - before_segment_s;
     account(found);
     const bool right = found.class_id == table_.class_of(found.instance);
     counts[found.class_id].boxes.add(right ? found.box : Eigen::AlignedBox3d(),

@@ -9,6 +9,7 @@
 #include "core/mapping/observation.hpp"
 #include "core/mapping/semantic_map.hpp"
 #include "core/segmentation/segmentation.hpp"
+#include "eval/experiment/frame_times.hpp"
 #include "eval/experiment/lattice_truth.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/pose_sources.hpp"
@@ -18,6 +19,7 @@
 #include "sim/faults/label_dose.hpp"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace mapscore::eval {
@@ -27,6 +29,7 @@ struct FrameResult {
   int frame = 0;  ///< index in the recording
   double stamp_s = 0.0;
   Counts counts;  ///< by class id
+  FrameTimes times;
 };
 
 /// One trial under way: takes the frames of a recording in order and ends in counts. Used by one
@@ -54,6 +57,8 @@ class TrialRun {
 
   /// What was kept, in the order of the frames; added up, the counts of the trial.
   [[nodiscard]] const std::vector<FrameResult>& frames() const { return frames_; }
+  /// The same, and they are not kept any longer.
+  [[nodiscard]] std::vector<FrameResult> take_frames() { return std::exchange(frames_, {}); }
 
   /// The map as it stands; of the last frame where each is scored by itself.
   [[nodiscard]] const SemanticMap& map() const { return map_; }
@@ -96,6 +101,7 @@ class TrialRun {
   std::shared_ptr<const LatticeTruth> instance_truth_;  ///< none where instances are not scored
   SemanticMap map_;
   TrialResult result_;
+  FrameTimes times_;  ///< of the last frame
   bool keeps_frames_ = false;
   std::vector<FrameResult> frames_;
 };

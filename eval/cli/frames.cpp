@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/error.hpp"
+#include "eval/cli/options.hpp"
+#include "eval/cli/progress.hpp"
+#include "eval/cli/recording_progress.hpp"
+#include "eval/cli/verbs.hpp"
+#include "eval/experiment/plan.hpp"
+#include "eval/experiment/study_recording.hpp"
+#include "eval/experiment/study_store.hpp"
+#include "eval/experiment/trial_run.hpp"
+#include "eval/recording/frame_cache.hpp"
+#include "eval/recording/whole_file.hpp"
+#include "eval/report/frames_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FramesFlags {
+  StudyFlags study;
+  WorkFlags work;
+  int seed = 0;
+  std::string format = "text";
+};
+
+/// The trials of one seed at the first cell of the sweep, a method each.
+std::vector<Task> tasks_of(const Study& study, int seed, const std::string& recording_hash) {
+  if (study.score.unit != ScoreUnit::frame)
+    throw Error("score.unit: each frame is scored by itself here; --set score.unit=frame");
+  if (seed < 0 || seed >= study.seeds)
+    throw Error(fmt::format("no trial of seed {}; seeds: 0 to {}", seed, study.seeds - 1));
+  std::vector<Task> tasks;
+  std::vector<std::string> seen;
+  for (const TrialSpec& spec : trials(study)) {
+    if (spec.seed_index != seed || std::find(seen.begin(), seen.end(), spec.method) != seen.end())
+      continue;
+    seen.push_back(spec.method);
+    tasks.push_back(task_of(study, spec, Labels::detected, recording_hash));
+  }
+  return tasks;
+}
+
+/// All methods walk the frames together, on one thread, so that their times compare.
+std::vector<MethodFrames> walk(const std::vector<Task>& tasks, const Recording& recording,
+                               const ClassTable& table, const FramesFlags& flags) {
+  FrameCache frames(recording, {.color = false, .label = true, .depth = true, .depth_label = true},
+                    flags.work.memory_bytes);
+  TruthCache truths(recording, table, frames, 1);
+  PoseSources poses(recording);
+  std::vector<std::unique_ptr<TrialRun>> runs;
+  std::vector<MethodFrames> methods;
+  for (const Task& task : tasks) {
+    runs.push_back(std::make_unique<TrialRun>(task, recording, table, truths, poses));
+    runs.back()->keep_frames();
+    methods.push_back({task.config.methods.front().name, {}});
+  }
+  Progress progress("frames", "frames", flags.work.quiet);
+  for (int frame = 0; frame < recording.frame_count(); ++frame) {
+    for (std::size_t m = 0; m < runs.size(); ++m) {
+      runs[m]->advance(*frames.get(frame, runs[m]->depth_of(frame)));
+      for (const FrameResult& result : runs[m]->take_frames())
+        methods[m].frames.push_back(figures_of(result, table));
+    }
+    progress.show(frame + 1, recording.frame_count());
+  }
+  return methods;
+}
+
+void compare_frames(const FramesFlags& flags) {
+  const Study study = flags.study.load();
+  const fs::path results = flags.study.results_folder(study);
+  ShownRecording shown(flags.work.quiet);
+  const Recording recording = recording_of(study, results, flags.work.jobs, shown.progress());
+  const ClassTable table = detected_table(study, recording.info().table);
+  const std::vector<Task> tasks = tasks_of(study, flags.seed, recording.content_hash());
+  const std::vector<MethodFrames> methods = walk(tasks, recording, table, flags);
+  const fs::path folder = results / "frames";
+  fs::create_directories(folder);
+  const Table times = frames_table(methods);
+  write_whole_file(folder / "by_method.csv", to_csv(times));
+  std::cout << (flags.format == "csv"    ? to_csv(times)
+                : flags.format == "json" ? to_json(times)
+                                         : to_text(times));
+  if (flags.format != "text") return void(draw(frames_figure(study, table, methods), folder));
+  for (const fs::path& file : draw(frames_figure(study, table, methods), folder))
+    std::cout << file.string() << '\n';
+}
+
+}  // namespace
+
+void add_frames(CLI::App& program) {
+  auto* verb =
+      program.add_subcommand("frames", "All methods, frame by frame: voxels, scores, times");
+  const auto flags = std::make_shared<FramesFlags>();
+  flags->study.add_to(*verb);
+  flags->work.add_to(*verb);
+  verb->add_option("--seed", flags->seed, "Index of the seed [0]");
+  verb->add_option("--format", flags->format, "text, csv or json [text]")
+      ->check(CLI::IsMember({"text", "csv", "json"}));
+  verb->footer(
+      "Walks the recording once, all methods side by side on one thread, at the first cell of the "
+      "sweep; --set changes doses.\n"
+      "Prints a table of times (processor time of a frame, in milliseconds), voxels and scores, "
+      "and writes to RESULTS/frames: by_method.csv and the figure by_frame (PNG, PDF, script, "
+      "numbers).\n"
+      "Examples:\n"
+      "  mapscore frames configs/person_sequence.yaml\n"
+      "  mapscore frames configs/person_sequence.yaml --set 'sweep={}' --set "
+      "faults.misregistration.magnitude_m=0.02 --format csv");
+  verb->callback([flags] { compare_frames(*flags); });
+}
+
+}  // namespace mapscore::eval
