@@ -5,37 +5,18 @@
 
 #include "core/error.hpp"
 #include "core/mapping/frame_hits.hpp"
+#include "core/mapping/free_space.hpp"
+#include "core/mapping/whole_file.hpp"
 
 #include <octomap/ColorOcTree.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <functional>
-#include <system_error>
 #include <utility>
 #include <variant>
 
 namespace mapscore {
-namespace {
-
-/// Writes aside and renames, so that a full disk never leaves half a file under the name asked for.
-void write_whole(const std::filesystem::path& file,
-                 const std::function<bool(std::ostream&)>& write) {
-  const std::filesystem::path aside = file.string() + ".partial";
-  std::ofstream stream(aside, std::ios::binary);
-  const bool written = stream && write(stream) && stream.flush();
-  stream.close();
-  std::error_code error;
-  if (written && stream) std::filesystem::rename(aside, file, error);
-  if (written && stream && !error) return;
-  std::filesystem::remove(aside, error);
-  throw Error(file.string() +
-              ": cannot be written; check the folder, its permissions and free space");
-}
-
-}  // namespace
-
 SemanticMap::SemanticMap(double edge_m) : edge_m_(edge_m) {
   if (!(edge_m > 0.0) || !std::isfinite(edge_m))
     throw Error("voxel_m: must be a positive length in metres");
@@ -56,12 +37,49 @@ void SemanticMap::fuse(std::span<const VoxelHit> hits, int draws, const FusionRu
             hits_beyond_span_ += of_voxel.size();
             return;
           }
-          constexpr bool kLazy = true;  // inner nodes are brought up to date when the map is saved
-          mapscore::fuse(kind, of_voxel, draws,
-                         tree_->updateNode(octree_key(key), true, kLazy)->beliefs);
+          // Inner nodes are brought up to date when the map is saved.
+          SemanticOcTreeNode& voxel =
+              carving_ ? tree_->finest(octree_key(key)) : tree_->hit(octree_key(key));
+          mapscore::fuse(kind, of_voxel, draws, voxel.mutable_beliefs());
         });
       },
       rule);
+}
+
+void SemanticMap::set_carving(const Carving& carving) {
+  check(carving.model);
+  if (carving.max_range_m && !(*carving.max_range_m > 0.0))
+    throw Error("max_range_m: must be a positive length in metres");
+  carving_ = carving;
+  tree_->set_model(carving.model);
+}
+
+void SemanticMap::see(const Eigen::Vector3d& origin, std::span<const Eigen::Vector3d> points,
+                      std::span<const VoxelHit> hits) {
+  if (!carving_) throw Error("map: does not carve; set its carving before the first frame");
+  std::vector<VoxelKey> hit_voxels;
+  hit_voxels.reserve(hits.size());
+  for (const VoxelHit& hit : hits) hit_voxels.push_back(hit.key);
+  const SeenSpace seen = seen_space(origin, points, edge_m_, carving_->max_range_m, hit_voxels);
+  hits_beyond_span_ += seen.points_left_out;
+  tree_->observe(seen.blocks);
+}
+
+void SemanticMap::add_colours(std::span<const ColouredPoint> points) {
+  for (const ColouredPoint& point : points) {
+    if (!(point.position.array().abs() < edge_m_ * (1 << 15)).all()) continue;
+    const octomap::OcTreeKey key = octree_key(voxel_of(point.position, edge_m_));
+    if (tree_->search(key) != nullptr) tree_->finest(key).mutable_colour().add(point.colour);
+  }
+}
+
+void SemanticMap::merge(const SemanticMap& other, const FusionRule& rule) {
+  if (other.edge_m_ != edge_m_)
+    throw Error("merge: the maps' voxels differ in size; map both with the same voxel_m");
+  check(rule);
+  (void)merged(rule, {}, {});  // says whether the rule allows it
+  tree_->merge(*other.tree_, rule);
+  hits_beyond_span_ += other.hits_beyond_span_;
 }
 
 std::vector<MapVoxel> SemanticMap::voxels() const {
@@ -84,7 +102,13 @@ std::vector<MapVoxel> SemanticMap::voxels() const {
 
 std::span<const ClassProbability> SemanticMap::classes_at(const VoxelKey& key) const {
   const SemanticOcTreeNode* node = fits_octree(key) ? tree_->search(octree_key(key)) : nullptr;
-  return node ? std::as_const(node->beliefs).entries() : std::span<const ClassProbability>();
+  return node ? node->beliefs().entries() : std::span<const ClassProbability>();
+}
+
+std::optional<Colour> SemanticMap::colour_at(const VoxelKey& key) const {
+  const SemanticOcTreeNode* node = fits_octree(key) ? tree_->search(octree_key(key)) : nullptr;
+  if (node == nullptr || node->colour().count == 0) return std::nullopt;
+  return node->colour().mean();
 }
 
 void SemanticMap::save(const std::filesystem::path& file) const {

@@ -136,6 +136,14 @@ class NodeReader {
     leaf.probability = std::min(best.probability, 1.0);
   }
 
+  /// A semantic voxel's sums of red, green and blue and their number; labels are its classes.
+  void pass_colour() {
+    const auto r = take<std::uint32_t>(), g = take<std::uint32_t>(), b = take<std::uint32_t>();
+    const std::uint64_t most = std::uint64_t{255} * take<std::uint32_t>();
+    if (most == 0 || r > most || g > most || b > most)
+      damaged(fmt::format("node {} has colours that exceed their number", nodes_));
+  }
+
   enum State { kUnknown = 0, kFree = 1, kOccupied = 2, kInner = 3 };
 
   std::string_view bytes_;

@@ -152,7 +152,7 @@ TEST_F(OctreeFile, PrunedSemanticTreeIsWhatOctoMapReads) {
       for (int k = 0; k < 4; ++k) {
         auto* node = tree.updateNode(octree_key({i, j, k}), i < 4);
         if (j >= 0)
-          node->beliefs =
+          node->mutable_beliefs() =
               ClassBeliefs({{1, 0.25}, {2, i < 0 ? 0.5 : 0.25}, {3, j < 4 ? 0.125 : 1.0}});
       }
   tree.prune();
