@@ -4,53 +4,19 @@
 #include "core/mapping/semantic_map.hpp"
 
 #include "core/error.hpp"
+#include "core/mapping/frame_hits.hpp"
+#include "core/mapping/free_space.hpp"
+#include "core/mapping/whole_file.hpp"
 
 #include <octomap/ColorOcTree.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <functional>
-#include <system_error>
+#include <utility>
+#include <variant>
 
 namespace mapscore {
-namespace {
-
-/// Below this a decayed class is forgotten; no threshold in use comes near it.
-constexpr double kForgotten = 1e-6;
-
-/// Adds `gain` to a class of a voxel whose classes have already decayed.
-void add(std::vector<ClassProbability>& classes, ClassId class_id, double gain) {
-  const auto place = std::lower_bound(
-      classes.begin(), classes.end(), class_id,
-      [](const ClassProbability& entry, ClassId id) { return entry.class_id < id; });
-  if (place != classes.end() && place->class_id == class_id)
-    place->probability += gain;
-  else
-    classes.insert(place, {class_id, gain});
-}
-
-void decay(std::vector<ClassProbability>& classes, double K) {
-  for (ClassProbability& entry : classes) entry.probability *= K;
-}
-
-/// Writes aside and renames, so that a full disk never leaves half a file under the name asked for.
-void write_whole(const std::filesystem::path& file,
-                 const std::function<bool(std::ostream&)>& write) {
-  const std::filesystem::path aside = file.string() + ".partial";
-  std::ofstream stream(aside, std::ios::binary);
-  const bool written = stream && write(stream) && stream.flush();
-  stream.close();
-  std::error_code error;
-  if (written && stream) std::filesystem::rename(aside, file, error);
-  if (written && stream && !error) return;
-  std::filesystem::remove(aside, error);
-  throw Error(file.string() +
-              ": cannot be written; check the folder, its permissions and free space");
-}
-
-}  // namespace
-
 SemanticMap::SemanticMap(double edge_m) : edge_m_(edge_m) {
   if (!(edge_m > 0.0) || !std::isfinite(edge_m))
     throw Error("voxel_m: must be a positive length in metres");
@@ -60,21 +26,60 @@ SemanticMap::SemanticMap(double edge_m) : edge_m_(edge_m) {
 SemanticMap::SemanticMap(std::unique_ptr<SemanticOcTree> tree)
     : edge_m_(tree->getResolution()), tree_(std::move(tree)) {}
 
-void SemanticMap::blend(std::span<const VoxelHit> hits, int draws, double K) {
-  for (auto hit = hits.begin(); hit != hits.end();) {
-    const VoxelKey key = hit->key;
-    const auto end = std::find_if(hit, hits.end(), [&](const VoxelHit& h) { return h.key != key; });
-    if (!fits_octree(key)) {
-      hits_beyond_span_ += static_cast<std::size_t>(end - hit);
-      hit = end;
-      continue;
-    }
-    constexpr bool kLazy = true;  // inner nodes are brought up to date when the map is saved
-    auto& classes = tree_->updateNode(octree_key(key), true, kLazy)->classes;
-    decay(classes, K);
-    for (; hit != end; ++hit) add(classes, hit->class_id, (1.0 - K) * hit->score_sum / draws);
-    std::erase_if(classes, [](const ClassProbability& c) { return c.probability < kForgotten; });
+void SemanticMap::fuse(std::span<const VoxelHit> hits, int draws, const FusionRule& rule,
+                       std::size_t class_count) {
+  check_fusion(hits, draws, rule, class_count);
+  std::visit(
+      [&](const auto& kind) {
+        for_each_voxel(hits, [&](std::span<const VoxelHit> of_voxel) {
+          const VoxelKey& key = of_voxel.front().key;
+          if (!fits_octree(key)) {
+            hits_beyond_span_ += of_voxel.size();
+            return;
+          }
+          // Inner nodes are brought up to date when the map is saved.
+          SemanticOcTreeNode& voxel =
+              carving_ ? tree_->finest(octree_key(key)) : tree_->hit(octree_key(key));
+          mapscore::fuse(kind, of_voxel, draws, voxel.mutable_beliefs());
+        });
+      },
+      rule);
+}
+
+void SemanticMap::set_carving(const Carving& carving) {
+  check(carving.model);
+  if (carving.max_range_m && !(*carving.max_range_m > 0.0))
+    throw Error("max_range_m: must be a positive length in metres");
+  carving_ = carving;
+  tree_->set_model(carving.model);
+}
+
+void SemanticMap::see(const Eigen::Vector3d& origin, std::span<const Eigen::Vector3d> points,
+                      std::span<const VoxelHit> hits) {
+  if (!carving_) throw Error("map: does not carve; set its carving before the first frame");
+  std::vector<VoxelKey> hit_voxels;
+  hit_voxels.reserve(hits.size());
+  for (const VoxelHit& hit : hits) hit_voxels.push_back(hit.key);
+  const SeenSpace seen = seen_space(origin, points, edge_m_, carving_->max_range_m, hit_voxels);
+  hits_beyond_span_ += seen.points_left_out;
+  tree_->observe(seen.blocks);
+}
+
+void SemanticMap::add_colours(std::span<const ColouredPoint> points) {
+  for (const ColouredPoint& point : points) {
+    if (!(point.position.array().abs() < edge_m_ * (1 << 15)).all()) continue;
+    const octomap::OcTreeKey key = octree_key(voxel_of(point.position, edge_m_));
+    if (tree_->search(key) != nullptr) tree_->finest(key).mutable_colour().add(point.colour);
   }
+}
+
+void SemanticMap::merge(const SemanticMap& other, const FusionRule& rule) {
+  if (other.edge_m_ != edge_m_)
+    throw Error("merge: the maps' voxels differ in size; map both with the same voxel_m");
+  check(rule);
+  (void)merged(rule, {}, {});  // says whether the rule allows it
+  tree_->merge(*other.tree_, rule);
+  hits_beyond_span_ += other.hits_beyond_span_;
 }
 
 std::vector<MapVoxel> SemanticMap::voxels() const {
@@ -97,8 +102,13 @@ std::vector<MapVoxel> SemanticMap::voxels() const {
 
 std::span<const ClassProbability> SemanticMap::classes_at(const VoxelKey& key) const {
   const SemanticOcTreeNode* node = fits_octree(key) ? tree_->search(octree_key(key)) : nullptr;
-  return node ? std::span<const ClassProbability>(node->classes)
-              : std::span<const ClassProbability>();
+  return node ? node->beliefs().entries() : std::span<const ClassProbability>();
+}
+
+std::optional<Colour> SemanticMap::colour_at(const VoxelKey& key) const {
+  const SemanticOcTreeNode* node = fits_octree(key) ? tree_->search(octree_key(key)) : nullptr;
+  if (node == nullptr || node->colour().count == 0) return std::nullopt;
+  return node->colour().mean();
 }
 
 void SemanticMap::save(const std::filesystem::path& file) const {

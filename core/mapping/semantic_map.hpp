@@ -5,11 +5,15 @@
 
 #include "core/classes.hpp"
 #include "core/geometry/voxel.hpp"
-#include "core/mapping/placement.hpp"
+#include "core/mapping/fusion_rule.hpp"
+#include "core/mapping/occupancy.hpp"
 #include "core/mapping/semantic_octree.hpp"
+#include "core/mapping/voxel_hit.hpp"
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +27,20 @@ struct MapVoxel {
   bool occupied = true;
 };
 
+/// Free space by rays, where a map carves.
+struct Carving {
+  OccupancyModel model;
+  std::optional<double> max_range_m;  ///< rays free no farther and hit nothing beyond
+
+  bool operator==(const Carving&) const = default;
+};
+
+/// A point with its colour, in frame `map` (metres).
+struct ColouredPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Colour colour;
+};
+
 /// A semantic voxel map in frame `map`: an octree of class probabilities and occupancy. Not safe
 /// for concurrent writes.
 class SemanticMap {
@@ -32,18 +50,42 @@ class SemanticMap {
 
   [[nodiscard]] double edge_m() const { return edge_m_; }
 
-  /// The blend of [M, section 3.2] over the draws of one frame, per voxel and class:
-  /// M_t = K M_{t-1} + (1 - K) / N * (sum over the draws that the class won of its score).
-  /// Only voxels that some draw hit change; in them the other classes decay by K. `draws` is N.
-  /// Hits beyond the octree's span are left out and counted in `hits_beyond_span`.
-  void blend(std::span<const VoxelHit> hits, int draws, double K);
+  /// Changes the voxels that some draw of one frame hit by the rule; the others keep their value.
+  /// `hits` as place() gives them, `draws` is N. Hits beyond the octree's span are left out and
+  /// counted in `hits_beyond_span`. Throws Error, the map unchanged, when the rule is out of range,
+  /// N < 1, or a hit is not of N draws or names a class beyond `class_count`, the table's size.
+  void fuse(std::span<const VoxelHit> hits, int draws, const FusionRule& rule,
+            std::size_t class_count = kOtherClasses);
+
+  /// From now on occupancy comes from see() alone, by this model; fuse() leaves it as it is.
+  /// Without it each voxel that a frame hits gets one hit of OctoMap's defaults [M]. Throws Error.
+  void set_carving(const Carving& carving);
+  [[nodiscard]] bool carves() const { return carving_.has_value(); }
+  /// One miss for every voxel that a frame at `origin` saw through to `points`, one hit for every
+  /// voxel with a point in it or with one of `hits` (seen_space). Call it before the frame's
+  /// fuse(). Points that are not finite or beyond the octree's span are left out and counted in
+  /// `hits_beyond_span`. Throws Error, the map unchanged, where it does not carve or as seen_space.
+  void see(const Eigen::Vector3d& origin, std::span<const Eigen::Vector3d> points,
+           std::span<const VoxelHit> hits = {});
+  /// Adds each point's colour to its voxel's mean, in voxels that are in the map.
+  void add_colours(std::span<const ColouredPoint> points);
+
+  /// Makes one leaf of eight that agree in all they hold, as often as it goes. No reading of the
+  /// map changes.
+  void prune() { tree_->prune(); }
+  /// Adds the map of other frames: log-odds, clamped; colours; beliefs by merged(rule). Throws
+  /// Error, the map unchanged, when the edges differ or the rule does not allow it.
+  void merge(const SemanticMap& other, const FusionRule& rule);
 
   [[nodiscard]] std::size_t hits_beyond_span() const { return hits_beyond_span_; }
 
   /// All voxels, pruned leaves spread out, ascending by key.
   [[nodiscard]] std::vector<MapVoxel> voxels() const;
-  /// Probabilities of one voxel; empty when it is not in the map.
+  /// What one voxel believes (ClassBeliefs::entries); empty when it is not in the map.
   [[nodiscard]] std::span<const ClassProbability> classes_at(const VoxelKey& key) const;
+  /// Mean colour of one voxel; none when it is not in the map or no colour was seen there.
+  [[nodiscard]] std::optional<Colour> colour_at(const VoxelKey& key) const;
+  [[nodiscard]] const SemanticOcTree& tree() const { return *tree_; }
 
   /// Writes the map as .ot (type SemanticOcTree), aside and then renamed. Throws Error.
   void save(const std::filesystem::path& file) const;
@@ -58,6 +100,7 @@ class SemanticMap {
 
   double edge_m_;
   std::unique_ptr<SemanticOcTree> tree_;
+  std::optional<Carving> carving_;
   std::size_t hits_beyond_span_ = 0;
 };
 

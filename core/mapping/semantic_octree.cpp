@@ -9,11 +9,15 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace mapscore {
 namespace {
 
 constexpr std::int32_t kOctreeOffset = 1 << 15;
+/// In a node's number of classes: a sum of colours follows them.
+constexpr std::uint16_t kHasColour = 0x8000;
 constexpr const char* kMisfit = "its data do not fit its header; write it again";
 
 template <class T>
@@ -54,31 +58,64 @@ OcTreeHeader read_header(std::istream& stream) {
 
 }  // namespace
 
-ClassProbability SemanticOcTreeNode::best() const {
-  ClassProbability best;
-  for (const ClassProbability& candidate : classes)
-    if (candidate.probability > best.probability) best = candidate;
-  return best;
+SemanticOcTreeNode::SemanticOcTreeNode(const SemanticOcTreeNode& other)
+    : octomap::OcTreeNode(other),
+      surface_(other.surface_ ? std::make_unique<Surface>(*other.surface_) : nullptr) {}
+
+const ClassBeliefs& SemanticOcTreeNode::beliefs() const {
+  static const ClassBeliefs kNone;
+  return surface_ ? surface_->beliefs : kNone;
+}
+
+const ColourSum& SemanticOcTreeNode::colour() const {
+  static const ColourSum kNone;
+  return surface_ ? surface_->colour : kNone;
+}
+
+SemanticOcTreeNode::Surface& SemanticOcTreeNode::surface() {
+  if (!surface_) surface_ = std::make_unique<Surface>();
+  return *surface_;
+}
+
+bool SemanticOcTreeNode::operator==(const SemanticOcTreeNode& other) const {
+  if (value != other.value) return false;
+  if (surface_ == other.surface_) return true;
+  return beliefs() == other.beliefs() && colour() == other.colour();
+}
+
+void SemanticOcTreeNode::copyData(const SemanticOcTreeNode& from) {
+  OcTreeNode::copyData(from);
+  surface_ = from.surface_ ? std::make_unique<Surface>(*from.surface_) : nullptr;
 }
 
 std::istream& SemanticOcTreeNode::readData(std::istream& stream) {
   OcTreeNode::readData(stream);
-  classes.resize(read_raw<std::uint16_t>(stream));
-  for (ClassProbability& entry : classes) {
+  const auto head = read_raw<std::uint16_t>(stream);
+  if (head == 0) return stream;
+  std::vector<ClassProbability> entries(head & ~kHasColour);
+  for (ClassProbability& entry : entries) {
     entry.class_id = read_raw<ClassId>(stream);
     entry.probability = read_raw<double>(stream);
   }
+  const ColourSum sum = (head & kHasColour) ? read_raw<ColourSum>(stream) : ColourSum{};
   if (!stream) throw Error("it is truncated; write it again");
+  const std::uint64_t most = std::uint64_t{255} * sum.count;
+  if (((head & kHasColour) && sum.count == 0) || sum.r > most || sum.g > most || sum.b > most)
+    throw Error("a voxel's colours exceed their number; write it again");
+  surface() = {ClassBeliefs(std::move(entries)), sum};
   return stream;
 }
 
 std::ostream& SemanticOcTreeNode::writeData(std::ostream& stream) const {
   OcTreeNode::writeData(stream);
-  write_raw(stream, static_cast<std::uint16_t>(classes.size()));
-  for (const ClassProbability& entry : classes) {
+  const bool coloured = colour().count > 0;
+  const std::size_t classes = beliefs().entries().size();
+  write_raw(stream, static_cast<std::uint16_t>(classes | (coloured ? kHasColour : 0)));
+  for (const ClassProbability& entry : beliefs().entries()) {
     write_raw(stream, entry.class_id);
     write_raw(stream, entry.probability);
   }
+  if (coloured) write_raw(stream, colour());
   return stream;
 }
 

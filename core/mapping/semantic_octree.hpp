@@ -5,6 +5,11 @@
 
 #include "core/classes.hpp"
 #include "core/geometry/voxel.hpp"
+#include "core/mapping/class_beliefs.hpp"
+#include "core/mapping/colour_sum.hpp"
+#include "core/mapping/fusion_rule.hpp"
+#include "core/mapping/occupancy.hpp"
+#include "core/mapping/space_blocks.hpp"
 
 #include <octomap/OcTreeNode.h>
 #include <octomap/OccupancyOcTreeBase.h>
@@ -13,38 +18,46 @@
 #include <iosfwd>
 #include <memory>
 #include <string>
-#include <vector>
+#include <utility>
 
 namespace mapscore {
 
 /// Most finest voxels that the leaves of a map file may cover; damaged leaves can ask for 2^48.
 inline constexpr std::size_t kMostMapVoxels = 50'000'000;
 
-struct ClassProbability {
-  ClassId class_id = kBackground;
-  double probability = 0.0;
-  bool operator==(const ClassProbability&) const = default;
-};
-
-/// Voxel of a semantic map: occupancy log-odds (OctoMap's) and class probabilities, ascending by
-/// class.
+/// Voxel of a semantic map: occupancy log-odds (OctoMap's), and where a surface was seen its mean
+/// colour and what is believed of its class. Free voxels, which are most of a carved map, hold
+/// neither and take 24 bytes.
 class SemanticOcTreeNode : public octomap::OcTreeNode {
  public:
-  std::vector<ClassProbability> classes;
+  SemanticOcTreeNode() = default;
+  SemanticOcTreeNode(const SemanticOcTreeNode& other);
+  SemanticOcTreeNode& operator=(const SemanticOcTreeNode&) = delete;
 
-  bool operator==(const SemanticOcTreeNode& other) const {
-    return value == other.value && classes == other.classes;
-  }
-  void copyData(const SemanticOcTreeNode& from) {
-    OcTreeNode::copyData(from);
-    classes = from.classes;
-  }
+  [[nodiscard]] const ClassBeliefs& beliefs() const;
+  [[nodiscard]] const ColourSum& colour() const;
+  /// For changing them.
+  [[nodiscard]] ClassBeliefs& mutable_beliefs() { return surface().beliefs; }
+  [[nodiscard]] ColourSum& mutable_colour() { return surface().colour; }
+  void clear_surface() { surface_.reset(); }
+
+  bool operator==(const SemanticOcTreeNode& other) const;
+  void copyData(const SemanticOcTreeNode& from);
   /// Most probable class, ties to the lower id; background with probability 0 when there is none.
-  [[nodiscard]] ClassProbability best() const;
+  [[nodiscard]] ClassProbability best() const { return beliefs().best(); }
 
   /// OctoMap's streaming of one node's own data; native byte order, as OctoMap writes its floats.
   std::istream& readData(std::istream& stream);
   std::ostream& writeData(std::ostream& stream) const;
+
+ private:
+  struct Surface {
+    ClassBeliefs beliefs;
+    ColourSum colour;
+  };
+  Surface& surface();
+
+  std::unique_ptr<Surface> surface_;
 };
 
 /// OctoMap octree of semantic voxels; type id "SemanticOcTree" in .ot files. Not safe for
@@ -52,6 +65,8 @@ class SemanticOcTreeNode : public octomap::OcTreeNode {
 class SemanticOcTree : public octomap::OccupancyOcTreeBase<SemanticOcTreeNode> {
  public:
   explicit SemanticOcTree(double edge_m);
+  SemanticOcTree(const SemanticOcTree&) = delete;
+  SemanticOcTree& operator=(const SemanticOcTree&) = delete;
   SemanticOcTree* create() const override { return new SemanticOcTree(resolution); }
   std::string getTreeType() const override { return "SemanticOcTree"; }
 
@@ -60,7 +75,27 @@ class SemanticOcTree : public octomap::OccupancyOcTreeBase<SemanticOcTreeNode> {
   /// Throws Error with the reason, also where the leaves cover more than kMostMapVoxels.
   [[nodiscard]] static std::unique_ptr<SemanticOcTree> read_whole(std::istream& stream);
 
+  /// Takes the numbers of an occupancy model, which must have been checked.
+  void set_model(const OccupancyModel& model);
+  /// The finest voxel of a key, made (log-odds 0) or cut out of a pruned leaf where there is none.
+  [[nodiscard]] SemanticOcTreeNode& finest(const octomap::OcTreeKey& key);
+  /// As octomap's updateNode(key, true, lazy), with one descent, and never into a pruned leaf.
+  [[nodiscard]] SemanticOcTreeNode& hit(const octomap::OcTreeKey& key);
+  /// One update of every voxel of the blocks, which lie within the span: as octomap's updateNode of
+  /// each, pruned and inner occupancy brought up to date above them, in one pass.
+  void observe(const SpaceBlocks& blocks);
+  /// Adds what another tree of the same edge holds: log-odds, clamped, sums of colours, and beliefs
+  /// by merged(rule).
+  void merge(const SemanticOcTree& other, const FusionRule& rule);
+
  protected:
+  class SpaceUpdate;
+  class Merge;
+  /// The root, made where there is none, and whether it was.
+  std::pair<SemanticOcTreeNode*, bool> root_or_new();
+  /// Makes children of a pruned leaf.
+  void expand_leaf(SemanticOcTreeNode* node);
+
   /// Reads the node of `level`, 0 for the finest, and all below it, as long as the tree has at most
   /// `most_nodes`. Returns how many finest voxels its leaves cover.
   std::size_t read_node(std::istream& stream, SemanticOcTreeNode* node, unsigned level,

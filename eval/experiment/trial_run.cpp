@@ -102,7 +102,7 @@ void TrialRun::advance(const Frame& frame) {
       task_.labels == Labels::truth ? observe_truth(frame) : observe(frame, counts);
   const double before_mapping_s = thread_seconds();
   const auto hits = place(observation, sensor_poses(frame.index), map_.edge_m());
-  map_.blend(hits, blend_.N, blend_.K);
+  map_.fuse(hits, blend_.N, BlendRule{blend_.K});
   times_.mapping_s = thread_seconds() - before_mapping_s;
   ++result_.accounting.frames;
   if (by_itself) {

@@ -8,6 +8,8 @@
 #include "tests/support/mutations.hpp"
 #include "tests/support/tiny_recording.hpp"
 
+#include <vector>
+
 namespace mapscore::eval {
 namespace {
 
@@ -52,13 +54,26 @@ TEST_F(DamagedOctree, Semantic) {
   expect_read_or_refused("damaged.ot");
 }
 
+/// The semantic map with a colour in each voxel.
+SemanticMap coloured_map() {
+  SemanticMap map = testing::semantic_map();
+  for (const MapVoxel& voxel : map.voxels())
+    map.add_colours(std::vector<ColouredPoint>{{centre_of(voxel.key, map.edge_m()), {200, 30, 4}}});
+  return map;
+}
+
+TEST_F(DamagedOctree, SemanticWithColour) {
+  coloured_map().save(file_);
+  expect_read_or_refused("damaged.ot");
+}
+
 TEST_F(DamagedOctree, Binary) {
   testing::write_bt(testing::plain_tree(0.2), file_);
   expect_read_or_refused("damaged.bt");
 }
 
 TEST_F(DamagedOctree, SemanticMapLoadsOrRefuses) {
-  testing::semantic_map().save(file_);
+  coloured_map().save(file_);
   const std::string whole = read_file(file_);
   const auto damaged = folder_.path() / "damaged.ot";
   const auto tally = testing::read_mutations(whole, kMutations, [&](const std::string& bytes) {
