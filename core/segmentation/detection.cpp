@@ -3,7 +3,10 @@
 
 #include "core/segmentation/detection.hpp"
 
+#include "core/error.hpp"
+
 #include <algorithm>
+#include <string>
 
 namespace mapscore {
 namespace {
@@ -26,6 +29,26 @@ std::vector<PixelBox> boxes_of(const cv::Mat1w& label, std::size_t instance_coun
   return boxes;
 }
 
+/// Throws Error unless ids are positions and every class exists.
+void check(const ClassTable& table) {
+  for (std::size_t id = 0; id < table.classes.size(); ++id)
+    if (table.classes[id].id != id)
+      throw Error("class table: class " + table.classes[id].name + " has id " +
+                  std::to_string(table.classes[id].id) + " at position " + std::to_string(id) +
+                  "; number classes by their position, 0 is background");
+  for (std::size_t id = 0; id < table.instances.size(); ++id) {
+    const Instance& instance = table.instances[id];
+    if (instance.id != id)
+      throw Error("class table: instance " + instance.name + " has id " +
+                  std::to_string(instance.id) + " at position " + std::to_string(id) +
+                  "; number instances by their position, 0 is background");
+    if (instance.class_id >= table.classes.size())
+      throw Error("class table: instance " + instance.name + " is of class " +
+                  std::to_string(instance.class_id) + ", beyond the last, " +
+                  std::to_string(table.classes.size() - 1) + "; add the class to the table");
+  }
+}
+
 cv::Rect rect_of(const PixelBox& box) {
   return {box.u_min, box.v_min, box.width(), box.height()};
 }
@@ -33,6 +56,7 @@ cv::Rect rect_of(const PixelBox& box) {
 }  // namespace
 
 std::vector<Detection> detections_of(const cv::Mat1w& label, const ClassTable& table) {
+  check(table);
   std::vector<Detection> detections;
   const std::vector<PixelBox> boxes = boxes_of(label, table.instances.size());
   for (const Instance& instance : table.instances) {
@@ -48,6 +72,9 @@ cv::Mat1b pixels_wanted(const std::vector<Detection>& detections, int width_px, 
   cv::Mat1b wanted(height_px, width_px, std::uint8_t{0});
   for (const Detection& detection : detections) {
     const PixelBox& box = detection.box;
+    if (box.u_min < 0 || box.v_min < 0 || box.u_max >= width_px || box.v_max >= height_px)
+      throw Error(
+          "label image: not of the colour camera's size; give the intrinsics it was taken with");
     cv::Mat1b region = wanted(rect_of(box));
     region |= detection.mask;
     wanted((box.v_min + box.v_max) / 2, (box.u_min + box.u_max) / 2) = 255;

@@ -30,11 +30,12 @@ struct Detection {
 };
 
 /// One detection for each instance of a detected class that covers at least one pixel of the label
-/// image (instance ids, colour camera), in the order of instance ids.
+/// image (instance ids, colour camera), in the order of instance ids. Throws Error when the table
+/// is not in the order of its ids, or an instance names a class beyond it.
 [[nodiscard]] std::vector<Detection> detections_of(const cv::Mat1w& label, const ClassTable& table);
 
 /// 255 on the pixels whose registered point some segmentation reads: the masks, and the middle
-/// pixel of each box. Size: of the colour image.
+/// pixel of each box. Size: of the colour image. Throws Error when a box reaches beyond it.
 [[nodiscard]] cv::Mat1b pixels_wanted(const std::vector<Detection>& detections, int width_px,
                                       int height_px);
 

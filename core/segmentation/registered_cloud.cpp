@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
+#include <vector>
 
 namespace mapscore {
 namespace {
@@ -23,8 +23,6 @@ int ceil_int(double x) {
   const int truncated = static_cast<int>(x);
   return truncated + (truncated < x ? 1 : 0);
 }
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Whole numbers, limits included; empty when first > last.
 struct Span {
@@ -57,37 +55,48 @@ Window window_of(const cv::Mat1b& wanted, const CameraModel& color) {
   return window;
 }
 
-/// One row of depth pixels as the colour camera sees them, whether or not they hold a usable depth:
-/// z_color, projection (u, v), and z_depth / z_color.
-struct ProjectedRow {
-  explicit ProjectedRow(std::size_t width) : z_color(width), u(width), v(width), z_ratio(width) {}
-  std::vector<double> z_color, u, v, z_ratio;
+/// The colour camera's view of depth pixels. Between parallel cameras R * p = p exactly, which
+/// saves the product.
+struct Projection {
+  explicit Projection(const Calibration& believed)
+      : R(believed.T_color_depth.linear()),
+        t(believed.T_color_depth.translation()),
+        fx(believed.color.fx_px),
+        fy(believed.color.fy_px),
+        cx(believed.color.cx_px),
+        cy(believed.color.cy_px),
+        parallel(R == Eigen::Matrix3d::Identity()) {}
+
+  template <bool kParallel>
+  [[nodiscard]] double x_color(double x, double y, double z) const {
+    return (kParallel ? x : R(0, 0) * x + R(0, 1) * y + R(0, 2) * z) + t.x();
+  }
+  template <bool kParallel>
+  [[nodiscard]] double y_color(double x, double y, double z) const {
+    return (kParallel ? y : R(1, 0) * x + R(1, 1) * y + R(1, 2) * z) + t.y();
+  }
+  template <bool kParallel>
+  [[nodiscard]] double z_color(double x, double y, double z) const {
+    return (kParallel ? z : R(2, 0) * x + R(2, 1) * y + R(2, 2) * z) + t.z();
+  }
+  [[nodiscard]] Eigen::Vector3d in_color(const Eigen::Vector3d& p) const {
+    if (parallel) return p + t;
+    return {x_color<false>(p.x(), p.y(), p.z()), y_color<false>(p.x(), p.y(), p.z()),
+            z_color<false>(p.x(), p.y(), p.z())};
+  }
+  [[nodiscard]] double z_of(const Eigen::Vector3d& p) const {
+    return parallel ? p.z() + t.z() : z_color<false>(p.x(), p.y(), p.z());
+  }
+
+  Eigen::Matrix3d R;
+  Eigen::Vector3d t;
+  double fx, fy, cx, cy;
+  bool parallel;
 };
 
-/// Between parallel cameras R * p = p exactly, which saves the product. Without branches, so that
-/// the loop becomes wide vectors.
-template <bool kParallel>
-void project_row(const std::uint16_t* values, const double* ray_x, double ray_y,
-                 const Calibration& believed, ProjectedRow& out) {
-  const Eigen::Matrix3d R = believed.T_color_depth.linear();
-  const Eigen::Vector3d t = believed.T_color_depth.translation();
-  const double fx = believed.color.fx_px, fy = believed.color.fy_px;
-  const double cx = believed.color.cx_px, cy = believed.color.cy_px;
-  double *z_out = out.z_color.data(), *u_out = out.u.data();
-  double *v_out = out.v.data(), *ratio_out = out.z_ratio.data();
-  const std::size_t width = out.u.size();
-  for (std::size_t i = 0; i < width; ++i) {
-    const double z = values[i] / kDepthUnitsPerMetre;
-    const double x = z * ray_x[i], y = z * ray_y;
-    const double x_color = (kParallel ? x : R(0, 0) * x + R(0, 1) * y + R(0, 2) * z) + t.x();
-    const double y_color = (kParallel ? y : R(1, 0) * x + R(1, 1) * y + R(1, 2) * z) + t.y();
-    const double z_color = (kParallel ? z : R(2, 0) * x + R(2, 1) * y + R(2, 2) * z) + t.z();
-    z_out[i] = z_color;
-    u_out[i] = fx * x_color / z_color + cx;
-    v_out[i] = fy * y_color / z_color + cy;
-    ratio_out[i] = z / z_color;
-  }
-}
+// What a depth pixel covers, in place of the index of the one colour pixel.
+constexpr std::int32_t kNothing = -1;    ///< no usable depth, or outside the window
+constexpr std::int32_t kUndecided = -2;  ///< perhaps several pixels, or an edge between two
 
 /// Least and greatest stored depth within the camera's range, limits included; none if first >
 /// last.
@@ -114,70 +123,135 @@ Span covered(double at, double reach, const Span& window) {
   return span;
 }
 
-/// Whether a pixel of the window may lie within half a pixel of `at`; false for NaN.
-bool touches(double at, const Span& window) {
-  return at >= window.first - 0.5 && at <= window.last + 0.5;
-}
+/// What is sure of a row of depth pixels after one division for each, where the definition asks for
+/// three: the quotients here are off by a few last bits, and whatever lies that near an edge, or
+/// may cover more than one pixel, stays undecided. Without branches, so that the loop becomes wide
+/// vectors.
+struct Sieve {
+  Sieve(const Calibration& believed, const Window& window)
+      : values(values_in_range(believed)),
+        columns(window.columns),
+        rows(window.rows),
+        width_px(believed.color.width_px),
+        ratio_max(std::max(believed.color.fx_px / believed.depth.fx_px,
+                           believed.color.fy_px / believed.depth.fy_px)),
+        half_u(0.5 - 1e-12 * (1.0 + std::abs(believed.color.cx_px) + believed.color.width_px)),
+        half_v(0.5 - 1e-12 * (1.0 + std::abs(believed.color.cy_px) + believed.color.height_px)) {}
 
-/// Keeps the nearest depth pixel per colour pixel. Depth pixels arrive in row-major order, so
-/// "strictly nearer" leaves ties to the lower row, then column. Pixels that do not matter start out
-/// nearer than everything.
-class ZBuffer {
- public:
-  ZBuffer(const Calibration& believed, const cv::Mat1b& wanted)
-      : window_(window_of(wanted, believed.color)),
-        values_(values_in_range(believed)),
-        ratio_u_(believed.color.fx_px / believed.depth.fx_px),
-        ratio_v_(believed.color.fy_px / believed.depth.fy_px),
-        ratio_max_(std::max(ratio_u_, ratio_v_)),
-        nearest_(window_.rows.size(), window_.columns.size(), kFar),
-        source_(believed.color.height_px, believed.color.width_px, RegisteredCloud::kNone) {
-    if (!wanted.empty() && !nearest_.empty()) nearest_.setTo(-kFar, within_window(wanted) == 0);
+  template <bool kParallel>
+  void sort(const Projection& projection, const std::uint16_t* row, const double* ray_x,
+            double ray_y, std::size_t width, std::int32_t* target) const {
+    const Projection camera = projection;  // copies: what is written cannot change them
+    const Sieve sieve = *this;
+    const double left = columns.first - 1.0, right = columns.last + 1.0;
+    const double top = rows.first - 1.0, bottom = rows.last + 1.0;
+    for (std::size_t i = 0; i < width; ++i) {
+      const std::int32_t value = row[i];
+      const double z = value / kDepthUnitsPerMetre, x = z * ray_x[i], y = z * ray_y;
+      const double z_color = camera.z_color<kParallel>(x, y, z), inverse = 1.0 / z_color;
+      double u = camera.fx * camera.x_color<kParallel>(x, y, z) * inverse + camera.cx;
+      double v = camera.fy * camera.y_color<kParallel>(x, y, z) * inverse + camera.cy;
+      u = u > left ? u : left;  // left for NaN
+      u = u < right ? u : right;
+      v = v > top ? v : top;
+      v = v < bottom ? v : bottom;
+      const auto pixel_u = static_cast<std::int32_t>(u + 1.5) - 1;
+      const auto pixel_v = static_cast<std::int32_t>(v + 1.5) - 1;
+      const double off_u = std::abs(u - pixel_u), off_v = std::abs(v - pixel_v);
+      const double ratio = sieve.ratio_max * (z * inverse);
+      std::int32_t result = pixel_v * sieve.width_px + pixel_u;
+      result = pixel_u < sieve.columns.first ? kNothing : result;
+      result = pixel_u > sieve.columns.last ? kNothing : result;
+      result = pixel_v < sieve.rows.first ? kNothing : result;
+      result = pixel_v > sieve.rows.last ? kNothing : result;
+      result = off_u <= sieve.half_u ? result : kUndecided;
+      result = off_v <= sieve.half_v ? result : kUndecided;
+      result = ratio <= 1.0 - 1e-12 ? result : kUndecided;
+      result = z_color > 0 ? result : kNothing;
+      result = value < sieve.values.first ? kNothing : result;
+      target[i] = value > sieve.values.last ? kNothing : result;
+    }
   }
 
-  void cover(const std::uint16_t* values, const ProjectedRow& row, int first_depth_pixel) {
-    for (std::size_t i = 0; i < row.u.size(); ++i) {
-      if (values[i] < values_.first || values[i] > values_.last || !(row.z_color[i] > 0)) continue;
-      const int depth_pixel = first_depth_pixel + static_cast<int>(i);
-      if (ratio_max_ * row.z_ratio[i] <= 1.0) {  // covers one pixel, save when it lies half-way
-        if (!touches(row.u[i], window_.columns) || !touches(row.v[i], window_.rows)) continue;
-        const int u = static_cast<int>(row.u[i] + 0.5), v = static_cast<int>(row.v[i] + 0.5);
-        if (std::abs(row.u[i] - u) < 0.5 && std::abs(row.v[i] - v) < 0.5) {
-          offer(u, v, row.z_color[i], depth_pixel);
-          continue;
-        }
+  Span values, columns, rows;
+  std::int32_t width_px;
+  double ratio_max;
+  double half_u, half_v;  ///< half a pixel, less what rounding may move
+};
+
+/// Keeps the nearest depth pixel per colour pixel. Depth pixels arrive in row-major order, so
+/// "strictly nearer" leaves ties to the lower row, then column. The winners so far stand in for a
+/// buffer of distances: most colour pixels are asked for once.
+class ZBuffer {
+ public:
+  ZBuffer(const cv::Mat1w& depth, const Calibration& believed, const cv::Mat1b& wanted)
+      : depth_(depth),
+        rays_(believed.depth),
+        projection_(believed),
+        window_(window_of(wanted, believed.color)),
+        sieve_(believed, window_),
+        ratio_u_(believed.color.fx_px / believed.depth.fx_px),
+        ratio_v_(believed.color.fy_px / believed.depth.fy_px),
+        wanted_(wanted.isContinuous() ? wanted : wanted.clone()),
+        source_(believed.color.height_px, believed.color.width_px, RegisteredCloud::kNone) {}
+
+  void cover() {
+    const auto width = static_cast<std::size_t>(depth_.cols);
+    std::vector<std::int32_t> targets(width);
+    for (int v = 0; v < depth_.rows; ++v) {
+      const double ray_y = rays_.y()[static_cast<std::size_t>(v)];
+      if (projection_.parallel)
+        sieve_.sort<true>(projection_, depth_[v], rays_.x().data(), ray_y, width, targets.data());
+      else
+        sieve_.sort<false>(projection_, depth_[v], rays_.x().data(), ray_y, width, targets.data());
+      for (std::size_t i = 0; i < width; ++i) {
+        const int depth_pixel = v * depth_.cols + static_cast<int>(i);
+        if (targets[i] >= 0)
+          offer(targets[i], depth_pixel);
+        else if (targets[i] == kUndecided)
+          cover_block(depth_pixel);
       }
-      cover_block(row, i, depth_pixel);
     }
   }
 
   [[nodiscard]] cv::Mat1i take() { return std::move(source_); }
 
  private:
-  void cover_block(const ProjectedRow& row, std::size_t i, int depth_pixel) {
-    const double s = row.z_ratio[i];
-    const Span columns = covered(row.u[i], 0.5 * std::max(1.0, ratio_u_ * s), window_.columns);
-    const Span rows = covered(row.v[i], 0.5 * std::max(1.0, ratio_v_ * s), window_.rows);
-    for (int v = rows.first; v <= rows.last; ++v)
-      for (int u = columns.first; u <= columns.last; ++u) offer(u, v, row.z_color[i], depth_pixel);
+  /// The definition, by itself.
+  void cover_block(int depth_pixel) {
+    const Eigen::Vector3d p_depth = point(depth_pixel), p = projection_.in_color(p_depth);
+    const double u = projection_.fx * p.x() / p.z() + projection_.cx;
+    const double v = projection_.fy * p.y() / p.z() + projection_.cy;
+    const double s = p_depth.z() / p.z();
+    const Span columns = covered(u, 0.5 * std::max(1.0, ratio_u_ * s), window_.columns);
+    const Span rows = covered(v, 0.5 * std::max(1.0, ratio_v_ * s), window_.rows);
+    for (int row = rows.first; row <= rows.last; ++row)
+      for (int column = columns.first; column <= columns.last; ++column)
+        offer(row * source_.cols + column, depth_pixel);
   }
 
-  void offer(int u, int v, double z_color, int depth_pixel) {
-    double& nearest = nearest_(v - window_.rows.first, u - window_.columns.first);
-    if (z_color >= nearest) return;
-    nearest = z_color;
-    source_(v, u) = depth_pixel;
+  void offer(int color_pixel, int depth_pixel) {
+    if (!wanted_.empty() && wanted_.data[color_pixel] == 0) return;
+    int& source = source_.ptr<int>()[color_pixel];
+    if (source == RegisteredCloud::kNone || z_color(depth_pixel) < z_color(source))
+      source = depth_pixel;
   }
 
-  [[nodiscard]] cv::Mat1b within_window(const cv::Mat1b& wanted) const {
-    return wanted(cv::Rect(window_.columns.first, window_.rows.first, window_.columns.size(),
-                           window_.rows.size()));
+  [[nodiscard]] Eigen::Vector3d point(int depth_pixel) const {
+    const int v = depth_pixel / depth_.cols, u = depth_pixel % depth_.cols;
+    return rays_.point(u, v, depth_(v, u) / kDepthUnitsPerMetre);
+  }
+  [[nodiscard]] double z_color(int depth_pixel) const {
+    return projection_.z_of(point(depth_pixel));
   }
 
+  const cv::Mat1w depth_;
+  DepthRays rays_;
+  Projection projection_;
   Window window_;
-  Span values_;
-  double ratio_u_, ratio_v_, ratio_max_;
-  cv::Mat1d nearest_;  ///< z_color of the winners, in the window
+  Sieve sieve_;
+  double ratio_u_, ratio_v_;
+  cv::Mat1b wanted_;
   cv::Mat1i source_;
 };
 
@@ -198,15 +272,8 @@ RegisteredCloud register_depth(const cv::Mat1w& depth, const Calibration& believ
   if (!wanted.empty() && !has_size(wanted, believed.color))
     throw Error(
         "label image: not of the colour camera's size; give the intrinsics it was taken with");
-  const DepthRays rays(believed.depth);
-  const bool parallel = believed.T_color_depth.linear() == Eigen::Matrix3d::Identity();
-  const auto project = parallel ? project_row<true> : project_row<false>;
-  ProjectedRow row(rays.x().size());
-  ZBuffer buffer(believed, wanted);
-  for (int v = 0; v < depth.rows; ++v) {
-    project(depth[v], rays.x().data(), rays.y()[static_cast<std::size_t>(v)], believed, row);
-    buffer.cover(depth[v], row, v * depth.cols);
-  }
+  ZBuffer buffer(depth, believed, wanted);
+  buffer.cover();
   return {depth, believed.depth, buffer.take()};
 }
 

@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 namespace mapscore {
 namespace {
@@ -47,44 +45,16 @@ std::vector<Eigen::Vector3d> occupied_centres(const std::vector<Eigen::Vector3d>
   return centres;
 }
 
-std::optional<Eigen::Vector3d> point_at(const RegisteredCloud& cloud, int u, int v) {
-  const int source = cloud.source(u, v);
-  if (source == RegisteredCloud::kNone) return std::nullopt;
-  return cloud.point(source);
-}
-
-/// Point of the mask pixel with a point that is nearest to the mask's centroid.
-std::optional<Eigen::Vector3d> point_near_centroid(const Detection& detection,
-                                                   const RegisteredCloud& cloud) {
-  double sum_u = 0, sum_v = 0, count = 0;
-  for (int v = 0; v < detection.mask.rows; ++v)
-    for (int u = 0; u < detection.mask.cols; ++u)
-      if (detection.mask(v, u)) sum_u += u, sum_v += v, count += 1;
-  std::optional<Eigen::Vector3d> nearest;
-  double least = std::numeric_limits<double>::infinity();
-  for (int v = 0; v < detection.mask.rows; ++v) {
-    for (int u = 0; u < detection.mask.cols; ++u) {
-      const double du = u - sum_u / count, dv = v - sum_v / count;
-      if (!detection.mask(v, u) || du * du + dv * dv >= least) continue;
-      const auto point = point_at(cloud, u + detection.box.u_min, v + detection.box.v_min);
-      if (!point) continue;
-      least = du * du + dv * dv;
-      nearest = point;
-    }
-  }
-  return nearest;
-}
-
-std::optional<Eigen::Vector3d> seed_point(const Detection& detection, const RegisteredCloud& cloud,
-                                          SeedRule rule) {
+/// Throws Error unless the detection lies within the cloud and its mask fills its box.
+void check(const Detection& detection, const RegisteredCloud& cloud) {
   const PixelBox& box = detection.box;
-  switch (rule) {
-    case SeedRule::box_centre:
-      return point_at(cloud, (box.u_min + box.u_max) / 2, (box.v_min + box.v_max) / 2);
-    case SeedRule::mask_centroid:
-      return point_near_centroid(detection, cloud);
-  }
-  return std::nullopt;
+  if (detection.mask.cols != box.width() || detection.mask.rows != box.height())
+    throw Error("detection: its mask has another size than its box; cut the mask to the box");
+  if (box.u_min < 0 || box.v_min < 0 || box.u_max >= cloud.width_px() ||
+      box.v_max >= cloud.height_px())
+    throw Error(
+        "detection: its box reaches beyond the registered image; detect in images of the colour "
+        "camera's size");
 }
 
 /// Fills a segment by one method; `skipped` says why it stayed empty.
@@ -117,6 +87,7 @@ struct Segmenter {
     const Region region =
         grow_region(points, *seed, voxel_m, params.radius_factor, params.released);
     if (region.points.empty()) segment.skipped = SkipReason::seed_off_object;
+    segment.points.reserve(region.points.size());
     for (const int index : region.points)
       segment.points.push_back(points[static_cast<std::size_t>(index)]);
     if (!with_voxels) return;
@@ -137,6 +108,7 @@ Segment segment(const Detection& detection, const RegisteredCloud& cloud, double
                 const SegmentationParams& params, bool with_voxels) {
   if (!(voxel_m > 0.0) || !std::isfinite(voxel_m))
     throw Error("voxel_m: must be a positive length in metres");
+  check(detection, cloud);
   Segment segment;
   segment.class_id = detection.class_id;
   segment.instance = detection.instance;

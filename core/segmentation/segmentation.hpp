@@ -6,6 +6,7 @@
 #include "core/classes.hpp"
 #include "core/segmentation/detection.hpp"
 #include "core/segmentation/registered_cloud.hpp"
+#include "core/segmentation/seed_point.hpp"
 
 #include <Eigen/Geometry>
 #include <variant>
@@ -19,13 +20,6 @@ struct DirectParams {};
 /// The mask eroded by the disc dx^2 + dy^2 <= radius^2, then direct.
 struct ErosionParams {
   int radius_px = 5;
-};
-
-/// Pixel whose registered point region growing starts at.
-enum class SeedRule {
-  box_centre,    ///< middle of the box, rounded down, whether or not it lies on the mask [M]
-  mask_centroid  ///< mask pixel with a point nearest to the mask's centroid, ties in row-major
-                 ///< order
 };
 
 /// Region growing [M, algorithm 1]. Search radius k_r = radius_factor * voxel edge: 1 in the paper,
@@ -58,8 +52,9 @@ struct Segment {
 };
 
 /// From a detection and a registered cloud to the points, box and voxels of the object
-/// (docs/methods.md). `voxel_m`: voxel edge. `with_voxels`: fill `voxel_centres`. Throws Error on a
-/// radius or edge that is not positive (an erosion radius of 0 is direct).
+/// (docs/methods.md). `voxel_m`: voxel edge. `with_voxels`: fill `voxel_centres`. An oriented box:
+/// upright_box of the points. Throws Error on a radius or edge that is not positive (an erosion
+/// radius of 0 is direct), on a mask of another size than its box and on a box beyond the cloud.
 [[nodiscard]] Segment segment(const Detection& detection, const RegisteredCloud& cloud,
                               double voxel_m, const SegmentationParams& params, bool with_voxels);
 
