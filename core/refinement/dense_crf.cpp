@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/refinement/dense_crf.hpp"
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/refinement/lattice_messages.hpp"
+#include "core/refinement/neighbour_messages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace mapscore {
+namespace {
+
+constexpr std::size_t kVoxelsARun = 4096;
+
+void check_in(double value, double least, double most, const char* name) {
+  if (!(value >= least && value <= most))
+    throw Error(std::string("crf: ") + name + ": is " + std::to_string(value) +
+                "; give a number from " + std::to_string(least) + " to " + std::to_string(most));
+}
+
+void check_sizes(const CrfVoxels& voxels, const CrfParams& params) {
+  const auto count = static_cast<std::size_t>(voxels.probability.cols());
+  if (voxels.centres_m.size() != count)
+    throw Error("crf: " + std::to_string(voxels.centres_m.size()) + " centres for " +
+                std::to_string(count) + " distributions; give one each a voxel");
+  const bool colours_needed = params.appearance_weight > 0 || !voxels.colours.empty();
+  if (colours_needed && voxels.colours.size() != count)
+    throw Error("crf: " + std::to_string(voxels.colours.size()) + " colours for " +
+                std::to_string(count) +
+                " voxels; give one each a voxel, or appearance_weight 0 and none");
+  if (count > 0 && voxels.probability.rows() == 0)
+    throw Error("crf: voxels without labels; give at least one label");
+}
+
+void check_values(const CrfVoxels& voxels) {
+  for (std::size_t i = 0; i < voxels.centres_m.size(); ++i) {
+    if (!voxels.centres_m[i].allFinite())
+      throw Error("crf: voxel " + std::to_string(i) + ": its centre is not finite; leave it out");
+    const auto column = voxels.probability.col(static_cast<Eigen::Index>(i));
+    if (!(column.minCoeff() >= 0.0f && std::abs(column.sum() - 1.0f) <= 1e-3f))
+      throw Error("crf: voxel " + std::to_string(i) +
+                  ": its probabilities are no distribution; give numbers >= 0 that add up to 1");
+  }
+}
+
+/// Column i becomes exp(unary + messages) / Z_i; returns the largest change. Column by column, so
+/// threads do not matter.
+float normalised_step(const Eigen::MatrixXf& log_p, const Eigen::MatrixXf& messages,
+                      Eigen::MatrixXf& q, int jobs) {
+  const auto count = static_cast<std::size_t>(q.cols());
+  const std::size_t runs = (count + kVoxelsARun - 1) / kVoxelsARun;
+  std::vector<float> change(runs, 0.0f);
+  for_each_in_parallel(runs, jobs, [&](std::size_t run) {
+    const std::size_t last = std::min(count, (run + 1) * kVoxelsARun);
+    Eigen::VectorXf next(q.rows());
+    for (std::size_t voxel = run * kVoxelsARun; voxel < last; ++voxel) {
+      const auto i = static_cast<Eigen::Index>(voxel);
+      next = log_p.col(i) + messages.col(i);
+      const float most = next.maxCoeff();
+      for (float& value : next) value = std::exp(value - most);
+      next /= next.sum();
+      change[run] = std::max(change[run], (next - q.col(i)).cwiseAbs().maxCoeff());
+      q.col(i) = next;
+    }
+  });
+  return *std::max_element(change.begin(), change.end());
+}
+
+template <class Messages>
+CrfResult mean_field(const Eigen::MatrixXf& log_p, const Messages& pairs, const CrfParams& params,
+                     int jobs) {
+  CrfResult result;
+  Eigen::MatrixXf messages = Eigen::MatrixXf::Zero(log_p.rows(), log_p.cols());
+  result.probability = messages;
+  normalised_step(log_p, messages, result.probability, jobs);
+  while (result.iterations < params.iterations) {
+    pairs.send(result.probability, messages, jobs);
+    result.last_change = normalised_step(log_p, messages, result.probability, jobs);
+    ++result.iterations;
+    if (result.last_change <= params.tolerance) break;
+  }
+  return result;
+}
+
+}  // namespace
+
+void check_parameters(const CrfParams& params) {
+  constexpr double kLeastSigma_m = 1e-4, kMostSigma_m = 100.0;
+  check_in(params.smoothness_weight, 0, 1000, "smoothness_weight");
+  check_in(params.appearance_weight, 0, 1000, "appearance_weight");
+  check_in(params.smoothness_sigma_m, kLeastSigma_m, kMostSigma_m, "smoothness_sigma_m");
+  check_in(params.appearance_sigma_m, kLeastSigma_m, kMostSigma_m, "appearance_sigma_m");
+  check_in(params.appearance_sigma_colour, 0.1, 1000, "appearance_sigma_colour");
+  check_in(params.iterations, 0, 1000, "iterations");
+  check_in(params.tolerance, 0, 1, "tolerance");
+  check_in(params.probability_floor, 1e-9, 0.5, "probability_floor");
+  check_in(params.cutoff_sigmas, 0.5, 6, "cutoff_sigmas");
+}
+
+CrfResult refine(const CrfVoxels& voxels, const CrfParams& params, int jobs) {
+  check_parameters(params);
+  check_sizes(voxels, params);
+  check_values(voxels);
+  if (voxels.centres_m.empty()) return {voxels.probability, 0, 0.0};
+  const Eigen::MatrixXf log_p =
+      voxels.probability.cwiseMax(static_cast<float>(params.probability_floor)).array().log();
+  if (params.filter == CrfFilter::lattice)
+    return mean_field(log_p, LatticeMessages(voxels, params, jobs), params, jobs);
+  return mean_field(log_p, NeighbourMessages(voxels, params, jobs), params, jobs);
+}
+
+}  // namespace mapscore

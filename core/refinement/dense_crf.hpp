@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/classes.hpp"
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace mapscore {
+
+/// How the sums over all other voxels are made.
+enum class CrfFilter {
+  neighbours,  ///< every pair within the cut-off, each with its exact kernel
+  lattice,     ///< permutohedral lattice of [Adams et al. 2010]: all pairs, approximately
+};
+
+/// Fully connected CRF of [Krähenbühl and Koltun 2011] with the Potts model over a map's voxels,
+/// docs/refinement.md. Each weight is what unanimous neighbours add to the log-odds of their class
+/// when kernels are `normalised`.
+struct CrfParams {
+  double smoothness_weight = 3.0;       ///< of the position kernel; 0: off
+  double smoothness_sigma_m = 0.06;     ///< metres
+  double appearance_weight = 3.0;       ///< of the kernel of position and colour; 0: off
+  double appearance_sigma_m = 0.12;     ///< metres
+  double appearance_sigma_colour = 20;  ///< levels of 0 to 255, of all three channels together
+  bool normalised = true;   ///< k_ij / sqrt(n_i n_j), n_i = sum_j k_ij; false: k_ij as it is
+  int iterations = 10;      ///< at most
+  double tolerance = 1e-4;  ///< ends when no probability changed by more; 0: all iterations
+  double probability_floor = 1e-3;  ///< least p of the unary -log p, in (0, 1)
+  CrfFilter filter = CrfFilter::neighbours;
+  double cutoff_sigmas = 3.0;  ///< neighbours only: a kernel ends at this Mahalanobis distance
+};
+
+/// What the CRF looks at: one entry, or one column, a voxel, all in the same order.
+struct CrfVoxels {
+  std::vector<Eigen::Vector3d> centres_m;  ///< any frame
+  std::vector<Colour> colours;             ///< mean colours; empty where appearance_weight is 0
+  Eigen::MatrixXf probability;             ///< labels x voxels; columns add up to 1 within 1e-3
+};
+
+struct CrfResult {
+  Eigen::MatrixXf probability;  ///< labels x voxels, columns add up to 1
+  int iterations = 0;           ///< made
+  double last_change = 0.0;     ///< largest |change| of a probability in the last of them
+};
+
+/// Mean-field inference of [Krähenbühl and Koltun 2011, algorithm 1], all voxels at once, from
+/// Q_i(l) ~ max(p_i(l), floor):
+///   Q_i(l) <- exp(log max(p_i(l), floor) + sum_m w_m sum_{j != i} k_m(i, j) Q_j(l)) / Z_i
+/// Uses up to `jobs` threads; the result does not depend on how many. No voxels: an empty result.
+/// Throws Error on sizes that differ, parameters out of range, numbers that are not finite, columns
+/// that are no distribution.
+[[nodiscard]] CrfResult refine(const CrfVoxels& voxels, const CrfParams& params, int jobs = 1);
+
+/// Throws Error naming the parameter that is out of range.
+void check_parameters(const CrfParams& params);
+
+}  // namespace mapscore
