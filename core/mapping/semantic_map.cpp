@@ -17,6 +17,20 @@
 #include <variant>
 
 namespace mapscore {
+namespace {
+
+/// Calls `use(key)` for every finest voxel that a leaf stands for.
+void for_each_finest(const SemanticOcTree::leaf_iterator& leaf, const SemanticOcTree& tree,
+                     const auto& use) {
+  const int span = 1 << (tree.getTreeDepth() - leaf.getDepth());
+  const VoxelKey low = voxel_key(leaf.getIndexKey());
+  for (int i = 0; i < span; ++i)
+    for (int j = 0; j < span; ++j)
+      for (int k = 0; k < span; ++k) use(VoxelKey{low.i + i, low.j + j, low.k + k});
+}
+
+}  // namespace
+
 SemanticMap::SemanticMap(double edge_m) : edge_m_(edge_m) {
   if (!(edge_m > 0.0) || !std::isfinite(edge_m))
     throw Error("voxel_m: must be a positive length in metres");
@@ -87,17 +101,32 @@ std::vector<MapVoxel> SemanticMap::voxels() const {
   for (auto leaf = tree_->begin_leafs(), end = tree_->end_leafs(); leaf != end; ++leaf) {
     const ClassProbability best = leaf->best();
     const bool occupied = tree_->isNodeOccupied(*leaf);
-    const int span = 1 << (tree_->getTreeDepth() - leaf.getDepth());
-    const VoxelKey low = voxel_key(leaf.getIndexKey());
-    for (int i = 0; i < span; ++i)
-      for (int j = 0; j < span; ++j)
-        for (int k = 0; k < span; ++k)
-          voxels.push_back(
-              {{low.i + i, low.j + j, low.k + k}, best.class_id, best.probability, occupied});
+    for_each_finest(leaf, *tree_, [&](const VoxelKey& key) {
+      voxels.push_back({key, best.class_id, best.probability, occupied});
+    });
   }
-  std::sort(voxels.begin(), voxels.end(),
-            [](const MapVoxel& a, const MapVoxel& b) { return a.key < b.key; });
+  std::ranges::sort(voxels, {}, &MapVoxel::key);
   return voxels;
+}
+
+std::vector<BelievedVoxel> SemanticMap::believed_voxels() const {
+  std::vector<BelievedVoxel> voxels;
+  for (auto leaf = tree_->begin_leafs(), end = tree_->end_leafs(); leaf != end; ++leaf) {
+    if (leaf->beliefs().empty()) continue;
+    std::optional<Colour> colour;
+    if (leaf->colour().count > 0) colour = leaf->colour().mean();
+    for_each_finest(leaf, *tree_, [&](const VoxelKey& key) {
+      voxels.push_back({key, leaf->beliefs(), colour});
+    });
+  }
+  std::ranges::sort(voxels, {}, &BelievedVoxel::key);
+  return voxels;
+}
+
+void SemanticMap::set_beliefs(const VoxelKey& key, ClassBeliefs beliefs) {
+  if (!fits_octree(key) || tree_->search(octree_key(key)) == nullptr)
+    throw Error("map: has no such voxel; give one of believed_voxels()");
+  tree_->finest(octree_key(key)).mutable_beliefs() = std::move(beliefs);
 }
 
 std::span<const ClassProbability> SemanticMap::classes_at(const VoxelKey& key) const {

@@ -27,6 +27,13 @@ struct MapVoxel {
   bool occupied = true;
 };
 
+/// What a map holds of one voxel whose class it believes something of.
+struct BelievedVoxel {
+  VoxelKey key;
+  ClassBeliefs beliefs;
+  std::optional<Colour> colour;  ///< mean; none where no colour was seen
+};
+
 /// Free space by rays, where a map carves.
 struct Carving {
   OccupancyModel model;
@@ -83,6 +90,10 @@ class SemanticMap {
   [[nodiscard]] std::vector<MapVoxel> voxels() const;
   /// What one voxel believes (ClassBeliefs::entries); empty when it is not in the map.
   [[nodiscard]] std::span<const ClassProbability> classes_at(const VoxelKey& key) const;
+  /// The voxels with beliefs, pruned leaves spread out, ascending by key.
+  [[nodiscard]] std::vector<BelievedVoxel> believed_voxels() const;
+  /// Gives a voxel of the map other beliefs. Throws Error when it is not in the map.
+  void set_beliefs(const VoxelKey& key, ClassBeliefs beliefs);
   /// Mean colour of one voxel; none when it is not in the map or no colour was seen there.
   [[nodiscard]] std::optional<Colour> colour_at(const VoxelKey& key) const;
   [[nodiscard]] const SemanticOcTree& tree() const { return *tree_; }
