@@ -95,6 +95,14 @@ struct BlendSettings {
   bool operator==(const BlendSettings&) const = default;
 };
 
+/// Free space, where the map carves it; the numbers are OccupancyModel's.
+struct OccupancySettings {
+  bool carve = false;
+  double hit = 0.7, miss = 0.4, clamp_min = 0.1192, clamp_max = 0.971;
+  std::optional<double> max_range_m;
+  bool operator==(const OccupancySettings&) const = default;
+};
+
 using FusionSettings = std::variant<BlendSettings>;
 
 /// T_believed_color_depth = E * T_color_depth, and wrong intrinsics of the colour camera.
@@ -217,6 +225,7 @@ struct Study {
   std::optional<DetectedSet> detect;  ///< empty: as the class file says
   std::vector<MethodSettings> methods;
   FusionSettings fusion;
+  OccupancySettings occupancy;
   LocalizationSettings localization;
   FaultSettings faults;
   ScoreSettings score;

@@ -99,6 +99,39 @@ void fields(auto&& visit, Of<BlendSettings> auto& s) {
   visit(Field{"covariance", "part of the pose covariance that is drawn from"}, s.covariance);
 }
 
+void fields(auto&& visit, Of<OccupancySettings> auto& s) {
+  constexpr Range kOccupied{.low = 0.5, .high = 1, .open_low = true, .open_high = true};
+  constexpr Range kFree{.low = 0, .high = 0.5, .open_low = true, .open_high = true};
+  visit(Field{.key = "carve",
+              .meaning = "rays of the depth image free what they pass; default: what is in the map "
+                         "is occupied (as the paper)",
+              .unkeyed = "false"},
+        s.carve);
+  visit(Field{.key = "hit",
+              .meaning = "carving: occupancy that a point in the voxel says",
+              .range = kOccupied,
+              .unkeyed = "0.7"},
+        s.hit);
+  visit(Field{.key = "miss",
+              .meaning = "carving: occupancy that a ray through the voxel says",
+              .range = kFree,
+              .unkeyed = "0.4"},
+        s.miss);
+  visit(Field{.key = "clamp_min",
+              .meaning = "carving: least occupancy of a voxel",
+              .range = kFree,
+              .unkeyed = "0.1192"},
+        s.clamp_min);
+  visit(Field{.key = "clamp_max",
+              .meaning = "carving: greatest occupancy of a voxel",
+              .range = kOccupied,
+              .unkeyed = "0.971"},
+        s.clamp_max);
+  visit(Field{"max_range_m", "carving: rays end here and hit nothing beyond; default: no limit",
+              above(0, 1000)},
+        s.max_range_m);
+}
+
 void fields(auto&& visit, Of<ScoreSettings> auto& s) {
   visit(Field{"unit", "score the fused map, or each frame's observation against its own truth"},
         s.unit);
@@ -153,6 +186,8 @@ void fields(auto&& visit, Of<Study> auto& s) {
         s.detect);
   visit(Field{"methods", "at least one, by name: letters, digits, _ and -"}, s.methods);
   visit(Field{"fusion", "how observations change the map"}, s.fusion);
+  visit(Field{.key = "occupancy", .meaning = "free space in the map", .unkeyed = "{}"},
+        s.occupancy);
   visit(Field{.key = "localization", .meaning = "where the robot believes it is", .unkeyed = "{}"},
         s.localization);
   visit(Field{"faults", "doses of the faults"}, s.faults);

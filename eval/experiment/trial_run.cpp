@@ -37,6 +37,14 @@ ObservedObject& object_of(ClassId class_id, Observation& observation) {
   return observation.emplace_back(ObservedObject{class_id, 1.0, {}});
 }
 
+/// A map of nothing yet, with the study's occupancy.
+SemanticMap empty_map(const Study& config) {
+  SemanticMap map(config.voxel_m);
+  const OccupancySettings& o = config.occupancy;
+  if (o.carve) map.set_carving({{o.hit, o.miss, o.clamp_min, o.clamp_max}, o.max_range_m});
+  return map;
+}
+
 std::vector<int> positive(const std::vector<int>& tolerances) {
   std::vector<int> kept;
   for (const int tolerance : tolerances)
@@ -78,7 +86,7 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       map_frame_(map_frame(task.config, task.seed_index)),
       truths_(truths),
       boxes_(truths.boxes()),
-      map_(task.config.voxel_m) {
+      map_(empty_map(task.config)) {
   result_.counts = no_counts();
   if (task.config.score.unit == ScoreUnit::frame) return;
   truth_ = truths.get(map_frame_, truth_options(task.config));
@@ -95,13 +103,14 @@ Counts TrialRun::no_counts() const {
 
 void TrialRun::advance(const Frame& frame) {
   const bool by_itself = task_.config.score.unit == ScoreUnit::frame;
-  if (by_itself) map_ = SemanticMap(map_.edge_m());
+  if (by_itself) map_ = empty_map(task_.config);
   Counts counts = no_counts();
   times_ = {};
   const Observation observation =
       task_.labels == Labels::truth ? observe_truth(frame) : observe(frame, counts);
   const double before_mapping_s = thread_seconds();
   const auto hits = place(observation, sensor_poses(frame.index), map_.edge_m());
+  if (map_.carves()) see(frame, hits);
   map_.fuse(hits, blend_.N, BlendRule{blend_.K});
   times_.mapping_s = thread_seconds() - before_mapping_s;
   ++result_.accounting.frames;
@@ -157,6 +166,23 @@ Observation TrialRun::observe_truth(const Frame& frame) const {
     }
   }
   return observation;
+}
+
+void TrialRun::see(const Frame& frame, std::span<const VoxelHit> hits) {
+  const bool truth = task_.labels == Labels::truth;
+  const cv::Mat1w depth = truth ? frame.depth
+                                : sim::corrupt_depth(frame.depth, true_.depth, depth_dose_,
+                                                     trial_seed(task_), frame.depth_index);
+  const Calibration& cameras = truth ? true_ : believed_;
+  const PoseBelief& belief = beliefs_.at(static_cast<std::size_t>(frame.index));
+  const Pose T_map_sensor = belief.T_map_odom * belief.T_odom_base * cameras.T_base_depth;
+  std::vector<Eigen::Vector3d> points;
+  for (int v = 0; v < depth.rows; ++v)
+    for (int u = 0; u < depth.cols; ++u)
+      if (const double z = depth(v, u) / kDepthUnitsPerMetre;
+          z > 0.0 && z >= cameras.range_min_m && z <= cameras.range_max_m)
+        points.push_back(T_map_sensor * cameras.depth.back_project(u, v, z));
+  map_.see(T_map_sensor.translation(), points, hits);
 }
 
 void TrialRun::account(const Segment& segment) {

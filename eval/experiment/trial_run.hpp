@@ -19,6 +19,7 @@
 #include "sim/faults/label_dose.hpp"
 
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -74,6 +75,8 @@ class TrialRun {
   [[nodiscard]] Observation observe(const Frame& frame, Counts& counts);
   /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
+  /// Carves what the frame's depth image saw from the mean of the pose belief.
+  void see(const Frame& frame, std::span<const VoxelHit> hits);
   void account(const Segment& segment);
   [[nodiscard]] std::vector<Pose> sensor_poses(int frame) const;
   /// Adds the counts of the map as it stands.
