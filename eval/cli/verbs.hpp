@@ -12,6 +12,7 @@ namespace mapscore::eval {
 void add_record(CLI::App& program);
 void add_run(CLI::App& program);
 void add_sweep(CLI::App& program);
+void add_map(CLI::App& program);
 void add_localize(CLI::App& program);
 void add_truth(CLI::App& program);
 void add_score(CLI::App& program);
