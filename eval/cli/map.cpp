@@ -9,7 +9,6 @@
 #include "eval/experiment/folder_mapping.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/recording/frame_selection.hpp"
-#include "eval/score/prediction.hpp"
 
 #include <fmt/format.h>
 
@@ -56,7 +55,12 @@ void take_from_study(const MapVerbFlags& flags, FolderMapping& mapping) {
   mapping.segmentation = segmentation_params(method.segmentation);
   mapping.place_voxels = place_of(study, method) == Place::voxels;
   mapping.voxel_m = study.voxel_m;
-  mapping.K = std::get<BlendSettings>(study.fusion).K;
+  const auto* blend = std::get_if<BlendSettings>(&study.fusion);
+  if (blend == nullptr)
+    throw Error(
+        "--study: fuses by another rule than the blend, which is what map knows; give K and "
+        "--segmentation by flags");
+  mapping.fusion = BlendRule{blend->K};
 }
 
 void take_segmentation(const MapVerbFlags& flags, FolderMapping& mapping) {
@@ -79,7 +83,7 @@ FolderMapping mapping_of(const MapVerbFlags& flags) {
   take_from_study(flags, mapping);
   take_segmentation(flags, mapping);
   if (flags.voxel_m) mapping.voxel_m = *flags.voxel_m;
-  if (flags.K) mapping.K = *flags.K;
+  if (flags.K) mapping.fusion = BlendRule{*flags.K};
   mapping.T_map_world =
       map_from_world({flags.origin_m.at(0), flags.origin_m.at(1), flags.origin_m.at(2)},
                      flags.yaw_deg * std::numbers::pi / 180.0);
@@ -121,7 +125,7 @@ void map_recording(const MapVerbFlags& flags) {
   Progress progress("map", "frames", flags.quiet);
   const SemanticMap map = map_folder(folder, frames, mapping, counts,
                                      [&](int done, int all) { progress.show(done, all); });
-  const double threshold = flags.threshold.value_or(default_threshold(mapping.K));
+  const double threshold = flags.threshold.value_or(first_full_hit(mapping.fusion) / 2);
   map.save(flags.file);
   if (!flags.color_file.empty()) map.export_color(flags.color_file, folder.table(), threshold);
   std::cout << folder_text(folder, counts) << class_lines(map, folder.table(), threshold)

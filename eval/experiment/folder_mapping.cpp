@@ -43,7 +43,8 @@ SemanticMap map_folder(const LabelledFolder& folder, const std::vector<int>& fra
     const Frame frame = folder.read(index, table);
     const Observation observation = observe(frame, table, calibration, mapping, counts);
     const Pose T_map_depth = mapping.T_map_world * frame.T_world_base * calibration.T_base_depth;
-    map.blend(place(observation, {&T_map_depth, 1}, mapping.voxel_m), 1, mapping.K);
+    map.fuse(place(observation, {&T_map_depth, 1}, mapping.voxel_m), 1, mapping.fusion,
+             folder.table().classes.size());
     ++counts.frames;
     shown(static_cast<int>(counts.frames), static_cast<int>(frames.size()));
   }

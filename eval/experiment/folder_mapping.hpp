@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/geometry/pose.hpp"
+#include "core/mapping/fusion_rule.hpp"
 #include "core/mapping/semantic_map.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "eval/recording/labelled_folder.hpp"
@@ -20,7 +21,7 @@ struct FolderMapping {
   Pose T_map_world = Pose::Identity();  ///< world: the frame of groundtruth.txt
   SegmentationParams segmentation = RegionGrowingParams{.radius_factor = 0.5};
   bool place_voxels = false;
-  double K = 0.5;  ///< of the blend
+  FusionRule fusion = BlendRule{};
 };
 
 /// What came of the frames.
@@ -30,7 +31,8 @@ struct MappedCounts {
 };
 
 /// Maps these frames of a folder in their order, as a trial at dose zero does. Calls
-/// `shown(done, all)` after each. Throws Error where an image cannot be read.
+/// `shown(done, all)` after each. Throws Error where an image cannot be read or a parameter is out
+/// of range.
 [[nodiscard]] SemanticMap map_folder(const LabelledFolder& folder, const std::vector<int>& frames,
                                      const FolderMapping& mapping, MappedCounts& counts,
                                      const std::function<void(int, int)>& shown);
