@@ -5,7 +5,7 @@
 # records.
 set(folder ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end)
 file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
-set(suites BadFlags BadStudy BadRecording BadOutput ScoreMap TinySweep)
+set(suites BadFlags BadStudy BadRecording BadOutput ScoreMap MapFolder TinySweep)
 if(MAPSCORE_SIMULATOR)
   file(GLOB rendered CONFIGURE_DEPENDS ${folder}/rendered/*.cpp)
   list(APPEND suites BadScene BadDrive Gate)

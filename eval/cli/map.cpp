@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/error.hpp"
+#include "eval/cli/options.hpp"
+#include "eval/cli/progress.hpp"
+#include "eval/cli/verbs.hpp"
+#include "eval/experiment/doses.hpp"
+#include "eval/experiment/folder_mapping.hpp"
+#include "eval/experiment/map_frame.hpp"
+#include "eval/recording/frame_selection.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <set>
+
+namespace mapscore::eval {
+namespace {
+
+struct MapVerbFlags {
+  std::string folder, file, color_file;
+  LabelledFolderOptions reading;
+  std::vector<double> range_m;
+  std::string study, method, segmentation, frames, masks;
+  std::optional<double> voxel_m, K, threshold;
+  std::optional<int> radius_px;
+  std::optional<double> radius_factor;
+  std::vector<double> origin_m{0, 0, 0};
+  double yaw_deg = 0.0;
+  bool quiet = false;
+};
+
+/// The study's method by name, its first without one.
+const MethodSettings& method_of(const Study& study, const std::string& name) {
+  std::string names;
+  for (const MethodSettings& method : study.methods) {
+    if (name.empty() || method.name == name) return method;
+    names += " " + method.name;
+  }
+  throw Error(fmt::format("--method: no method '{}' in the study; methods:{}", name, names));
+}
+
+void take_from_study(const MapVerbFlags& flags, FolderMapping& mapping) {
+  if (flags.study.empty()) {
+    if (!flags.method.empty())
+      throw Error("--method: names a method of a study; give --study, or --segmentation");
+    return;
+  }
+  const Study study = load_study(flags.study, {});
+  const MethodSettings& method = method_of(study, flags.method);
+  mapping.segmentation = segmentation_params(method.segmentation);
+  mapping.place_voxels = place_of(study, method) == Place::voxels;
+  mapping.voxel_m = study.voxel_m;
+  const auto* blend = std::get_if<BlendSettings>(&study.fusion);
+  if (blend == nullptr)
+    throw Error(
+        "--study: fuses by another rule than the blend, which is what map knows; give K and "
+        "--segmentation by flags");
+  mapping.fusion = BlendRule{blend->K};
+}
+
+void take_segmentation(const MapVerbFlags& flags, FolderMapping& mapping) {
+  const std::string& kind = flags.segmentation;
+  if (flags.radius_px && kind != "erosion")
+    throw Error("--radius_px: is erosion's; give --segmentation erosion, or leave it out");
+  if (flags.radius_factor && kind != "region_growing")
+    throw Error(
+        "--radius_factor: is region growing's; give --segmentation region_growing, or leave it "
+        "out");
+  if (kind == "direct") mapping.segmentation = DirectParams{};
+  if (kind == "erosion")
+    mapping.segmentation = ErosionParams{flags.radius_px.value_or(ErosionParams{}.radius_px)};
+  if (kind == "region_growing")
+    mapping.segmentation = RegionGrowingParams{.radius_factor = flags.radius_factor.value_or(0.5)};
+}
+
+FolderMapping mapping_of(const MapVerbFlags& flags) {
+  FolderMapping mapping;
+  take_from_study(flags, mapping);
+  take_segmentation(flags, mapping);
+  if (flags.voxel_m) mapping.voxel_m = *flags.voxel_m;
+  if (flags.K) mapping.fusion = BlendRule{*flags.K};
+  mapping.T_map_world =
+      map_from_world({flags.origin_m.at(0), flags.origin_m.at(1), flags.origin_m.at(2)},
+                     flags.yaw_deg * std::numbers::pi / 180.0);
+  return mapping;
+}
+
+std::string folder_text(const LabelledFolder& folder, const MappedCounts& counts) {
+  std::string text =
+      fmt::format("{} of {} label images mapped", counts.frames, folder.counts().labels);
+  if (folder.counts().no_depth > 0)
+    text += fmt::format("; {} without a depth image near in time", folder.counts().no_depth);
+  if (folder.counts().no_pose > 0)
+    text += fmt::format("; {} without a pose", folder.counts().no_pose);
+  return text + fmt::format("\n{} detections, {} of them without points; {} points kept\n",
+                            counts.detections, counts.empty, counts.points);
+}
+
+std::string class_lines(const SemanticMap& map, const ClassTable& table, double threshold) {
+  std::vector<std::int64_t> voxels(table.classes.size());
+  for (const MapVoxel& voxel : map.voxels())
+    if (voxel.best_class < voxels.size() && voxel.probability >= threshold)
+      ++voxels[voxel.best_class];
+  std::string text = fmt::format("{:<6} {:<20} {:>10}\n", "id", "class", "voxels");
+  for (const SemanticClass& c : table.classes)
+    if (c.detect) text += fmt::format("{:<6} {:<20} {:>10}\n", c.id, c.name, voxels[c.id]);
+  return text;
+}
+
+void map_recording(const MapVerbFlags& flags) {
+  const FolderMapping mapping = mapping_of(flags);
+  LabelledFolderOptions reading = flags.reading;
+  if (flags.masks == "classes") reading.masks = ClassMasks::classes;
+  if (!flags.range_m.empty()) reading.range_m = std::pair(flags.range_m.at(0), flags.range_m.at(1));
+  const LabelledFolder folder(flags.folder, reading);
+  const std::vector<int> frames =
+      (flags.frames.empty() ? FrameSelection() : FrameSelection(flags.frames))
+          .of(folder.frame_count());
+  MappedCounts counts;
+  Progress progress("map", "frames", flags.quiet);
+  const SemanticMap map = map_folder(folder, frames, mapping, counts,
+                                     [&](int done, int all) { progress.show(done, all); });
+  const double threshold = flags.threshold.value_or(first_full_hit(mapping.fusion) / 2);
+  map.save(flags.file);
+  if (!flags.color_file.empty()) map.export_color(flags.color_file, folder.table(), threshold);
+  std::cout << folder_text(folder, counts) << class_lines(map, folder.table(), threshold)
+            << flags.file << '\n';
+  if (!flags.color_file.empty()) std::cout << flags.color_file << '\n';
+}
+
+void add_reading_flags(CLI::App& verb, MapVerbFlags& flags) {
+  LabelledFolderOptions& reading = flags.reading;
+  const auto add = [&](const char* name, auto& value, const char* text) {
+    return verb.add_option(name, value, text)->group("Reading the folder");
+  };
+  add("--intrinsics", reading.cameras,
+      "fx,fy,cx,cy in pixels, or a YAML file; needed without recording.yaml");
+  add("--classes", reading.classes,
+      "YAML file: what the pixels of label images mean; needed without recording.yaml");
+  add("--masks", flags.masks,
+      "Class labels become a detection for each connected component, or one a class: components, "
+      "classes [components]")
+      ->check(CLI::IsMember(std::set<std::string>{"components", "classes"}));
+  add("--depth_scale", reading.depth_units_per_m, "Depth image's units in a metre [5000]")
+      ->check(finite_within(1, 1e6));
+  add("--range_m", flags.range_m, "Least and most depth that counts: near far [the cameras']")
+      ->expected(2)
+      ->check(finite_within(0, 100));
+  add("--max_offset_s", reading.max_offset_s,
+      "Images and poses whose stamps are farther apart do not belong together [0.02]")
+      ->check(finite_within(1e-6, 10));
+  add("--frames", flags.frames, "Of the frames: 3,7,9 or first:end:step, from 0 [all]");
+}
+
+void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
+  const auto add = [&](const char* name, auto& value, const char* text) {
+    return verb.add_option(name, value, text)->group("Mapping");
+  };
+  add("--study", flags.study, "Takes voxel size, segmentation, place and fusion of this study");
+  add("--method", flags.method, "Name of its method [the first]");
+  add("--segmentation", flags.segmentation, "direct, erosion or region_growing [region_growing]")
+      ->check(CLI::IsMember(std::set<std::string>{"direct", "erosion", "region_growing"}));
+  add("--radius_px", flags.radius_px, "Of erosion [5]")->check(CLI::Range(0, 1000));
+  add("--radius_factor", flags.radius_factor, "Of region growing, in voxel edges [0.5]")
+      ->check(finite_within(0.01, 10));
+  add("--voxel_m", flags.voxel_m, "Voxel edge in metres [0.05]")->check(finite_within(1e-3, 10));
+  add("--K", flags.K, "Weight of what the map held before, in the blend [0.5]")
+      ->check(finite_within(0, 1));
+  add("--origin_m", flags.origin_m, "Origin of the map in the frame of the poses: x y z [0 0 0]")
+      ->expected(3)
+      ->check(finite_within(-1e6, 1e6));
+  add("--yaw_deg", flags.yaw_deg, "Heading of the map there [0]")->check(finite_within(-360, 360));
+  add("--threshold", flags.threshold, "Least probability of a voxel in --color [(1 - K) / 2]")
+      ->check(finite_within(0, 1));
+}
+
+}  // namespace
+
+void add_map(CLI::App& program) {
+  auto* verb = program.add_subcommand("map", "Map a recording of any origin, truth or not");
+  const auto flags = std::make_shared<MapVerbFlags>();
+  verb->add_option("FOLDER", flags->folder,
+                   "Folder with depth.txt, groundtruth.txt, color.txt or rgb.txt, and label/ or "
+                   "label.txt")
+      ->required();
+  verb->add_option("-o,--output", flags->file, "Map to write (.ot)")->required();
+  verb->add_option("--color", flags->color_file,
+                   "Also a ColorOcTree (.ot) in the class colours, for octovis and ROS");
+  add_reading_flags(*verb, *flags);
+  add_mapping_flags(*verb, *flags);
+  verb->add_flag("-q,--quiet", flags->quiet, "No progress on standard error");
+  verb->footer(
+      "Prints frames, detections and voxels by class. docs/foreign_recordings.md has the files.\n"
+      "Examples:\n"
+      "  mapscore map /data/apartment -o map.ot\n"
+      "  mapscore map rgbd_dataset_freiburg3_long_office --intrinsics 535.4,539.2,320.1,247.6 "
+      "--classes coco.yaml -o desk.ot --color desk_colour.ot\n"
+      "  mapscore map /data/robot --intrinsics cameras.yaml --classes ade.yaml --depth_scale 1000 "
+      "--study configs/demo.yaml --method direct --voxel_m 0.02 -o map.ot");
+  verb->callback([flags] { map_recording(*flags); });
+}
+
+}  // namespace mapscore::eval

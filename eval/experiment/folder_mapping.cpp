@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/experiment/folder_mapping.hpp"
+
+#include "core/mapping/observation.hpp"
+#include "core/mapping/placement.hpp"
+#include "core/segmentation/detection.hpp"
+#include "core/segmentation/registered_cloud.hpp"
+
+#include <utility>
+
+namespace mapscore::eval {
+namespace {
+
+Observation observe(const Frame& frame, const ClassTable& table, const Calibration& calibration,
+                    const FolderMapping& mapping, MappedCounts& counts) {
+  const std::vector<Detection> detections = detections_of(frame.label, table);
+  const RegisteredCloud cloud = register_depth(
+      frame.depth, calibration, pixels_wanted(detections, frame.label.cols, frame.label.rows));
+  Observation observation;
+  for (const Detection& detection : detections) {
+    Segment found =
+        segment(detection, cloud, mapping.voxel_m, mapping.segmentation, mapping.place_voxels);
+    ++counts.detections;
+    counts.points += static_cast<std::int64_t>(found.points.size());
+    counts.empty += found.skipped == SkipReason::none ? 0 : 1;
+    observation.push_back({found.class_id, found.score,
+                           std::move(mapping.place_voxels ? found.voxel_centres : found.points)});
+  }
+  return observation;
+}
+
+}  // namespace
+
+SemanticMap map_folder(const LabelledFolder& folder, const std::vector<int>& frames,
+                       const FolderMapping& mapping, MappedCounts& counts,
+                       const std::function<void(int, int)>& shown) {
+  SemanticMap map(mapping.voxel_m);
+  const Calibration& calibration = folder.calibration();
+  for (const int index : frames) {
+    ClassTable table;
+    const Frame frame = folder.read(index, table);
+    const Observation observation = observe(frame, table, calibration, mapping, counts);
+    const Pose T_map_depth = mapping.T_map_world * frame.T_world_base * calibration.T_base_depth;
+    map.fuse(place(observation, {&T_map_depth, 1}, mapping.voxel_m), 1, mapping.fusion,
+             folder.table().classes.size());
+    ++counts.frames;
+    shown(static_cast<int>(counts.frames), static_cast<int>(frames.size()));
+  }
+  return map;
+}
+
+}  // namespace mapscore::eval

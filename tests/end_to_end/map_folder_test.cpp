@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/recording/png.hpp"
+#include "eval/recording/recording.hpp"
+#include "tests/end_to_end/program.hpp"
+#include "tests/support/tiny_recording.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <sstream>
+
+// A folder in TUM's layout, without what only our recordings have, mapped by the built program.
+
+namespace mapscore::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kClasses =
+    "classes:\n  - {name: crate, colour: \"FF0000\"}\n  - {name: wall, detect: false}\n";
+
+std::string numbers(const Pose& pose) {
+  const Eigen::Quaterniond q(pose.linear());
+  std::ostringstream text;
+  text.precision(17);
+  const Eigen::Vector3d t = pose.translation();
+  text << '[' << t.x() << ", " << t.y() << ", " << t.z() << ", " << q.x() << ", " << q.y() << ", "
+       << q.z() << ", " << q.w() << "]\n";
+  return text.str();
+}
+
+/// The cameras of the tiny recording as --intrinsics reads them.
+std::string tiny_cameras() {
+  const Calibration& calibration = tiny_info().calibration;
+  std::ostringstream text;
+  text.precision(17);
+  const auto camera = [&](const char* name, const CameraModel& model) {
+    text << name << ": {fx_px: " << model.fx_px << ", fy_px: " << model.fy_px
+         << ", cx_px: " << model.cx_px << ", cy_px: " << model.cy_px << "}\n";
+  };
+  camera("color", calibration.color);
+  camera("depth", calibration.depth);
+  text << "T_color_depth: " << numbers(calibration.T_color_depth)
+       << "T_base_depth: " << numbers(calibration.T_base_depth)
+       << "range_min_m: " << calibration.range_min_m << "\nrange_max_m: " << calibration.range_max_m
+       << '\n';
+  return text.str();
+}
+
+class MapFolder : public ::testing::Test {
+ protected:
+  MapFolder() { write_tiny_recording(folder_.path() / "ours"); }
+
+  [[nodiscard]] std::string path(const std::string& name) const {
+    return (folder_.path() / name).string();
+  }
+
+  /// The tiny recording as others would have written it: named rgb.txt, without recording.yaml,
+  /// truth, hashes.
+  void strip() const {
+    fs::copy(path("ours"), path("theirs"), fs::copy_options::recursive);
+    for (const char* ours : {"recording.yaml", "color.txt", "hashes.txt", "truth", "depth_label"})
+      fs::remove_all(fs::path(path("theirs")) / ours);
+    write_text(path("classes.yaml"), kClasses + std::string("instances:\n"
+                                                            "  - {id: 1, class: crate}\n"
+                                                            "  - {id: 2, class: wall}\n"));
+    write_text(path("cameras.yaml"), tiny_cameras());
+  }
+
+  /// Rewrites every image of a folder of `theirs`.
+  void rewrite(const std::string& images, const std::function<cv::Mat1w(cv::Mat1w)>& change) const {
+    const CameraModel& camera = tiny_info().calibration.color;
+    for (const auto& entry : fs::directory_iterator(fs::path(path("theirs")) / images)) {
+      const cv::Mat1w image = eval::decode_grey16_png(
+          bytes_of(entry.path()), {camera.width_px, camera.height_px}, entry.path().string());
+      write_text(entry.path(), eval::encode_png(change(image)));
+    }
+  }
+
+  [[nodiscard]] Outcome map(const std::string& name, const std::string& output,
+                            const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"map", path(name), "-o", path(output), "-q"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return mapscore(arguments);
+  }
+  [[nodiscard]] std::vector<std::string> described() const {
+    return {"--intrinsics", path("cameras.yaml"), "--classes", path("classes.yaml")};
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(MapFolder, StrippedFolderGivesTheMapOfTheOriginal) {
+  strip();
+  expect_done(map("ours", "ours.ot"));
+  expect_done(map("theirs", "theirs.ot", described()));
+  EXPECT_GT(bytes_of(path("ours.ot")).size(), 300u);
+  EXPECT_EQ(bytes_of(path("ours.ot")), bytes_of(path("theirs.ot")));
+}
+
+TEST_F(MapFolder, RecordingWithoutTruthIsMapped) {
+  expect_done(map("ours", "whole.ot"));
+  for (const char* truth : {"truth", "depth_label", "hashes.txt"})
+    fs::remove_all(fs::path(path("ours")) / truth);
+  expect_done(map("ours", "without.ot"));
+  EXPECT_EQ(bytes_of(path("whole.ot")), bytes_of(path("without.ot")));
+}
+
+TEST_F(MapFolder, DirectMapOfAllFramesMissesNothing) {
+  expect_done(map("ours", "map.ot", {"--segmentation", "direct"}));
+  const Outcome score = mapscore({"score", path("map.ot"), "--truth", path("ours"), "--tidy"});
+  expect_done(score);
+  EXPECT_NE(score.out.find("crate,recall,1\n"), std::string::npos) << score.out;
+}
+
+TEST_F(MapFolder, ClassLabelsOfAnotherNumberingAndMillimetres) {
+  strip();
+  expect_done(map("theirs", "instances.ot", described()));
+  // The crate is one component, so class labels say the same; 5 of our units are a millimetre.
+  rewrite("label", [](cv::Mat1w label) {
+    label.setTo(200, label == 1);
+    return label;
+  });
+  write_text(path("classes.yaml"), "classes: [{name: crate, label: 200}]\n");
+  expect_done(map("theirs", "classes.ot", described()));
+  EXPECT_EQ(bytes_of(path("instances.ot")), bytes_of(path("classes.ot")));
+  rewrite("depth", [](cv::Mat1w depth) { return cv::Mat1w(depth / 5); });
+  std::vector<std::string> flags = described();
+  flags.insert(flags.end(), {"--depth_scale", "1000", "--color", path("colour.ot")});
+  const Outcome outcome = map("theirs", "millimetres.ot", flags);
+  expect_done(outcome);
+  EXPECT_THAT(outcome.out, ::testing::HasSubstr("4 of 4 label images mapped"));
+  EXPECT_GT(bytes_of(path("colour.ot")).size(), 100u);
+}
+
+TEST_F(MapFolder, WhatIsMissingIsSaid) {
+  strip();
+  expect_refused(map("theirs", "map.ot"), {"recording.yaml", "--intrinsics"});
+  expect_refused(map("theirs", "map.ot", {"--intrinsics", "50,50,32,24"}), {"--classes"});
+  expect_refused(map("theirs", "map.ot", {"--intrinsics", "50,50,32", "--classes", "c.yaml"}),
+                 {"fx,fy,cx,cy"});
+  expect_refused(map("nowhere", "map.ot"), {"no such folder"});
+  fs::remove(fs::path(path("theirs")) / "label/000001.png");
+  expect_refused(map("theirs", "map.ot", described()), {"label/000001.png", "missing"});
+  EXPECT_FALSE(fs::exists(path("map.ot")));
+}
+
+TEST_F(MapFolder, FramesWithoutPartnersAreCounted) {
+  strip();
+  const fs::path list = fs::path(path("theirs")) / "depth.txt";
+  std::string text = bytes_of(list);
+  text.erase(text.rfind('\n', text.size() - 2) + 1);
+  write_text(list, text);
+  const Outcome outcome = map("theirs", "map.ot", described());
+  expect_done(outcome);
+  EXPECT_THAT(outcome.out, ::testing::HasSubstr("3 of 4 label images mapped; 1 without a depth"));
+}
+
+}  // namespace
+}  // namespace mapscore::testing
