@@ -4,6 +4,7 @@
 #include "core/mapping/semantic_map.hpp"
 
 #include "core/error.hpp"
+#include "core/mapping/frame_hits.hpp"
 
 #include <octomap/ColorOcTree.h>
 
@@ -12,27 +13,11 @@
 #include <fstream>
 #include <functional>
 #include <system_error>
+#include <utility>
+#include <variant>
 
 namespace mapscore {
 namespace {
-
-/// Below this a decayed class is forgotten; no threshold in use comes near it.
-constexpr double kForgotten = 1e-6;
-
-/// Adds `gain` to a class of a voxel whose classes have already decayed.
-void add(std::vector<ClassProbability>& classes, ClassId class_id, double gain) {
-  const auto place = std::lower_bound(
-      classes.begin(), classes.end(), class_id,
-      [](const ClassProbability& entry, ClassId id) { return entry.class_id < id; });
-  if (place != classes.end() && place->class_id == class_id)
-    place->probability += gain;
-  else
-    classes.insert(place, {class_id, gain});
-}
-
-void decay(std::vector<ClassProbability>& classes, double K) {
-  for (ClassProbability& entry : classes) entry.probability *= K;
-}
 
 /// Writes aside and renames, so that a full disk never leaves half a file under the name asked for.
 void write_whole(const std::filesystem::path& file,
@@ -60,21 +45,23 @@ SemanticMap::SemanticMap(double edge_m) : edge_m_(edge_m) {
 SemanticMap::SemanticMap(std::unique_ptr<SemanticOcTree> tree)
     : edge_m_(tree->getResolution()), tree_(std::move(tree)) {}
 
-void SemanticMap::blend(std::span<const VoxelHit> hits, int draws, double K) {
-  for (auto hit = hits.begin(); hit != hits.end();) {
-    const VoxelKey key = hit->key;
-    const auto end = std::find_if(hit, hits.end(), [&](const VoxelHit& h) { return h.key != key; });
-    if (!fits_octree(key)) {
-      hits_beyond_span_ += static_cast<std::size_t>(end - hit);
-      hit = end;
-      continue;
-    }
-    constexpr bool kLazy = true;  // inner nodes are brought up to date when the map is saved
-    auto& classes = tree_->updateNode(octree_key(key), true, kLazy)->classes;
-    decay(classes, K);
-    for (; hit != end; ++hit) add(classes, hit->class_id, (1.0 - K) * hit->score_sum / draws);
-    std::erase_if(classes, [](const ClassProbability& c) { return c.probability < kForgotten; });
-  }
+void SemanticMap::fuse(std::span<const VoxelHit> hits, int draws, const FusionRule& rule,
+                       std::size_t class_count) {
+  check_fusion(hits, draws, rule, class_count);
+  std::visit(
+      [&](const auto& kind) {
+        for_each_voxel(hits, [&](std::span<const VoxelHit> of_voxel) {
+          const VoxelKey& key = of_voxel.front().key;
+          if (!fits_octree(key)) {
+            hits_beyond_span_ += of_voxel.size();
+            return;
+          }
+          constexpr bool kLazy = true;  // inner nodes are brought up to date when the map is saved
+          mapscore::fuse(kind, of_voxel, draws,
+                         tree_->updateNode(octree_key(key), true, kLazy)->beliefs);
+        });
+      },
+      rule);
 }
 
 std::vector<MapVoxel> SemanticMap::voxels() const {
@@ -97,8 +84,7 @@ std::vector<MapVoxel> SemanticMap::voxels() const {
 
 std::span<const ClassProbability> SemanticMap::classes_at(const VoxelKey& key) const {
   const SemanticOcTreeNode* node = fits_octree(key) ? tree_->search(octree_key(key)) : nullptr;
-  return node ? std::span<const ClassProbability>(node->classes)
-              : std::span<const ClassProbability>();
+  return node ? std::as_const(node->beliefs).entries() : std::span<const ClassProbability>();
 }
 
 void SemanticMap::save(const std::filesystem::path& file) const {

@@ -5,8 +5,9 @@
 
 #include "core/classes.hpp"
 #include "core/geometry/voxel.hpp"
-#include "core/mapping/placement.hpp"
+#include "core/mapping/fusion_rule.hpp"
 #include "core/mapping/semantic_octree.hpp"
+#include "core/mapping/voxel_hit.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -32,17 +33,18 @@ class SemanticMap {
 
   [[nodiscard]] double edge_m() const { return edge_m_; }
 
-  /// The blend of [M, section 3.2] over the draws of one frame, per voxel and class:
-  /// M_t = K M_{t-1} + (1 - K) / N * (sum over the draws that the class won of its score).
-  /// Only voxels that some draw hit change; in them the other classes decay by K. `draws` is N.
-  /// Hits beyond the octree's span are left out and counted in `hits_beyond_span`.
-  void blend(std::span<const VoxelHit> hits, int draws, double K);
+  /// Changes the voxels that some draw of one frame hit by the rule; the others keep their value.
+  /// `hits` as place() gives them, `draws` is N. Hits beyond the octree's span are left out and
+  /// counted in `hits_beyond_span`. Throws Error, the map unchanged, when the rule is out of range,
+  /// N < 1, or a hit is not of N draws or names a class beyond `class_count`, the table's size.
+  void fuse(std::span<const VoxelHit> hits, int draws, const FusionRule& rule,
+            std::size_t class_count = kOtherClasses);
 
   [[nodiscard]] std::size_t hits_beyond_span() const { return hits_beyond_span_; }
 
   /// All voxels, pruned leaves spread out, ascending by key.
   [[nodiscard]] std::vector<MapVoxel> voxels() const;
-  /// Probabilities of one voxel; empty when it is not in the map.
+  /// What one voxel believes (ClassBeliefs::entries); empty when it is not in the map.
   [[nodiscard]] std::span<const ClassProbability> classes_at(const VoxelKey& key) const;
 
   /// Writes the map as .ot (type SemanticOcTree), aside and then renamed. Throws Error.

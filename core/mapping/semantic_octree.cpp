@@ -9,6 +9,8 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace mapscore {
 namespace {
@@ -54,28 +56,22 @@ OcTreeHeader read_header(std::istream& stream) {
 
 }  // namespace
 
-ClassProbability SemanticOcTreeNode::best() const {
-  ClassProbability best;
-  for (const ClassProbability& candidate : classes)
-    if (candidate.probability > best.probability) best = candidate;
-  return best;
-}
-
 std::istream& SemanticOcTreeNode::readData(std::istream& stream) {
   OcTreeNode::readData(stream);
-  classes.resize(read_raw<std::uint16_t>(stream));
-  for (ClassProbability& entry : classes) {
+  std::vector<ClassProbability> entries(read_raw<std::uint16_t>(stream));
+  for (ClassProbability& entry : entries) {
     entry.class_id = read_raw<ClassId>(stream);
     entry.probability = read_raw<double>(stream);
   }
+  beliefs = ClassBeliefs(std::move(entries));
   if (!stream) throw Error("it is truncated; write it again");
   return stream;
 }
 
 std::ostream& SemanticOcTreeNode::writeData(std::ostream& stream) const {
   OcTreeNode::writeData(stream);
-  write_raw(stream, static_cast<std::uint16_t>(classes.size()));
-  for (const ClassProbability& entry : classes) {
+  write_raw(stream, static_cast<std::uint16_t>(beliefs.entries().size()));
+  for (const ClassProbability& entry : beliefs.entries()) {
     write_raw(stream, entry.class_id);
     write_raw(stream, entry.probability);
   }

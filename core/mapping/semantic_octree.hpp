@@ -5,6 +5,7 @@
 
 #include "core/classes.hpp"
 #include "core/geometry/voxel.hpp"
+#include "core/mapping/class_beliefs.hpp"
 
 #include <octomap/OcTreeNode.h>
 #include <octomap/OccupancyOcTreeBase.h>
@@ -13,34 +14,26 @@
 #include <iosfwd>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace mapscore {
 
 /// Most finest voxels that the leaves of a map file may cover; damaged leaves can ask for 2^48.
 inline constexpr std::size_t kMostMapVoxels = 50'000'000;
 
-struct ClassProbability {
-  ClassId class_id = kBackground;
-  double probability = 0.0;
-  bool operator==(const ClassProbability&) const = default;
-};
-
-/// Voxel of a semantic map: occupancy log-odds (OctoMap's) and class probabilities, ascending by
-/// class.
+/// Voxel of a semantic map: occupancy log-odds (OctoMap's) and what is believed of its class.
 class SemanticOcTreeNode : public octomap::OcTreeNode {
  public:
-  std::vector<ClassProbability> classes;
+  ClassBeliefs beliefs;
 
   bool operator==(const SemanticOcTreeNode& other) const {
-    return value == other.value && classes == other.classes;
+    return value == other.value && beliefs == other.beliefs;
   }
   void copyData(const SemanticOcTreeNode& from) {
     OcTreeNode::copyData(from);
-    classes = from.classes;
+    beliefs = from.beliefs;
   }
   /// Most probable class, ties to the lower id; background with probability 0 when there is none.
-  [[nodiscard]] ClassProbability best() const;
+  [[nodiscard]] ClassProbability best() const { return beliefs.best(); }
 
   /// OctoMap's streaming of one node's own data; native byte order, as OctoMap writes its floats.
   std::istream& readData(std::istream& stream);

@@ -100,7 +100,7 @@ void TrialRun::advance(const Frame& frame) {
   const Observation observation =
       task_.labels == Labels::truth ? observe_truth(frame) : observe(frame, counts);
   const auto hits = place(observation, sensor_poses(frame.index), map_.edge_m());
-  map_.blend(hits, blend_.N, blend_.K);
+  map_.fuse(hits, blend_.N, BlendRule{blend_.K});
   ++result_.accounting.frames;
   if (by_itself) {
     look_up_truth_of(frame.depth_index);

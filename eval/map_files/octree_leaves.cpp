@@ -3,7 +3,7 @@
 
 #include "eval/map_files/octree_leaves.hpp"
 
-#include "core/classes.hpp"
+#include "core/mapping/class_beliefs.hpp"
 #include "eval/map_files/refusal.hpp"
 
 #include <fmt/format.h>
@@ -122,18 +122,18 @@ class NodeReader {
   }
 
   void take_best_class(OctreeLeaf& leaf) {
-    leaf.probability = 0.0;
-    const auto classes = take<std::uint16_t>();
-    for (int entry = 0; entry < classes; ++entry) {
-      const auto class_id = take<ClassId>();
-      const auto probability = take<double>();
-      if (!(probability >= 0.0) || probability > 1.0 + kRounding)
-        damaged(fmt::format("node {} has a class of probability {}", nodes_, probability));
-      if (probability <= leaf.probability) continue;
-      leaf.probability = probability;
-      leaf.label = class_id;
+    std::vector<ClassProbability> entries(take<std::uint16_t>());
+    for (ClassProbability& entry : entries) {
+      entry.class_id = take<ClassId>();
+      entry.probability = take<double>();
+      if (!(entry.probability >= 0.0) || !std::isfinite(entry.probability))
+        damaged(fmt::format("node {} has a class of weight {}", nodes_, entry.probability));
     }
-    leaf.probability = std::min(leaf.probability, 1.0);
+    const ClassProbability best = ClassBeliefs(std::move(entries)).best();
+    if (best.probability > 1.0 + kRounding)
+      damaged(fmt::format("node {} has a class of probability {}", nodes_, best.probability));
+    leaf.label = best.class_id;
+    leaf.probability = std::min(best.probability, 1.0);
   }
 
   enum State { kUnknown = 0, kFree = 1, kOccupied = 2, kInner = 3 };

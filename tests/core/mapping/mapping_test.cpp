@@ -78,13 +78,14 @@ TEST(Place, CountsTheDrawsThatEachClassWon) {
 
 TEST(Blend, FirstFullHitGivesOneMinusK) {
   SemanticMap map(kEdge);
-  map.blend(std::vector<VoxelHit>{{{0, 0, 0}, 1, 1, 1.0}}, 1, 0.3);
+  map.fuse(std::vector<VoxelHit>{{{0, 0, 0}, 1, 1, 1.0}}, 1, BlendRule{0.3});
   EXPECT_DOUBLE_EQ(probability(map, {0, 0, 0}, 1), 0.7);
 }
 
 TEST(Blend, ThirtyOfThirtyDrawsGiveExactlyAHalf) {
   SemanticMap map(kEdge);
-  map.blend(std::vector<VoxelHit>{{{0, 0, 0}, 1, 30, 30.0}, {{1, 0, 0}, 1, 15, 15.0}}, 30, 0.5);
+  map.fuse(std::vector<VoxelHit>{{{0, 0, 0}, 1, 30, 30.0}, {{1, 0, 0}, 1, 15, 15.0}}, 30,
+           BlendRule{0.5});
   EXPECT_EQ(probability(map, {0, 0, 0}, 1), 0.5);
   EXPECT_EQ(probability(map, {1, 0, 0}, 1), 0.25);
 }
@@ -92,24 +93,25 @@ TEST(Blend, ThirtyOfThirtyDrawsGiveExactlyAHalf) {
 TEST(Blend, FollowsTheFormulaByHandOverThreeFrames) {
   SemanticMap map(kEdge);  // K = 0.8, N = 4
   const VoxelKey key{3, -2, 7};
-  map.blend(std::vector<VoxelHit>{{key, 1, 4, 4.0}}, 4, 0.8);
-  map.blend(std::vector<VoxelHit>{{key, 1, 1, 1.0}, {key, 2, 2, 1.8}}, 4, 0.8);
-  map.blend(std::vector<VoxelHit>{{key, 2, 4, 4.0}}, 4, 0.8);
+  map.fuse(std::vector<VoxelHit>{{key, 1, 4, 4.0}}, 4, BlendRule{0.8});
+  map.fuse(std::vector<VoxelHit>{{key, 1, 1, 1.0}, {key, 2, 2, 1.8}}, 4, BlendRule{0.8});
+  map.fuse(std::vector<VoxelHit>{{key, 2, 4, 4.0}}, 4, BlendRule{0.8});
   EXPECT_NEAR(probability(map, key, 1), 0.8 * (0.8 * 0.2 + 0.2 * 0.25), 1e-15);
   EXPECT_NEAR(probability(map, key, 2), 0.8 * (0.2 * 0.45) + 0.2, 1e-15);
 }
 
 TEST(Blend, VoxelsThatNoDrawHitKeepTheirValue) {
   SemanticMap map(kEdge);
-  map.blend(std::vector<VoxelHit>{{{0, 0, 0}, 1, 1, 1.0}}, 1, 0.5);
-  map.blend(std::vector<VoxelHit>{{{9, 0, 0}, 1, 1, 1.0}}, 1, 0.5);
+  map.fuse(std::vector<VoxelHit>{{{0, 0, 0}, 1, 1, 1.0}}, 1, BlendRule{0.5});
+  map.fuse(std::vector<VoxelHit>{{{9, 0, 0}, 1, 1, 1.0}}, 1, BlendRule{0.5});
   EXPECT_EQ(probability(map, {0, 0, 0}, 1), 0.5);
 }
 
 TEST(Blend, CountsHitsBeyondTheOctreeAndKeepsTheRest) {
   SemanticMap map(kEdge);
-  map.blend(std::vector<VoxelHit>{{{40000, 0, 0}, 1, 1, 1.0}, {{40001, 0, 0}, 1, 1, 1.0}}, 1, 0.5);
-  map.blend(std::vector<VoxelHit>{{{32767, -32768, 0}, 1, 1, 1.0}}, 1, 0.5);
+  map.fuse(std::vector<VoxelHit>{{{40000, 0, 0}, 1, 1, 1.0}, {{40001, 0, 0}, 1, 1, 1.0}}, 1,
+           BlendRule{0.5});
+  map.fuse(std::vector<VoxelHit>{{{32767, -32768, 0}, 1, 1, 1.0}}, 1, BlendRule{0.5});
   EXPECT_EQ(map.hits_beyond_span(), 2u);
   ASSERT_EQ(map.voxels().size(), 1u);
   EXPECT_EQ(map.voxels()[0].key, (VoxelKey{32767, -32768, 0}));
@@ -122,8 +124,8 @@ class MapFile : public testing::Test {
               testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder_);
     for (int i = 0; i < 8; ++i)  // a full block of eight, which pruning would merge
-      map_.blend(std::vector<VoxelHit>{{{i & 1, i >> 1 & 1, i >> 2}, 1, 1, 1.0}}, 1, 0.5);
-    map_.blend(std::vector<VoxelHit>{{{5, -3, 2}, 2, 1, 0.8}}, 1, 0.5);
+      map_.fuse(std::vector<VoxelHit>{{{i & 1, i >> 1 & 1, i >> 2}, 1, 1, 1.0}}, 1, BlendRule{0.5});
+    map_.fuse(std::vector<VoxelHit>{{{5, -3, 2}, 2, 1, 0.8}}, 1, BlendRule{0.5});
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 

@@ -25,7 +25,7 @@ TEST_F(MapFileByEnding, EachIsReadByItsReader) {
   EXPECT_EQ(read_map_file(pcd, NotFinite::skip).points.size(), 1u);
   EXPECT_EQ(read_map_file(file("a.csv", "1,2,3,cup\n")).voxels.size(), 1u);
   SemanticMap octree(0.05);
-  octree.blend(std::vector<VoxelHit>{{{1, 2, 3}, 1, 1, 1.0}}, 1, 0.5);
+  octree.fuse(std::vector<VoxelHit>{{{1, 2, 3}, 1, 1, 1.0}}, 1, BlendRule{0.5});
   octree.save(folder_ / "a.ot");
   EXPECT_EQ(read_map_file(folder_ / "a.ot").edge_m, 0.05);
 }

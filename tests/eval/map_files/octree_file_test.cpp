@@ -151,7 +151,9 @@ TEST_F(OctreeFile, PrunedSemanticTreeIsWhatOctoMapReads) {
     for (int j = -8; j < 8; ++j)
       for (int k = 0; k < 4; ++k) {
         auto* node = tree.updateNode(octree_key({i, j, k}), i < 4);
-        if (j >= 0) node->classes = {{1, 0.25}, {2, i < 0 ? 0.5 : 0.25}, {3, j < 4 ? 0.125 : 1.0}};
+        if (j >= 0)
+          node->beliefs =
+              ClassBeliefs({{1, 0.25}, {2, i < 0 ? 0.5 : 0.25}, {3, j < 4 ? 0.125 : 1.0}});
       }
   tree.prune();
   testing::write_ot(tree, folder_ / "map.ot");

@@ -65,14 +65,15 @@ inline SemanticMap semantic_map() {
     for (int j = -4; j < 4; ++j) {
       VoxelHit hit;
       hit.key = {i, j, i * j};
+      hit.draws = 1;
       hit.class_id = static_cast<ClassId>(i < -6 ? kBackground : i < 2 ? 1 : 2);
       hit.score_sum = 0.5 + 0.02 * (i + j);
       hits.push_back(hit);
     }
-  map.blend(hits, 1, 0.5);
+  map.fuse(hits, 1, BlendRule{0.5});
   std::vector<VoxelHit> again(hits.begin() + 60, hits.begin() + 110);
   for (VoxelHit& hit : again) hit.class_id = 3;
-  map.blend(again, 1, 0.5);
+  map.fuse(again, 1, BlendRule{0.5});
   return map;
 }
 
