@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/segmentation/lattice_bits.hpp"
+#include "core/segmentation/nearest_positions.hpp"
 #include "core/segmentation/point_extent.hpp"
 
 #include <algorithm>
@@ -129,13 +130,6 @@ class FastGrowing {
     return at;
   }
 
-  /// Whether a position other than the nearest, `at`, may be within reach.
-  [[nodiscard]] bool others_near(const LatticePoint& point, const Index3& at) const {
-    const double off = std::max(
-        {std::abs(point.q[0] - at[0]), std::abs(point.q[1] - at[1]), std::abs(point.q[2] - at[2])});
-    return off >= 1.0 - reach_;
-  }
-
   /// Limits, included, of the positions that may be within reach. Truncation rounds down here.
   [[nodiscard]] std::pair<Index3, Index3> block(const LatticePoint& point) const {
     std::pair<Index3, Index3> limits;
@@ -149,16 +143,34 @@ class FastGrowing {
   /// Marks every position that reaches some point, and notes for each point one that reaches it.
   void mark_occupied() {
     reached_.resize(points_.size());
-    for (std::size_t n = 0; n < points_.size(); ++n) {
-      const LatticePoint point = on_lattice(points_[n]);
-      const Index3 at = nearest(point);
-      reached_[n] = kNowhere;
-      if (reaches(at, point)) {
-        reached_[n] = address(at);
-        if (!occupied_.test(reached_[n])) occupied_.set(reached_[n]);
+    const LatticeBox box = lattice_box();
+    NearestPositions<Scalar> positions;
+    for (std::size_t first = 0; first < points_.size(); first += positions.kMost) {
+      const std::size_t count = std::min(positions.kMost, points_.size() - first);
+      positions.locate(points_.subspan(first, count), box, radius_squared_);
+      for (std::size_t n = 0; n < count; ++n) {
+        Address reached = positions.nearest(n);
+        if (reached != kNowhere) occupied_.set(reached);
+        const bool done = reached != kNowhere && positions.cube(n) != kNowhere &&
+                          positions.has_more(n) && full_.test(positions.cube(n));
+        if (positions.has_more(n) && !done)
+          reached = mark_block(on_lattice(points_[first + n]), reached);
+        reached_[first + n] = reached;
       }
-      if (others_near(point, at)) reached_[n] = mark_block(point, reached_[n]);
     }
+  }
+
+  [[nodiscard]] LatticeBox lattice_box() const {
+    LatticeBox box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.seed[axis] = seed_[static_cast<Eigen::Index>(axis)];
+      box.low[axis] = low_[axis];
+    }
+    box.pitch_m = pitch_m_;
+    box.reach = reach_;
+    box.stride = {occupied_.address(1, 0, 0) - occupied_.address(0, 0, 0),
+                  occupied_.address(0, 1, 0) - occupied_.address(0, 0, 0)};
+    return box;
   }
 
   /// Marks the block of a point whose nearest position is done; what to note for the point.
@@ -170,7 +182,6 @@ class FastGrowing {
     const auto [least, most] = std::minmax({steps[0], steps[1], steps[2]});
     const bool compact = most <= 1, cube = compact && least == 1;
     const bool known = reached != kNowhere;
-    if (cube && known && full_.test(address(first))) return reached;
     bool full = true;
     for (std::int32_t i = first[0]; i <= last[0]; ++i) {
       for (std::int32_t j = first[1]; j <= last[1]; ++j) {
@@ -209,13 +220,15 @@ class FastGrowing {
   }
 
   void keep_points(Region& region) const {
-    region.points.reserve(points_.size());
+    std::size_t kept = 0;  // no branches here: which points are kept is hard to foresee
+    region.points.resize(points_.size());
     for (std::size_t n = 0; n < points_.size(); ++n) {
       const Address a = reached_[n];
-      const bool kept =
-          a == kUndecided ? reached_by_accepted(points_[n]) : a != kNowhere && accepted_.test(a);
-      if (kept) region.points.push_back(static_cast<int>(n));
+      region.points[kept] = static_cast<int>(n);
+      kept +=
+          a < kUndecided ? accepted_.test(a) : a == kUndecided && reached_by_accepted(points_[n]);
     }
+    region.points.resize(kept);
   }
 
   [[nodiscard]] bool reached_by_accepted(const Eigen::Vector3d& p) const {

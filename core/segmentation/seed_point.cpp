@@ -121,7 +121,7 @@ cv::Mat1f distances_inside(const Detection& detection, const RegisteredCloud& cl
   return cv::min(inside, static_cast<float>(std::max(box.width(), box.height())));
 }
 
-/// A pixel of the medial axis: none of its 8 neighbours lies deeper inside.
+/// A pixel of the medial axis: none of its 4 neighbours lies deeper inside.
 struct AxisPixel {
   cv::Point at;
   double depth_m;
@@ -130,7 +130,7 @@ struct AxisPixel {
 
 std::vector<AxisPixel> medial_axis(const cv::Mat1f& distances, const cv::Mat1d& depths) {
   cv::Mat1f greatest;
-  cv::dilate(distances, greatest, cv::Mat1b::ones(3, 3));
+  cv::dilate(distances, greatest, cv::getStructuringElement(cv::MORPH_CROSS, {3, 3}));
   std::vector<AxisPixel> axis;
   for (int v = 0; v < depths.rows; ++v)
     for (int u = 0; u < depths.cols; ++u)

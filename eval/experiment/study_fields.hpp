@@ -19,8 +19,8 @@ namespace mapscore::eval {
 template <>
 inline constexpr auto kNames<Place> = std::to_array<std::string_view>({"points", "voxels"});
 template <>
-inline constexpr auto kNames<SeedRule> = std::to_array<std::string_view>({"box_centre",
-                                                                          "mask_centroid"});
+inline constexpr auto kNames<SeedRule> =
+    std::to_array<std::string_view>({"box_centre", "mask_centroid", "largest_piece", "depth_mode"});
 template <>
 inline constexpr auto kNames<NoiseAt> = std::to_array<std::string_view>({"base", "odom"});
 template <>

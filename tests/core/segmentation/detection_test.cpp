@@ -3,6 +3,8 @@
 
 #include "core/segmentation/detection.hpp"
 
+#include "core/error.hpp"
+
 #include <gtest/gtest.h>
 
 namespace mapscore {
@@ -54,6 +56,18 @@ TEST(Detection, InstanceInPiecesIsOneDetection) {
 TEST(Detection, EmptyImageAndEmptyTableGiveNone) {
   EXPECT_TRUE(detections_of(cv::Mat1w(4, 6, std::uint16_t{0}), kitchen()).empty());
   EXPECT_TRUE(detections_of(kLabel, ClassTable{}).empty());
+}
+
+TEST(Detection, RefusesTablesThatDoNotHoldTogether) {
+  ClassTable beyond = kitchen();
+  beyond.instances[2].class_id = 4;  // the last class is 3
+  EXPECT_THROW((void)detections_of(kLabel, beyond), Error);
+  ClassTable shuffled = kitchen();
+  std::swap(shuffled.instances[1], shuffled.instances[2]);
+  EXPECT_THROW((void)detections_of(kLabel, shuffled), Error);
+  ClassTable gap = kitchen();
+  gap.classes[3].id = 7;
+  EXPECT_THROW((void)detections_of(kLabel, gap), Error);
 }
 
 TEST(Detection, WantedAreTheMasksAndTheMiddleOfEachBox) {

@@ -174,6 +174,29 @@ TEST(Segmentation, SkippedSayWhy) {
   expect_nothing(plane.segment_by(RegionGrowingParams{}), SkipReason::no_points);
 }
 
+TEST(Segmentation, RefusesMasksAndBoxesThatDoNotFit) {
+  Plane plane;
+  plane.label(cv::Rect(2, 2, 5, 3)) = 1;
+  const RegisteredCloud cloud = register_depth(plane.depth, plane.pair);
+  const Detection right = plane.detection();
+  const auto expect_refused = [&](const Detection& wrong) {
+    for (const SegmentationParams& params :
+         {SegmentationParams{DirectParams{}}, SegmentationParams{ErosionParams{1}},
+          SegmentationParams{RegionGrowingParams{}}})
+      EXPECT_THROW((void)segment(wrong, cloud, 0.05, params, false), Error);
+  };
+  Detection wrong = right;
+  wrong.mask = cv::Mat1b(3, 4, std::uint8_t{255});  // the box is 5 x 3
+  expect_refused(wrong);
+  for (const int shift : {-3, 3}) {  // columns 2 to 6 of 9
+    wrong = right;
+    wrong.box.u_min += shift;
+    wrong.box.u_max += shift;
+    expect_refused(wrong);
+    EXPECT_THROW((void)pixels_wanted({wrong}, 9, 7), Error);
+  }
+}
+
 TEST(Segmentation, RefusesParametersOutOfRange) {
   Plane plane;
   plane.label(3, 4) = 1;
