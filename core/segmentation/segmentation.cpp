@@ -4,8 +4,8 @@
 #include "core/segmentation/segmentation.hpp"
 
 #include "core/error.hpp"
-#include "core/geometry/voxel.hpp"
 #include "core/segmentation/erosion.hpp"
+#include "core/segmentation/occupied_centres.hpp"
 #include "core/segmentation/region_growing.hpp"
 
 #include <algorithm>
@@ -27,22 +27,6 @@ std::vector<Eigen::Vector3d> points_of(const cv::Mat1b& mask, const PixelBox& bo
         points.push_back(cloud.point(sources[u]));
   }
   return points;
-}
-
-/// Centres of the voxels that hold points, on the lattice anchored at the sensor frame's origin.
-std::vector<Eigen::Vector3d> occupied_centres(const std::vector<Eigen::Vector3d>& points,
-                                              double voxel_m) {
-  std::vector<VoxelKey> keys;
-  for (const Eigen::Vector3d& point : points) {
-    const VoxelKey key = voxel_of(point, voxel_m);
-    if (keys.empty() || keys.back() != key) keys.push_back(key);  // neighbours mostly share a voxel
-  }
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  std::vector<Eigen::Vector3d> centres;
-  centres.reserve(keys.size());
-  for (const VoxelKey& key : keys) centres.push_back(centre_of(key, voxel_m));
-  return centres;
 }
 
 /// Throws Error unless the detection lies within the cloud and its mask fills its box.
@@ -93,6 +77,10 @@ struct Segmenter {
     if (!with_voxels) return;
     for (const VoxelKey& key : region.positions)
       segment.voxel_centres.push_back(lattice_position(*seed, voxel_m, key));
+  }
+
+  void operator()(const EdgeAlignedParams&) const {
+    throw Error("edge_aligned: segments a whole frame; call segment_frame");
   }
 
   void keep(const cv::Mat1b& mask) const {

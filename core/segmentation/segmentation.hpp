@@ -31,7 +31,15 @@ struct RegionGrowingParams {
   SeedRule seed = SeedRule::box_centre;
 };
 
-using SegmentationParams = std::variant<DirectParams, ErosionParams, RegionGrowingParams>;
+/// Outlines of a frame fitted to its depth edges, then votes on the depth surface; of a whole frame
+/// (edge_aligned.hpp).
+struct EdgeAlignedParams {
+  double search_px = 40;  ///< largest displacement of the masks that is looked for
+  double reach_px = 3;    ///< how far votes spread over a depth surface
+};
+
+using SegmentationParams =
+    std::variant<DirectParams, ErosionParams, RegionGrowingParams, EdgeAlignedParams>;
 
 /// Why a detection yielded nothing.
 enum class SkipReason { none, no_points, eroded_away, no_seed_point, seed_off_object };
@@ -54,7 +62,8 @@ struct Segment {
 /// From a detection and a registered cloud to the points, box and voxels of the object
 /// (docs/methods.md). `voxel_m`: voxel edge. `with_voxels`: fill `voxel_centres`. An oriented box:
 /// upright_box of the points. Throws Error on a radius or edge that is not positive (an erosion
-/// radius of 0 is direct), on a mask of another size than its box and on a box beyond the cloud.
+/// radius of 0 is direct), on a mask of another size than its box, on a box beyond the cloud, and
+/// for what segments a whole frame (frame_segmentation.hpp).
 [[nodiscard]] Segment segment(const Detection& detection, const RegisteredCloud& cloud,
                               double voxel_m, const SegmentationParams& params, bool with_voxels);
 

@@ -69,6 +69,9 @@ SegmentationParams segmentation_params(const SegmentationSettings& settings) {
     SegmentationParams operator()(const RegionGrowingSettings& s) const {
       return RegionGrowingParams{s.radius_factor, s.released, s.seed};
     }
+    SegmentationParams operator()(const EdgeAlignedSettings& s) const {
+      return EdgeAlignedParams{s.search_px, s.reach_px};
+    }
   };
   return std::visit(Convert{}, settings);
 }

@@ -10,11 +10,11 @@ namespace mapscore::eval {
 
 /// Processor time that a method spent on one frame, in seconds. Measured, so not the same twice.
 struct FrameTimes {
-  double registration_s = 0.0;  ///< depth to colour, where some segmentation reads a point
-  double segmentation_s = 0.0;  ///< of all detections
-  double mapping_s = 0.0;       ///< drawing poses, placing, fusing
+  double segmentation_s = 0.0;  ///< registration, where a segmentation reads a point, and all
+                                ///< detections
+  double mapping_s = 0.0;       ///< drawing poses, placing, carving, fusing
 
-  [[nodiscard]] double total_s() const { return registration_s + segmentation_s + mapping_s; }
+  [[nodiscard]] double total_s() const { return segmentation_s + mapping_s; }
 };
 
 }  // namespace mapscore::eval

@@ -6,6 +6,7 @@
 #include "core/parallel.hpp"
 #include "eval/score/curve.hpp"
 #include "eval/score/reduced_tables.hpp"
+#include "eval/score/thin_score.hpp"
 #include "eval/score/voxel_score.hpp"
 
 #include <algorithm>
@@ -121,6 +122,9 @@ Counts LatticeTruth::score(const MapSnapshot& map, double threshold, const ViewT
   for (std::size_t c = 0; c < class_count; ++c) counts[c].curve = std::move(curves[c]);
   if (!options.distances_m.empty())
     score_distances(map, threshold, distance_to_class, view_truth.samples, options, counts, jobs);
+  if (options.thin)
+    score_thin(map, threshold, surface, view_truth.visible, {distance_to_class, distance_to_thin},
+               counts);
   return counts;
 }
 
@@ -131,6 +135,8 @@ LatticeTruth make_surface_truth(const std::vector<Shape>& shapes, const ClassTab
   truth.surface =
       surface_truth(shapes, table, T_map_world, {map_frame.edge_m, options.epsilon_m, jobs});
   truth.distance_to_class = cube_distance(prepare(shapes, T_map_world), table, map_frame.edge_m);
+  truth.distance_to_thin =
+      mapscore::eval::distance_to_thin(shapes, table, T_map_world, map_frame.edge_m);
   return truth;
 }
 

@@ -50,6 +50,7 @@ struct TruthOptions {
 struct LatticeTruth {
   SurfaceTruth surface;
   CubeDistance distance_to_class;
+  CubeDistance distance_to_thin;  ///< to the class's thin geoms alone
   ViewTruth view;  ///< of all selected frames together; empty until it is made
 
   /// Counts of a map against this truth and a view of it; distances where the options name

@@ -4,6 +4,7 @@
 #include "eval/experiment/recorded_surfaces.hpp"
 
 #include "core/error.hpp"
+#include "eval/score/thin_score.hpp"
 
 #include <fmt/format.h>
 
@@ -39,7 +40,8 @@ RecordedSurfaces::RecordedSurfaces(const RecordedShapes& shapes, const ClassTabl
   const SurfaceOptions options{map_frame.edge_m, epsilon_m, jobs};
   if (shapes.poses.empty()) {
     still_ = {surface_truth(shapes.shapes, table, T_map_world, options),
-              cube_distance(prepare(shapes.shapes, T_map_world), table, map_frame.edge_m)};
+              cube_distance(prepare(shapes.shapes, T_map_world), table, map_frame.edge_m),
+              distance_to_thin(shapes.shapes, table, T_map_world, map_frame.edge_m)};
     return;
   }
   moving_ = std::make_unique<const MovingSurface>(shapes.poses.fixed(shapes.shapes), table,
@@ -59,7 +61,8 @@ SurfacesAt RecordedSurfaces::at(std::optional<double> at_s) const {
       of_class.push_back(std::move(piece));
     distances[c.id] = std::make_shared<const SurfaceDistance>(std::move(of_class));
   }
-  return {moving_->at(moved), cube_distance(std::move(distances), map_frame_.edge_m)};
+  return {moving_->at(moved), cube_distance(std::move(distances), map_frame_.edge_m),
+          distance_to_thin(shapes_.at(at_s), table_, map_frame_.T_map_world(), map_frame_.edge_m)};
 }
 
 }  // namespace mapscore::eval

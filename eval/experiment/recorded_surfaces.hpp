@@ -34,6 +34,7 @@ struct RecordedShapes {
 struct SurfacesAt {
   SurfaceTruth surface;
   CubeDistance distance_to_class;
+  CubeDistance distance_to_thin;  ///< to the class's thin geoms alone
 };
 
 /// The surfaces of a recording on one lattice. What stays is voxelised once, what moves at each

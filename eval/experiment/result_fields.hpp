@@ -38,6 +38,13 @@ inline constexpr std::array<CountField<InstanceCounts>, 5> kInstanceCountFields{
     {"instances_void", &InstanceCounts::void_predicted},
 }};
 
+inline constexpr std::array<CountField<ThinCounts>, 4> kThinCountFields{{
+    {"thin_predicted", &ThinCounts::predicted},
+    {"thin_true_predicted", &ThinCounts::true_predicted},
+    {"thin_visible", &ThinCounts::visible},
+    {"thin_found", &ThinCounts::found},
+}};
+
 inline constexpr std::array<CountField<BoxCounts>, 6> kBoxCountFields{{
     {"boxes", &BoxCounts::detections},
     {"boxes_unseen", &BoxCounts::unseen},

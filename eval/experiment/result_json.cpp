@@ -95,6 +95,7 @@ json counts_to_json(const ClassCounts& counts) {
   object["curve"] = curve_to_json(counts.curve);
   object["boxes"] = fields_to_json(counts.boxes, kBoxCountFields);
   if (counts.instances) object["instances"] = instances_to_json(*counts.instances);
+  if (counts.thin) object["thin"] = fields_to_json(*counts.thin, kThinCountFields);
   return object;
 }
 
@@ -108,6 +109,8 @@ ClassCounts counts_from_json(const json& object) {
   counts.curve = curve_from_json(object.at("curve"));
   fields_from_json(object.at("boxes"), counts.boxes, kBoxCountFields);
   if (object.contains("instances")) counts.instances = instances_from_json(object.at("instances"));
+  if (object.contains("thin"))
+    fields_from_json(object.at("thin"), counts.thin.emplace(), kThinCountFields);
   return counts;
 }
 

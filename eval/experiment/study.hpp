@@ -74,7 +74,16 @@ struct RegionGrowingSettings {
   bool operator==(const RegionGrowingSettings&) const = default;
 };
 
-using SegmentationSettings = std::variant<DirectSettings, ErosionSettings, RegionGrowingSettings>;
+struct EdgeAlignedSettings {
+  static constexpr std::string_view kKind = "edge_aligned";
+  static constexpr std::string_view kMeaning =
+      "fit a frame's masks to its depth edges, then vote on the depth surface";
+  double search_px = 40, reach_px = 3;
+  bool operator==(const EdgeAlignedSettings&) const = default;
+};
+
+using SegmentationSettings =
+    std::variant<DirectSettings, ErosionSettings, RegionGrowingSettings, EdgeAlignedSettings>;
 
 struct MethodSettings {
   std::string name;  ///< letters, digits, _ and -
@@ -190,6 +199,7 @@ struct ScoreSettings {
   std::vector<int> tolerances{0, 1};
   std::vector<double> distances_m{0.01, 0.02, 0.05, 0.1};
   bool instances = false;
+  bool thin = false;
 
   bool operator==(const ScoreSettings&) const = default;
 };

@@ -84,6 +84,12 @@ void fields(auto&& visit, Of<RegionGrowingSettings> auto& s) {
   visit(Field{"seed", "pixel whose point the growing starts from"}, s.seed);
 }
 
+void fields(auto&& visit, Of<EdgeAlignedSettings> auto& s) {
+  visit(Field{"search_px", "largest displacement of the masks that is looked for", {0, 200}},
+        s.search_px);
+  visit(Field{"reach_px", "how far votes spread over a depth surface", above(0, 100)}, s.reach_px);
+}
+
 void fields(auto&& visit, Of<MethodSettings> auto& s) {
   visit(Field{"segmentation", "from a detection and a registered cloud to points", {}, true},
         s.segmentation);
@@ -154,6 +160,10 @@ void fields(auto&& visit, Of<ScoreSettings> auto& s) {
               .meaning = "score instances too, the connected pieces of each class: PQ and AP",
               .unkeyed = "false"},
         s.instances);
+  visit(Field{.key = "thin",
+              .meaning = "count the voxels of thin parts (chair legs) by themselves too",
+              .unkeyed = "false"},
+        s.thin);
 }
 
 void fields(auto&& visit, Of<Study> auto& s) {

@@ -5,6 +5,7 @@
 
 #include "core/mapping/placement.hpp"
 #include "core/mapping/pose_belief.hpp"
+#include "core/segmentation/frame_segmentation.hpp"
 #include "eval/experiment/doses.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/sensor_doses.hpp"
@@ -82,7 +83,8 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       place_voxels_(place_of(task.config, task.config.methods.front()) == Place::voxels),
       blend_(std::get<BlendSettings>(task.config.fusion)),
       threshold_(task.config.score.threshold.value.value_or(default_threshold(blend_.K))),
-      score_options_{positive(task.config.score.tolerances), task.config.score.distances_m},
+      score_options_{positive(task.config.score.tolerances), task.config.score.distances_m,
+                     task.config.score.thin},
       map_frame_(map_frame(task.config, task.seed_index)),
       truths_(truths),
       boxes_(truths.boxes()),
@@ -134,16 +136,13 @@ Observation TrialRun::observe(const Frame& frame, Counts& counts) {
       sim::corrupt_detections(frame.label, table_, label_dose_, seed, frame.index);
   const cv::Mat1w depth =
       sim::corrupt_depth(frame.depth, true_.depth, depth_dose_, seed, frame.depth_index);
-  const double before_s = thread_seconds();
-  const RegisteredCloud cloud = register_depth(
-      depth, believed_, pixels_wanted(detections, frame.label.cols, frame.label.rows));
-  times_.registration_s = thread_seconds() - before_s;
   const std::vector<Eigen::AlignedBox3d>& true_boxes = boxes_.of(frame);
+  const double before_s = thread_seconds();
+  std::vector<Segment> segments =
+      segment_frame(detections, depth, believed_, map_.edge_m(), segmentation_, place_voxels_);
+  times_.segmentation_s = thread_seconds() - before_s;
   Observation observation;
-  for (const Detection& detection : detections) {
-    const double before_segment_s = thread_seconds();
-    Segment found = segment(detection, cloud, map_.edge_m(), segmentation_, place_voxels_);
-    times_.segmentation_s += thread_seconds() - before_segment_s;
+  for (Segment& found : segments) {
     account(found);
     const bool right = found.class_id == table_.class_of(found.instance);
     counts[found.class_id].boxes.add(right ? found.box : Eigen::AlignedBox3d(),

@@ -96,6 +96,7 @@ TruthCache::Truth TruthCache::get(Shelf& shelf, std::list<Shelf::OfView>& truths
                              surfaces(shelf, map_frame, options.epsilon_m)->at(options.at_s);
                          truth.surface = std::move(at.surface);
                          truth.distance_to_class = std::move(at.distance_to_class);
+                         truth.distance_to_thin = std::move(at.distance_to_thin);
                          truth.view = make_view(recording_, shelf.table, frames_, map_frame,
                                                 options, truth.surface, kOneJob);
                          return std::make_shared<const LatticeTruth>(std::move(truth));

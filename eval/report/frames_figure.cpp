@@ -69,12 +69,12 @@ Spread spread_of(const std::vector<double>& values) {
 }
 
 std::vector<std::string> row_of(const MethodFrames& method) {
-  std::vector<double> total_ms, registration_ms, segmentation_ms, voxels;
+  std::vector<double> total_ms, segmentation_ms, mapping_ms, voxels;
   FrameFigures all;
   for (const FrameFigures& frame : method.frames) {
     total_ms.push_back(kMilliseconds * frame.times.total_s());
-    registration_ms.push_back(kMilliseconds * frame.times.registration_s);
     segmentation_ms.push_back(kMilliseconds * frame.times.segmentation_s);
+    mapping_ms.push_back(kMilliseconds * frame.times.mapping_s);
     voxels.push_back(static_cast<double>(frame.predicted));
     all.predicted += frame.predicted;
     all.true_predicted += frame.true_predicted;
@@ -84,7 +84,7 @@ std::vector<std::string> row_of(const MethodFrames& method) {
   const Spread time = spread_of(total_ms);
   std::vector<std::string> row{method.method};
   for (const double value : {time.most, time.mean, time.least, time.deviation,
-                             spread_of(registration_ms).mean, spread_of(segmentation_ms).mean})
+                             spread_of(segmentation_ms).mean, spread_of(mapping_ms).mean})
     row.push_back(fmt::format("{:.2f}", value));
   row.push_back(fmt::format("{:.1f}", spread_of(voxels).mean));
   for (const auto& value : {ratio(all.true_predicted, all.predicted), ratio(all.found, all.visible),

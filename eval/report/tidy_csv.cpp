@@ -26,6 +26,8 @@ std::vector<Metric> counts_as_metrics(const ClassCounts& c) {
   }
   add("boxes", c.boxes.detections);
   add("boxes_unseen", c.boxes.unseen);
+  if (c.thin)
+    for (const auto& [name, member] : kThinCountFields) add(name, (*c.thin).*member);
   if (!c.instances) return metrics;
   add("instances_true_positive", c.instances->true_positive);
   add("instances_false_positive", c.instances->false_positive);

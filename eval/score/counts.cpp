@@ -45,6 +45,19 @@ void pool_instances(std::optional<InstanceCounts>& total,
   if (total) *total += *other;
 }
 
+void pool_thin(std::optional<ThinCounts>& total, const std::optional<ThinCounts>& other) {
+  if (total.has_value() != other.has_value()) {
+    throw Error(
+        "score: counts with and without thin parts cannot be pooled; score both with the same "
+        "score.thin");
+  }
+  if (!total) return;
+  total->predicted += other->predicted;
+  total->true_predicted += other->true_predicted;
+  total->visible += other->visible;
+  total->found += other->found;
+}
+
 }  // namespace
 
 void check(const ScoreOptions& options) {
@@ -63,6 +76,7 @@ void check(const ScoreOptions& options) {
 ClassCounts& ClassCounts::operator+=(const ClassCounts& other) {
   pool_tolerances(at_tolerance, other.at_tolerance);
   pool_instances(instances, other.instances);
+  pool_thin(thin, other.thin);
   predicted += other.predicted;
   true_predicted += other.true_predicted;
   visible += other.visible;
@@ -85,6 +99,7 @@ ClassCounts& ClassCounts::operator+=(const ClassCounts& other) {
 Counts zero_counts(std::size_t class_count, const ScoreOptions& options) {
   ClassCounts zero;
   for (const int tolerance : options.tolerances) zero.at_tolerance.push_back({tolerance, 0, 0});
+  if (options.thin) zero.thin.emplace();
   return Counts(class_count, zero);
 }
 

@@ -19,6 +19,7 @@ namespace mapscore::eval {
 struct ScoreOptions {
   std::vector<int> tolerances{1};                           ///< voxels, each in 1..5, ascending
   std::vector<double> distances_m{0.01, 0.02, 0.05, 0.10};  ///< tau of the F-score, ascending
+  bool thin = false;                                        ///< voxels of thin parts by themselves
 };
 
 /// Throws Error when a list is not ascending or a value is out of range.
@@ -34,6 +35,14 @@ struct ToleranceCounts {
   std::int64_t true_predicted = 0, found = 0;
 
   bool operator==(const ToleranceCounts&) const = default;
+};
+
+/// Of the voxels of P_c and V_c those that belong to thin parts (thin_score.hpp).
+struct ThinCounts {
+  std::int64_t predicted = 0, true_predicted = 0;
+  std::int64_t visible = 0, found = 0;
+
+  bool operator==(const ThinCounts&) const = default;
 };
 
 /// Everything counted for one class: integers that add over frames and trials. Pool them with +=,
@@ -64,8 +73,10 @@ struct ClassCounts {
   ClassCurve curve;            ///< the counts at every threshold
   BoxCounts boxes;             ///< of detections; none where a map is all there is
   std::optional<InstanceCounts> instances;  ///< where instances were scored
+  std::optional<ThinCounts> thin;           ///< where thin parts were scored
 
-  /// Pools. Throws Error when tolerances or distances differ, or one alone has instances.
+  /// Pools. Throws Error when tolerances or distances differ, or one alone has instances or
+  /// thin parts.
   ClassCounts& operator+=(const ClassCounts& other);
   bool operator==(const ClassCounts&) const = default;
 };

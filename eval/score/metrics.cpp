@@ -63,6 +63,13 @@ void append_distances(const ClassCounts& counts, std::vector<Metric>& metrics) {
   metrics.push_back({"completeness_p95_m", completeness.percentile_m(kPercentile)});
 }
 
+void append_thin(const ThinCounts& thin, std::vector<Metric>& metrics) {
+  metrics.push_back({"thin_precision", ratio(thin.true_predicted, thin.predicted)});
+  metrics.push_back({"thin_recall", ratio(thin.found, thin.visible)});
+  metrics.push_back(
+      {"thin_f1", f1(thin.true_predicted, thin.predicted, thin.found, thin.visible)});
+}
+
 /// The figures of a class as they enter the mean over classes: without those of instances.
 std::vector<Metric> metrics_for_mean(ClassCounts counts) {
   counts.instances.reset();
@@ -124,6 +131,7 @@ std::vector<Metric> metrics_of(const ClassCounts& counts) {
   metrics.push_back({"brier", brier(counts.curve)});
   metrics.push_back({"ece", expected_calibration_error(counts.curve)});
   for (Metric& metric : box_metrics(counts.boxes)) metrics.push_back(std::move(metric));
+  if (counts.thin) append_thin(*counts.thin, metrics);
   if (!counts.instances) return metrics;
   for (Metric& metric : instance_metrics(*counts.instances)) metrics.push_back(std::move(metric));
   return metrics;

@@ -40,7 +40,8 @@ struct Metric {
 /// recall_4, f1_4, iou_4; for each tolerance t precision_tT, recall_tT, f1_tT; where distances were
 /// scored, for each tau precision_Xcm, recall_Xcm, f_Xcm, then accuracy_mean_m, accuracy_p95_m,
 /// completeness_mean_m, completeness_p95_m; ap, brier, ece; box_iou, box_25, box_50, box_75; where
-/// instances were scored, those of instance_metrics.
+/// thin parts were scored, thin_precision, thin_recall, thin_f1; where instances were scored, those
+/// of instance_metrics.
 [[nodiscard]] std::vector<Metric> metrics_of(const ClassCounts& counts);
 
 /// Each figure's mean over the classes where it is defined. All list the same figures in one order;

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/camera.hpp"
+
+#include <opencv2/core.hpp>
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace mapscore {
+
+/// Side of a pixel pair on which the farther surface lies, seen from the nearer one.
+enum class Outward { right, left, down, up };
+
+/// A place where the depth image steps between two pixels of a row or a column.
+struct DepthEdge {
+  Eigen::Vector3f point;  ///< on the nearer surface, half a pixel beyond its last pixel
+  Outward outward = Outward::right;
+  float strength = 0;  ///< 0 to 1
+};
+
+/// Steps of a depth image, and what hangs together in it.
+struct DepthEdges {
+  cv::Mat1f inverse_depth;       ///< 1 / z in 1/m; 0 where there is no usable depth
+  cv::Mat1f right, down;         ///< continuity to the next pixel of the row, of the column: 0 to 1
+  std::vector<DepthEdge> steps;  ///< row-major, rows before columns of a pixel
+};
+
+/// Finds the steps of a depth image of `camera`. On a plane the inverse depth w = 1/z is linear in
+/// the pixel, so a pair (p, q) is judged by how far w_q lies from the line through p's side and w_p
+/// from the line through q's side, the lesser of the two: e = min(|w_q - 2 w_p + w_p'|, |w_p - 2
+/// w_q + w_q'|). strength = (e - tau) / (2 tau), limited to 0 and 1; tau = max(0.002 / m, 4 sigma),
+/// sigma the noise of w as the image's own second differences show it. Depths outside the camera's
+/// range are none. A gap of up to 24 pixels without depth is stepped over.
+[[nodiscard]] DepthEdges find_depth_edges(const cv::Mat1w& depth, const Calibration& believed);
+
+}  // namespace mapscore

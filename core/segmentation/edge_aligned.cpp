@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/edge_aligned.hpp"
+
+#include "core/error.hpp"
+#include "core/geometry/depth_rays.hpp"
+#include "core/segmentation/depth_edges.hpp"
+#include "core/segmentation/occupied_centres.hpp"
+#include "core/segmentation/outline_alignment.hpp"
+#include "core/segmentation/outline_field.hpp"
+#include "core/segmentation/outline_shifts.hpp"
+#include "core/segmentation/surface_vote.hpp"
+
+#include <cmath>
+
+namespace mapscore {
+
+cv::Mat1w label_depth(const std::vector<Detection>& detections, const cv::Mat1w& depth,
+                      const Calibration& believed, const EdgeAlignedParams& params) {
+  const DepthEdges edges = find_depth_edges(depth, believed);
+  const int reach_px = static_cast<int>(std::ceil(1.3 * params.search_px)) + 16;
+  const OutlineField field =
+      outline_field(detections, believed.color.width_px, believed.color.height_px, reach_px);
+  const OutlineAlignment alignment = align_outlines(edges, field, believed, params.search_px);
+  const OutlineShifts shifts = find_outline_shifts(edges, field, alignment, believed);
+  return vote_on_surfaces(edges, field, alignment, shifts, believed, detections.size(),
+                          params.reach_px);
+}
+
+std::vector<Segment> segment_edge_aligned(const std::vector<Detection>& detections,
+                                          const cv::Mat1w& depth, const Calibration& believed,
+                                          double voxel_m, const EdgeAlignedParams& params,
+                                          bool with_voxels) {
+  if (!(voxel_m > 0.0) || !std::isfinite(voxel_m))
+    throw Error("voxel_m: must be a positive length in metres");
+  const cv::Mat1w labels = label_depth(detections, depth, believed, params);
+  std::vector<Segment> segments;
+  segments.reserve(detections.size());
+  for (const Detection& detection : detections) {
+    Segment& segment = segments.emplace_back();
+    segment.class_id = detection.class_id;
+    segment.instance = detection.instance;
+    segment.score = detection.score;
+  }
+  const DepthRays rays(believed.depth);
+  for (int v = 0; v < depth.rows; ++v)
+    for (int u = 0; u < depth.cols; ++u)
+      if (labels(v, u) != 0)
+        segments[labels(v, u) - std::size_t{1}].points.push_back(
+            rays.point(u, v, depth(v, u) / kDepthUnitsPerMetre));
+  for (Segment& segment : segments) {
+    for (const Eigen::Vector3d& point : segment.points) segment.box.extend(point);
+    if (segment.points.empty()) segment.skipped = SkipReason::no_points;
+    if (with_voxels) segment.voxel_centres = occupied_centres(segment.points, voxel_m);
+  }
+  return segments;
+}
+
+}  // namespace mapscore

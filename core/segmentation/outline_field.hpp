@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/segmentation/depth_edges.hpp"
+#include "core/segmentation/detection.hpp"
+
+#include <opencv2/core.hpp>
+
+#include <array>
+#include <vector>
+
+namespace mapscore {
+
+/// The masks of a frame as one field over the colour image. An outline runs half-way between a
+/// mask's pixels and the others; the image's own edge is none.
+struct OutlineField {
+  cv::Mat1w owner;  ///< 1 + index of the detection whose mask is nearest, 0 where none is near
+  cv::Mat1f
+      distance;  ///< pixels to the nearest outline, negative inside a mask; kFar where none is near
+  /// How well an edge that faces Outward d fits at quarter size, 0 to 255: 255 on outlines that
+  /// face the same way, less within 8 pixels and for those that face the other way.
+  std::array<cv::Mat1b, 4> coarse;
+  std::array<cv::Mat1f, 4>
+      elements;       ///< how many outline elements face a way, by cell of 4 x 4 pixels
+  int length_px = 0;  ///< outline elements: neighbouring pixels on both sides of one
+
+  static constexpr float kFar = 1e4F;
+};
+
+/// `reach_px`: how far from the masks the field is wanted.
+[[nodiscard]] OutlineField outline_field(const std::vector<Detection>& detections, int width_px,
+                                         int height_px, int reach_px);
+
+}  // namespace mapscore

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/surface_vote.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace mapscore {
+namespace {
+
+constexpr float kHidden = 0.015F;   // share of inverse depth by which a hidden pixel lies behind
+constexpr float kSureAt_px = 3.0F;  // from the outline a pixel's vote has full weight
+constexpr float kLeastVote = 0.05F;
+constexpr int kRounds = 3;
+
+/// What the masks say of each depth pixel.
+struct Votes {
+  cv::Mat1w owner;     ///< 1 + detection whose mask is nearest
+  cv::Mat1f depth_in;  ///< pixels inside its object, negative outside
+  cv::Mat1f weight;    ///< 0 where the colour camera does not see the surface
+};
+
+class Voting {
+ public:
+  Voting(const DepthEdges& edges, const OutlineField& field, const OutlineAlignment& alignment,
+         const Calibration& believed)
+      : edges_(edges), field_(field), alignment_(alignment), believed_(believed) {}
+
+  void project() {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    u_.create(w.rows, w.cols);
+    v_.create(w.rows, w.cols);
+    const Eigen::Matrix3f R = alignment_.rotation * believed_.T_color_depth.linear().cast<float>();
+    const Eigen::Vector3f t =
+        alignment_.rotation * believed_.T_color_depth.translation().cast<float>() +
+        alignment_.translation;
+    const auto& color = believed_.color;
+    const auto& depth = believed_.depth;
+    const float fx = static_cast<float>(color.fx_px), fy = static_cast<float>(color.fy_px);
+    const float cx = static_cast<float>(color.cx_px), cy = static_cast<float>(color.cy_px);
+    // With p = z (ray), p_color / z = R ray + t w.
+    for (int v = 0; v < w.rows; ++v) {
+      const float y = (static_cast<float>(v) - static_cast<float>(depth.cy_px)) /
+                      static_cast<float>(depth.fy_px);
+      const float inverse_f = 1.0F / static_cast<float>(depth.fx_px);
+      const float centre = static_cast<float>(depth.cx_px);
+      const float* in = w[v];
+      float *u_out = u_[v], *v_out = v_[v];
+      for (int u = 0; u < w.cols; ++u) {
+        const float x = (static_cast<float>(u) - centre) * inverse_f;
+        const float X = R(0, 0) * x + R(0, 1) * y + R(0, 2) + t.x() * in[u];
+        const float Y = R(1, 0) * x + R(1, 1) * y + R(1, 2) + t.y() * in[u];
+        const float Z = R(2, 0) * x + R(2, 1) * y + R(2, 2) + t.z() * in[u];
+        const float inverse_z = 1.0F / Z;
+        u_out[u] = fx * X * inverse_z + cx;
+        v_out[u] = fy * Y * inverse_z + cy;
+      }
+    }
+  }
+
+  void shift(const OutlineShifts& shifts) {
+    if (shifts.nodes.empty()) return;
+    for (int v = 0; v < u_.rows; ++v)
+      for (int u = 0; u < u_.cols; ++u) {
+        const cv::Vec2f by = shifts.at(u_(v, u), v_(v, u));
+        u_(v, u) += by[0];
+        v_(v, u) += by[1];
+      }
+  }
+
+  /// Nearest surface by colour pixel, as inverse depth, spread over the neighbouring pixels.
+  void find_nearest() {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    cv::Mat1f hit(field_.owner.rows, field_.owner.cols, 0.0F);
+    for (int v = 0; v < w.rows; ++v)
+      for (int u = 0; u < w.cols; ++u) {
+        if (!(w(v, u) > 0)) continue;
+        const int c = static_cast<int>(u_(v, u) + 0.5F), r = static_cast<int>(v_(v, u) + 0.5F);
+        if (c < 0 || r < 0 || c >= hit.cols || r >= hit.rows) continue;
+        if (w(v, u) > hit(r, c)) hit(r, c) = w(v, u);
+      }
+    cv::dilate(hit, nearest_, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
+  }
+
+  Votes collect() {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    Votes votes{cv::Mat1w(w.rows, w.cols, std::uint16_t{0}), cv::Mat1f(w.rows, w.cols, -1e4F),
+                cv::Mat1f(w.rows, w.cols, 0.0F)};
+    for (int v = 0; v < w.rows; ++v)
+      for (int u = 0; u < w.cols; ++u) {
+        if (!(w(v, u) > 0)) continue;
+        const int c = static_cast<int>(u_(v, u) + 0.5F), r = static_cast<int>(v_(v, u) + 0.5F);
+        if (c < 0 || r < 0 || c >= field_.owner.cols || r >= field_.owner.rows) continue;
+        votes.owner(v, u) = field_.owner(r, c);
+        const float inside = alignment_.offset_px - field_.distance(r, c);
+        votes.depth_in(v, u) = inside;
+        if (w(v, u) < nearest_(r, c) * (1.0F - kHidden)) continue;
+        votes.weight(v, u) = std::clamp(std::abs(inside) / kSureAt_px, kLeastVote, 1.0F);
+      }
+    return votes;
+  }
+
+ private:
+  const DepthEdges& edges_;
+  const OutlineField& field_;
+  const OutlineAlignment& alignment_;
+  const Calibration& believed_;
+  cv::Mat1f u_, v_, nearest_;
+};
+
+/// Recursive averages along rows and columns, which do not cross depth edges.
+void smooth(cv::Mat2f& votes, const cv::Mat1f& right, const cv::Mat1f& down, float reach_px) {
+  for (int round = 0; round < kRounds; ++round) {
+    const float feedback = std::exp(-1.0F / (reach_px * std::pow(0.5F, static_cast<float>(round))));
+    for (int v = 0; v < votes.rows; ++v) {
+      cv::Vec2f* row = votes[v];
+      const float* open = right[v];
+      for (int u = 1; u < votes.cols; ++u) row[u] += feedback * open[u - 1] * row[u - 1];
+      // what came from the left is in row[u]; the backward pass must not count the pixel twice
+      for (int u = votes.cols - 2; u >= 0; --u) {
+        const float a = feedback * open[u];
+        row[u] = row[u] + a * (row[u + 1] - a * row[u]);
+      }
+    }
+    for (int v = 1; v < votes.rows; ++v)
+      for (int u = 0; u < votes.cols; ++u)
+        votes(v, u) += feedback * down(v - 1, u) * votes(v - 1, u);
+    for (int v = votes.rows - 2; v >= 0; --v)
+      for (int u = 0; u < votes.cols; ++u) {
+        const float a = feedback * down(v, u);
+        votes(v, u) = votes(v, u) + a * (votes(v + 1, u) - a * votes(v, u));
+      }
+  }
+}
+
+}  // namespace
+
+cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
+                           const OutlineAlignment& alignment, const OutlineShifts& shifts,
+                           const Calibration& believed, std::size_t detections, double reach_px) {
+  Voting voting(edges, field, alignment, believed);
+  voting.project();
+  voting.shift(shifts);
+  voting.find_nearest();
+  const Votes votes = voting.collect();
+  const cv::Size size = votes.owner.size();
+  cv::Mat1w labels(size, std::uint16_t{0});
+  std::vector<cv::Rect> boxes(detections + 1);
+  const float margin = 2.0F * static_cast<float>(reach_px);
+  for (int v = 0; v < size.height; ++v)
+    for (int u = 0; u < size.width; ++u)
+      if (votes.depth_in(v, u) > -margin && votes.owner(v, u) != 0) {
+        cv::Rect& box = boxes[votes.owner(v, u)];
+        box = box.empty() ? cv::Rect(u, v, 1, 1) : box | cv::Rect(u, v, 1, 1);
+      }
+  for (std::size_t n = 1; n <= detections; ++n) {
+    const cv::Rect box = boxes[n];
+    if (box.empty()) continue;
+    cv::Mat2f sums(box.size());
+    for (int v = 0; v < box.height; ++v)
+      for (int u = 0; u < box.width; ++u) {
+        const int row = v + box.y, column = u + box.x;
+        const float weight = votes.weight(row, column);
+        const bool inside = votes.owner(row, column) == n && votes.depth_in(row, column) > 0;
+        sums(v, u) = {inside ? weight : 0.0F, weight};
+      }
+    smooth(sums, edges.right(box), edges.down(box), static_cast<float>(reach_px));
+    for (int v = 0; v < box.height; ++v)
+      for (int u = 0; u < box.width; ++u)
+        if (sums(v, u)[0] > 0.5F * sums(v, u)[1] && sums(v, u)[1] > 1e-4F &&
+            edges.inverse_depth(v + box.y, u + box.x) > 0)
+          labels(v + box.y, u + box.x) = static_cast<std::uint16_t>(n);
+  }
+  return labels;
+}
+
+}  // namespace mapscore
