@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/camera.hpp"
+#include "core/objects/object_box.hpp"
+#include "core/segmentation/detection.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+namespace mapscore {
+
+/// Planar depths between which the ray of a pixel is within a box; none where in_m > out_m.
+struct DepthInterval {
+  double in_m = 1.0, out_m = 0.0;
+  [[nodiscard]] bool empty() const { return !(in_m <= out_m); }
+};
+
+/// A box as rays see it that start at the origin of the camera's frame. Immutable.
+class BoxRays {
+ public:
+  /// `box`: in the camera's frame. Depths are cut to near_m .. far_m.
+  BoxRays(const ObjectBox& box, double near_m, double far_m)
+      : half_m_(0.5 * box.size_m),
+        R_box_camera_(box.T_frame_box.linear().transpose()),
+        origin_m_(-(R_box_camera_ * box.T_frame_box.translation())),
+        near_m_(near_m),
+        far_m_(far_m) {}
+
+  /// Of the ray through z * (x, y, 1), z > 0: the slab test on each axis of the box. Exact up to
+  /// rounding; the box is closed.
+  [[nodiscard]] DepthInterval at(double x, double y) const {
+    DepthInterval interval{near_m_, far_m_};
+    for (int axis = 0; axis < 3; ++axis) {
+      double slope =
+          R_box_camera_(axis, 0) * x + (R_box_camera_(axis, 1) * y + R_box_camera_(axis, 2));
+      slope = slope == 0.0 ? 1e-300 : slope;  // along the slab: within it everywhere or nowhere
+      const double inverse = 1.0 / slope;
+      const double a = (-half_m_[axis] - origin_m_[axis]) * inverse;
+      const double b = (half_m_[axis] - origin_m_[axis]) * inverse;
+      const double low = a < b ? a : b, high = a < b ? b : a;
+      interval.in_m = low > interval.in_m ? low : interval.in_m;
+      interval.out_m = high < interval.out_m ? high : interval.out_m;
+    }
+    return interval;
+  }
+
+ private:
+  Eigen::Vector3d half_m_;
+  Eigen::Matrix3d R_box_camera_;
+  Eigen::Vector3d origin_m_;
+  double near_m_, far_m_;
+};
+
+/// Pixels of the image outside which no ray meets the box (in the camera's frame) at a depth of
+/// near_m or more: bounds of its part beyond near_m, a pixel wider. Empty (width or height below 1)
+/// where there are none.
+[[nodiscard]] PixelBox pixels_of(const ObjectBox& box, const CameraModel& camera, double near_m);
+
+/// Area of the box's outline in the image plane, also beyond the image, in pixels; infinite where
+/// it reaches nearer than near_m.
+[[nodiscard]] double outline_px(const ObjectBox& box, const CameraModel& camera, double near_m);
+
+}  // namespace mapscore

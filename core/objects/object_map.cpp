@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/objects/object_map.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace mapscore {
+namespace {
+
+void check_params(const ObjectMapParams& params) {
+  const auto refuse = [](const char* name, const char* mend) {
+    throw Error(std::string("object map: ") + name + ": " + mend);
+  };
+  const auto share = [](double value) { return value >= 0.0 && value <= 1.0; };
+  const AssociationGate& gate = params.gate;
+  if (!(gate.max_distance_m >= 0.0)) refuse("max_distance_m", "give a length of at least 0");
+  if (!(gate.margin_m >= 0.0)) refuse("margin_m", "give a length of at least 0");
+  if (!share(gate.min_overlap) || gate.min_overlap == 0.0)
+    refuse("min_overlap", "give a share above 0, up to 1");
+  if (!share(params.merge_overlap) || params.merge_overlap == 0.0)
+    refuse("merge_overlap", "give a share above 0, up to 1");
+  if (!(params.visibility.tolerance_m >= 0.0)) refuse("tolerance_m", "give a length of at least 0");
+  if (!share(params.visibility.min_share)) refuse("min_share", "give a share from 0 to 1");
+  if (params.visibility.min_pixels < 1) refuse("min_pixels", "give at least 1");
+  if (params.max_age < 1) refuse("max_age", "give at least 1");
+}
+
+bool is_box(const ObjectBox& box) {
+  return box.T_frame_box.matrix().allFinite() && box.size_m.allFinite() &&
+         box.size_m.minCoeff() >= 0.0;
+}
+
+MapObject first_of(const ObjectDetection& detection, double stamp_s) {
+  MapObject object;
+  object.class_id = detection.class_id;
+  object.box = detection.box;
+  object.model = detection.model;
+  object.last_seen_s = stamp_s;
+  object.observations = 1;
+  object.confidence = (1.0 + detection.score) / 3.0;
+  return object;
+}
+
+}  // namespace
+
+ObjectMap::ObjectMap(std::size_t class_count, const ObjectMapParams& params)
+    : class_count_(class_count), params_(params) {
+  check_params(params);
+}
+
+void ObjectMap::check(const ObjectDetection& detection, std::size_t position) const {
+  const auto refuse = [&](const std::string& what) {
+    throw Error("object map: detection " + std::to_string(position) + ": " + what);
+  };
+  if (detection.class_id == kBackground || detection.class_id >= class_count_)
+    refuse("class " + std::to_string(detection.class_id) + " is none; classes are 1 to " +
+           std::to_string(class_count_ - 1));
+  if (!is_box(detection.box)) refuse("its box is not finite, or has a negative size; leave it out");
+  if (!(detection.score > 0.0 && detection.score <= 1.0))
+    refuse("score " + std::to_string(detection.score) + "; give one above 0, up to 1");
+}
+
+ObjectChanges ObjectMap::integrate(std::span<const ObjectDetection> detections, double stamp_s,
+                                   const DepthView* view) {
+  for (std::size_t d = 0; d < detections.size(); ++d) check(detections[d], d);
+  if (view) mapscore::check(*view);
+  const auto object_of = associate(detections, objects_, params_.gate);
+  ObjectChanges changes;
+  std::set<ObjectId> seen;
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    if (object_of[d]) {
+      MapObject& object = objects_[*object_of[d]];
+      object = updated(object, detections[d], stamp_s, params_.update);
+      changes.updated.push_back(object.id);
+      seen.insert(object.id);
+    } else {
+      changes.added.push_back(add(first_of(detections[d], stamp_s)));
+      seen.insert(changes.added.back());
+    }
+  }
+  std::sort(changes.updated.begin(), changes.updated.end());
+  tell_apart(seen);
+  merge_overlapping(changes);
+  if (view) age(seen, *view, changes);
+  return changes;
+}
+
+/// Two detections of one frame are two objects: such a pair is never merged.
+void ObjectMap::tell_apart(const std::set<ObjectId>& seen) {
+  for (auto low = seen.begin(); low != seen.end(); ++low)
+    for (auto high = std::next(low); high != seen.end(); ++high)
+      if (find(*low)->class_id == find(*high)->class_id) apart_.insert({*low, *high});
+}
+
+/// What was told apart from the one that goes is apart from the one that stays.
+void ObjectMap::pass_on_apart(ObjectId gone, ObjectId kept) {
+  const auto pairs = apart_;
+  for (const auto& [low, high] : pairs) {
+    if (low != gone && high != gone) continue;
+    const ObjectId other = low == gone ? high : low;
+    apart_.erase({low, high});
+    apart_.insert({std::min(kept, other), std::max(kept, other)});
+  }
+}
+
+void ObjectMap::merge_overlapping(ObjectChanges& changes) {
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    for (std::size_t j = i + 1; j < objects_.size(); ++j) {
+      const MapObject &low = objects_[i], &high = objects_[j];
+      if (low.class_id != high.class_id || apart_.contains({low.id, high.id})) continue;
+      const double margin_m = params_.gate.margin_m;
+      if (overlap_share(low.box.widened(margin_m), high.box.widened(margin_m)) <
+          params_.merge_overlap)
+        continue;
+      changes.merged.push_back(high.id);
+      pass_on_apart(high.id, low.id);
+      objects_[i] = merged(low, high, params_.update);
+      objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(j));
+      j = i;  // it has grown: look at all the others again
+    }
+  }
+  std::sort(changes.merged.begin(), changes.merged.end());
+}
+
+void ObjectMap::age(const std::set<ObjectId>& seen, const DepthView& view, ObjectChanges& changes) {
+  for (MapObject& object : objects_) {
+    if (seen.contains(object.id)) continue;
+    const BoxVotes votes = vote(object.box, view, params_.visibility.tolerance_m);
+    if (!should_be_seen(votes, params_.visibility)) continue;
+    object = missed(object);
+    changes.missed.push_back(object.id);
+    if (object.age >= params_.max_age) changes.removed.push_back(object.id);
+  }
+  for (const ObjectId id : changes.removed) remove(id);
+}
+
+ObjectId ObjectMap::add(MapObject object) {
+  check({object.class_id, object.box, 1.0, {}}, 0);
+  if (object.id == 0) object.id = next_;
+  if (object.id < next_)
+    throw Error("object map: id " + std::to_string(object.id) +
+                " was given before; leave it 0 for the next");
+  next_ = object.id + 1;
+  objects_.push_back(std::move(object));
+  return objects_.back().id;
+}
+
+std::vector<MapObject>::iterator ObjectMap::require(ObjectId id) {
+  const auto at = std::lower_bound(objects_.begin(), objects_.end(), id,
+                                   [](const MapObject& o, ObjectId key) { return o.id < key; });
+  if (at == objects_.end() || at->id != id)
+    throw Error("object map: there is no object " + std::to_string(id));
+  return at;
+}
+
+void ObjectMap::update(ObjectId id, const ObjectDetection& detection, double stamp_s) {
+  check(detection, 0);
+  const auto at = require(id);
+  if (at->class_id != detection.class_id)
+    throw Error("object map: object " + std::to_string(id) +
+                " is of another class than the detection; add it as one of its own");
+  *at = updated(*at, detection, stamp_s, params_.update);
+}
+
+void ObjectMap::remove(ObjectId id) {
+  objects_.erase(require(id));
+  std::erase_if(apart_, [&](const auto& pair) { return pair.first == id || pair.second == id; });
+}
+
+}  // namespace mapscore
