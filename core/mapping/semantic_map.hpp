@@ -5,6 +5,7 @@
 
 #include "core/classes.hpp"
 #include "core/geometry/voxel.hpp"
+#include "core/mapping/depth_view.hpp"
 #include "core/mapping/fusion_rule.hpp"
 #include "core/mapping/semantic_octree.hpp"
 #include "core/mapping/voxel_hit.hpp"
@@ -39,6 +40,10 @@ class SemanticMap {
   /// N < 1, or a hit is not of N draws or names a class beyond `class_count`, the table's size.
   void fuse(std::span<const VoxelHit> hits, int draws, const FusionRule& rule,
             std::size_t class_count = kOtherClasses);
+
+  /// The blend's decay of all voxels in view (Decay::view), but for those with `hits`, which fuse()
+  /// lets decay itself. Call it once a frame, before or after fuse(). Throws Error.
+  void decay_in_view(const DepthView& view, const BlendRule& rule, std::span<const VoxelHit> hits);
 
   [[nodiscard]] std::size_t hits_beyond_span() const { return hits_beyond_span_; }
 
