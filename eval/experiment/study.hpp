@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include "core/mapping/pose_belief.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "eval/experiment/drive_settings.hpp"
+#include "eval/experiment/fusion_settings.hpp"
 #include "eval/experiment/localization_settings.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
@@ -80,22 +80,10 @@ struct MethodSettings {
   std::string name;  ///< letters, digits, _ and -
   SegmentationSettings segmentation;
   std::optional<Place> place;  ///< empty: the study's
+  MethodFusionSettings fusion{};
 
   bool operator==(const MethodSettings&) const = default;
 };
-
-struct BlendSettings {
-  static constexpr std::string_view kKind = "blend";
-  static constexpr std::string_view kMeaning =
-      "weighted mean of the map and the draws of an observation";
-  double K = 0.5;
-  int N = 1;
-  NoiseAt noise_at = NoiseAt::base;
-  CovarianceUse covariance = CovarianceUse::diagonal;
-  bool operator==(const BlendSettings&) const = default;
-};
-
-using FusionSettings = std::variant<BlendSettings>;
 
 /// T_believed_color_depth = E * T_color_depth, and wrong intrinsics of the colour camera.
 struct MisregistrationSettings {

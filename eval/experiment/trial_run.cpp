@@ -72,8 +72,8 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       label_dose_(dose_of(task.config.faults.labels)),
       segmentation_(segmentation_params(task.config.methods.front().segmentation)),
       place_voxels_(place_of(task.config, task.config.methods.front()) == Place::voxels),
-      blend_(std::get<BlendSettings>(task.config.fusion)),
-      threshold_(task.config.score.threshold.value.value_or(default_threshold(blend_.K))),
+      fusion_(trial_fusion(task.config.fusion, table)),
+      threshold_(task.config.score.threshold.value.value_or(default_threshold(fusion_.rule))),
       score_options_{positive(task.config.score.tolerances), task.config.score.distances_m},
       map_frame_(map_frame(task.config, task.seed_index)),
       truths_(truths),
@@ -100,7 +100,8 @@ void TrialRun::advance(const Frame& frame) {
   const Observation observation =
       task_.labels == Labels::truth ? observe_truth(frame) : observe(frame, counts);
   const auto hits = place(observation, sensor_poses(frame.index), map_.edge_m());
-  map_.fuse(hits, blend_.N, BlendRule{blend_.K});
+  decay(frame, hits);
+  map_.fuse(hits, fusion_.N, fusion_.rule, table_.classes.size());
   ++result_.accounting.frames;
   if (by_itself) {
     look_up_truth_of(frame.depth_index);
@@ -111,17 +112,32 @@ void TrialRun::advance(const Frame& frame) {
     frames_.push_back({frame.index, frame.stamp_s, std::move(counts)});
 }
 
+void TrialRun::decay(const Frame& frame, std::span<const VoxelHit> hits) {
+  const auto* blend = std::get_if<BlendRule>(&fusion_.rule);
+  if (blend == nullptr || blend->decay != Decay::view) return;
+  const PoseBelief& belief = beliefs_.at(static_cast<std::size_t>(frame.index));
+  const Pose T_map_depth = belief.T_map_odom * belief.T_odom_base * believed_.T_base_depth;
+  const cv::Mat1w depth = task_.labels == Labels::truth ? frame.depth : corrupted_depth(frame);
+  map_.decay_in_view(
+      DepthView(depth, believed_.depth, T_map_depth, believed_.range_min_m, believed_.range_max_m),
+      *blend, hits);
+}
+
 TrialResult TrialRun::finish() {
   if (task_.config.score.unit == ScoreUnit::map) score(result_.counts);
   return std::move(result_);
+}
+
+cv::Mat1w TrialRun::corrupted_depth(const Frame& frame) const {
+  return sim::corrupt_depth(frame.depth, true_.depth, depth_dose_, trial_seed(task_),
+                            frame.depth_index);
 }
 
 Observation TrialRun::observe(const Frame& frame, Counts& counts) {
   const std::uint64_t seed = trial_seed(task_);
   const std::vector<Detection> detections =
       sim::corrupt_detections(frame.label, table_, label_dose_, seed, frame.index);
-  const cv::Mat1w depth =
-      sim::corrupt_depth(frame.depth, true_.depth, depth_dose_, seed, frame.depth_index);
+  const cv::Mat1w depth = corrupted_depth(frame);
   const RegisteredCloud cloud = register_depth(
       depth, believed_, pixels_wanted(detections, frame.label.cols, frame.label.rows));
   const std::vector<Eigen::AlignedBox3d>& true_boxes = boxes_.of(frame);
@@ -178,7 +194,7 @@ std::vector<Pose> TrialRun::sensor_poses(int frame) const {
   const PoseBelief& belief = beliefs_.at(static_cast<std::size_t>(frame));
   RandomStream stream(trial_seed(task_), "belief", {static_cast<std::uint64_t>(frame)});
   std::vector<Pose> poses =
-      draw_poses(belief, blend_.N, blend_.noise_at, blend_.covariance, stream);
+      draw_poses(belief, fusion_.N, fusion_.noise_at, fusion_.covariance, stream);
   for (Pose& pose : poses) pose = pose * believed_.T_base_depth;
   return poses;
 }

@@ -13,11 +13,13 @@
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/pose_sources.hpp"
 #include "eval/experiment/store.hpp"
+#include "eval/experiment/trial_fusion.hpp"
 #include "eval/recording/recording.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace mapscore::eval {
@@ -69,6 +71,10 @@ class TrialRun {
   [[nodiscard]] Observation observe(const Frame& frame, Counts& counts);
   /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
+  /// Under the faults of depth.
+  [[nodiscard]] cv::Mat1w corrupted_depth(const Frame& frame) const;
+  /// What the blend lets decay in view, where it does.
+  void decay(const Frame& frame, std::span<const VoxelHit> hits);
   void account(const Segment& segment);
   [[nodiscard]] std::vector<Pose> sensor_poses(int frame) const;
   /// Adds the counts of the map as it stands.
@@ -86,7 +92,7 @@ class TrialRun {
   sim::LabelDose label_dose_;
   SegmentationParams segmentation_;
   bool place_voxels_;
-  BlendSettings blend_;
+  TrialFusion fusion_;
   double threshold_;
   ScoreOptions score_options_;
   MapFrame map_frame_;
