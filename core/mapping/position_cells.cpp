@@ -17,32 +17,42 @@ namespace {
 constexpr double kReach = 4096.0;  ///< farthest cell index, so that keys pack into 64 bits
 constexpr std::uint32_t kNone = 0xffffffff;
 
-/// Cells by key: open addressing, linear probing.
+/// Numbers by key: open addressing, linear probing, at most half full.
 class CellTable {
  public:
-  explicit CellTable(std::size_t most) : places_(std::bit_ceil(2 * most + 2), Place{0, kNone}) {}
-
-  /// Where the key's cell number stands; kNone until it is written.
-  [[nodiscard]] std::uint32_t& at(std::uint64_t key) {
-    std::size_t place = mix_bits(key) & (places_.size() - 1);
-    while (places_[place].cell != kNone && places_[place].key != key)
-      place = (place + 1) & (places_.size() - 1);
-    places_[place].key = key;
-    return places_[place].cell;
+  /// The key's number; `next` where it had none.
+  [[nodiscard]] std::uint32_t number_of(std::uint64_t key, std::uint32_t next) {
+    Place& place = places_[place_of(key)];
+    if (place.number != kNone) return place.number;
+    place = {key, next};
+    if (2 * ++used_ > places_.size()) grow();
+    return next;
   }
   [[nodiscard]] std::uint32_t find(std::uint64_t key) const {
-    std::size_t place = mix_bits(key) & (places_.size() - 1);
-    while (places_[place].cell != kNone && places_[place].key != key)
-      place = (place + 1) & (places_.size() - 1);
-    return places_[place].cell;
+    return places_[place_of(key)].number;
   }
 
  private:
   struct Place {
-    std::uint64_t key;
-    std::uint32_t cell;
+    std::uint64_t key = 0;
+    std::uint32_t number = kNone;
   };
-  std::vector<Place> places_;
+
+  [[nodiscard]] std::size_t place_of(std::uint64_t key) const {
+    std::size_t place = mix_bits(key) & (places_.size() - 1);
+    while (places_[place].number != kNone && places_[place].key != key)
+      place = (place + 1) & (places_.size() - 1);
+    return place;
+  }
+  void grow() {
+    std::vector<Place> old(2 * places_.size());
+    old.swap(places_);
+    for (const Place& place : old)
+      if (place.number != kNone) places_[place_of(place.key)] = place;
+  }
+
+  std::vector<Place> places_ = std::vector<Place>(4096);
+  std::size_t used_ = 0;
 };
 
 /// Index of a cell from -4096 to 4095 on each axis, and of a group.
@@ -92,9 +102,9 @@ int floor_of(double x) {
 /// Finds each position's cell, in the order of the observation; makes cells as they turn up.
 class CellFinder {
  public:
-  CellFinder(const Eigen::Matrix3d& R, const Eigen::Vector3d& offset, std::size_t positions,
+  CellFinder(const Eigen::Matrix3d& R, const Eigen::Vector3d& offset,
              std::vector<PositionCell>& cells)
-      : R_(R), offset_(offset), cells_(cells), table_(positions) {}
+      : R_(R), offset_(offset), cells_(cells) {}
 
   /// False when the position is not finite or too far.
   [[nodiscard]] bool find(const Eigen::Vector3d& p, std::uint16_t group, Sorted& sorted) {
@@ -104,12 +114,9 @@ class CellFinder {
     const std::uint64_t key = key_of(x, y, z, group);
     if (key != last_key_) {
       last_key_ = key;
-      std::uint32_t& cell = table_.at(key);
-      if (cell == kNone) {
-        cell = static_cast<std::uint32_t>(cells_.size());
+      last_cell_ = table_.number_of(key, static_cast<std::uint32_t>(cells_.size()));
+      if (last_cell_ == cells_.size())
         cells_.push_back({Eigen::Vector3d(x, y, z), {}, 0, group, false});
-      }
-      last_cell_ = cell;
     }
     const auto eighth = [](double offset) {
       return std::min(7u, static_cast<unsigned>(8.0 * offset));
@@ -155,7 +162,7 @@ std::optional<PositionCells> PositionCells::sort(const Observation& observation,
   std::size_t positions = 0;
   for (const ObservedObject& object : observation) positions += object.positions.size();
   std::vector<Sorted> places(positions);
-  CellFinder finder(sorted.R_ / edge_m, sorted.offset_, positions, sorted.cells_);
+  CellFinder finder(sorted.R_ / edge_m, sorted.offset_, sorted.cells_);
   std::size_t n = 0;
   for (const ObservedObject& object : observation) {
     const std::uint16_t group = group_of(object, sorted.groups_);
@@ -196,14 +203,12 @@ void PositionCells::mark_contested() {
   constexpr std::uint32_t kMany = 0x20000;
   std::vector<std::uint32_t> class_at;
   std::vector<std::array<int, 3>> place(cells_.size());
-  CellTable table(cells_.size());
+  CellTable table;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     for (int axis = 0; axis < 3; ++axis) place[c][axis] = static_cast<int>(cells_[c].low[axis]);
-    std::uint32_t& number = table.at(key_of(place[c][0], place[c][1], place[c][2], 0));
-    if (number == kNone) {
-      number = static_cast<std::uint32_t>(class_at.size());
-      class_at.push_back(0);
-    }
+    const std::uint32_t number = table.number_of(key_of(place[c][0], place[c][1], place[c][2], 0),
+                                                 static_cast<std::uint32_t>(class_at.size()));
+    if (number == class_at.size()) class_at.push_back(0);
     const std::uint32_t own = groups_[cells_[c].group].class_id + 1u;
     std::uint32_t& held = class_at[number];
     held = held == 0 || held == own ? own : kMany;
