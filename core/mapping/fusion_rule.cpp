@@ -150,6 +150,7 @@ ClassBeliefs combined(const FusionRule& rule, std::span<const ClassBeliefs* cons
 }
 
 double first_full_hit(const FusionRule& rule) {
+  if (const auto* blend = std::get_if<BlendRule>(&rule)) return 1.0 - blend->K;
   ClassBeliefs beliefs;
   fuse(rule, std::vector<VoxelHit>{{{}, kBackground, 1, 1.0}}, 1, beliefs);
   return beliefs.weight(kBackground);

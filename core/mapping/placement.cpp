@@ -3,9 +3,16 @@
 
 #include "core/mapping/placement.hpp"
 
+#include "core/geometry/voxel.hpp"
+#include "core/mapping/cell_placement.hpp"
+#include "core/mapping/hit_grid.hpp"
+#include "core/mapping/position_cells.hpp"
+
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 namespace mapscore {
 namespace {
@@ -83,10 +90,8 @@ std::vector<VoxelHit> collect(std::vector<Win>& wins, bool one_draw) {
   return hits;
 }
 
-}  // namespace
-
-std::vector<VoxelHit> place(const Observation& observation, std::span<const Pose> T_map_sensor,
-                            double edge_m) {
+std::vector<VoxelHit> place_positions(const Observation& observation,
+                                      std::span<const Pose> T_map_sensor, double edge_m) {
   std::vector<Win> wins;
   std::vector<Tally> tallies;
   for (const Pose& pose : T_map_sensor) {
@@ -95,6 +100,33 @@ std::vector<VoxelHit> place(const Observation& observation, std::span<const Pose
     append_winners(tallies, wins);
   }
   return collect(wins, T_map_sensor.size() == 1);
+}
+
+/// The same by whole cells; empty where observation or draws do not suit.
+std::optional<std::vector<VoxelHit>> place_by_cells(const Observation& observation,
+                                                    std::span<const Pose> T_map_sensor,
+                                                    double edge_m) {
+  const auto cells = PositionCells::sort(observation, T_map_sensor.front(), edge_m);
+  if (!cells) return {};
+  const auto box = reach_of(*cells, T_map_sensor, edge_m);
+  if (!box) return {};
+  HitGrid grid(*box, cells->groups());
+  CellPlacer placer(*cells, edge_m, grid);
+  for (const Pose& pose : T_map_sensor) {
+    placer.place(pose);
+    grid.end_draw();
+  }
+  return grid.hits();
+}
+
+}  // namespace
+
+std::vector<VoxelHit> place(const Observation& observation, std::span<const Pose> T_map_sensor,
+                            double edge_m) {
+  constexpr std::size_t kWorthCells = 4;  // draws from which sorting into cells pays
+  if (T_map_sensor.size() >= kWorthCells)
+    if (auto hits = place_by_cells(observation, T_map_sensor, edge_m)) return std::move(*hits);
+  return place_positions(observation, T_map_sensor, edge_m);
 }
 
 }  // namespace mapscore

@@ -5,6 +5,7 @@
 
 #include "core/classes.hpp"
 #include "core/geometry/voxel.hpp"
+#include "core/mapping/depth_view.hpp"
 #include "core/mapping/fusion_rule.hpp"
 #include "core/mapping/occupancy.hpp"
 #include "core/mapping/semantic_octree.hpp"
@@ -83,6 +84,9 @@ class SemanticMap {
   /// Adds the map of other frames: log-odds, clamped; colours; beliefs by merged(rule). Throws
   /// Error, the map unchanged, when the edges differ or the rule does not allow it.
   void merge(const SemanticMap& other, const FusionRule& rule);
+  /// The blend's decay of all voxels in view (Decay::view), but for those with `hits`, which fuse()
+  /// lets decay itself. Call it once a frame, before or after fuse(). Throws Error.
+  void decay_in_view(const DepthView& view, const BlendRule& rule, std::span<const VoxelHit> hits);
 
   [[nodiscard]] std::size_t hits_beyond_span() const { return hits_beyond_span_; }
 

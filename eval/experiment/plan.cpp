@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/experiment/localization_doses.hpp"
 #include "eval/experiment/sensor_doses.hpp"
+#include "eval/experiment/trial_fusion.hpp"
 #include "eval/experiment/trial_seed.hpp"
 #include "eval/localization/believed_file.hpp"
 #include "eval/recording/file_bytes.hpp"
@@ -82,9 +83,14 @@ Study determining(Study config, const std::string& pose_file) {
   return config;
 }
 
+/// With one method, whose fusion becomes the study's.
 Study with_method(Study config, const std::string& name) {
   std::erase_if(config.methods, [&](const MethodSettings& method) { return method.name != name; });
   config.sweep.clear();
+  for (MethodSettings& method : config.methods) {
+    config.fusion = fusion_of(config.fusion, method.fusion);
+    method.fusion = StudyFusionSettings{};
+  }
   return config;
 }
 
@@ -169,7 +175,7 @@ Plan plan_of(const Study& study, const std::string& recording_hash) {
     trial.spec = spec;
     trial.task = add(Study(config), Labels::detected);
     trial.registration_ceiling = add(without_faults(config), Labels::detected);
-    trial.lattice_ceiling = add(for_lattice_ceiling(config), Labels::truth);
+    trial.lattice_ceiling = add(for_lattice_ceiling(resolve(study, spec.cell)), Labels::truth);
     plan.trials.push_back(std::move(trial));
   }
   return plan;

@@ -7,6 +7,7 @@
 #include "eval/experiment/grid.hpp"
 #include "eval/experiment/sensor_doses.hpp"
 #include "eval/experiment/study_store.hpp"
+#include "eval/experiment/trial_fusion.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,6 +25,17 @@ void check_matrix(const LabelFaultSettings& labels, const Study& study, const Cl
         "faults.labels.confusion_matrix: has {} rows, but {} classes are detected ({}); write a "
         "row and a column for each, in this order",
         labels.confusion_matrix->size(), names.size(), fmt::join(names, ", ")));
+}
+
+/// By the very functions of a trial.
+void check_fusion(const Study& study, const ClassTable& table) {
+  const ClassTable detected = detected_table(study, table);
+  static_cast<void>(trial_fusion(study.fusion, detected));
+  for (const MethodSettings& method : study.methods) try {
+      static_cast<void>(trial_fusion(fusion_of(study.fusion, method.fusion), detected));
+    } catch (const Error& error) {
+      throw Error("methods." + method.name + "." + error.what());
+    }
 }
 
 void check_baked(const Study& study, const RecordingInfo& info) {
@@ -46,6 +58,7 @@ void check_classes(const Study& study, const ClassTable& table) {
   for (const Cell& cell : cells(study)) {
     const Study point = resolve(study, cell);
     check_matrix(point.faults.labels, point, table);
+    check_fusion(point, table);
   }
 }
 

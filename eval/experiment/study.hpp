@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include "core/mapping/pose_belief.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "eval/experiment/drive_settings.hpp"
+#include "eval/experiment/fusion_settings.hpp"
 #include "eval/experiment/localization_settings.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
@@ -89,19 +89,9 @@ struct MethodSettings {
   std::string name;  ///< letters, digits, _ and -
   SegmentationSettings segmentation;
   std::optional<Place> place;  ///< empty: the study's
+  MethodFusionSettings fusion{};
 
   bool operator==(const MethodSettings&) const = default;
-};
-
-struct BlendSettings {
-  static constexpr std::string_view kKind = "blend";
-  static constexpr std::string_view kMeaning =
-      "weighted mean of the map and the draws of an observation";
-  double K = 0.5;
-  int N = 1;
-  NoiseAt noise_at = NoiseAt::base;
-  CovarianceUse covariance = CovarianceUse::diagonal;
-  bool operator==(const BlendSettings&) const = default;
 };
 
 /// Free space, where the map carves it; the numbers are OccupancyModel's.
@@ -111,8 +101,6 @@ struct OccupancySettings {
   std::optional<double> max_range_m;
   bool operator==(const OccupancySettings&) const = default;
 };
-
-using FusionSettings = std::variant<BlendSettings>;
 
 /// T_believed_color_depth = E * T_color_depth, and wrong intrinsics of the colour camera.
 struct MisregistrationSettings {

@@ -6,6 +6,7 @@
 #include "eval/experiment/drive_fields.hpp"
 #include "eval/experiment/fault_fields.hpp"
 #include "eval/experiment/fields.hpp"
+#include "eval/experiment/fusion_fields.hpp"
 #include "eval/experiment/study.hpp"
 
 #include <array>
@@ -21,10 +22,6 @@ inline constexpr auto kNames<Place> = std::to_array<std::string_view>({"points",
 template <>
 inline constexpr auto kNames<SeedRule> =
     std::to_array<std::string_view>({"box_centre", "mask_centroid", "largest_piece", "depth_mode"});
-template <>
-inline constexpr auto kNames<NoiseAt> = std::to_array<std::string_view>({"base", "odom"});
-template <>
-inline constexpr auto kNames<CovarianceUse> = std::to_array<std::string_view>({"diagonal", "full"});
 template <>
 inline constexpr auto kNames<ScoreUnit> = std::to_array<std::string_view>({"map", "frame"});
 
@@ -94,15 +91,10 @@ void fields(auto&& visit, Of<MethodSettings> auto& s) {
   visit(Field{"segmentation", "from a detection and a registered cloud to points", {}, true},
         s.segmentation);
   visit(Field{"place", "as the study's `place`, for this method alone"}, s.place);
-}
-
-void fields(auto&& visit, Of<BlendSettings> auto& s) {
-  visit(Field{"K", "weight of what the map held before", {.low = 0, .high = 1, .open_high = true}},
-        s.K);
-  visit(Field{"N", "draws from the pose belief for an observation", {1, 100000}}, s.N);
-  visit(Field{"noise_at", "draw about the robot (base) or the odom origin (as the paper)"},
-        s.noise_at);
-  visit(Field{"covariance", "part of the pose covariance that is drawn from"}, s.covariance);
+  visit(Field{.key = "fusion",
+              .meaning = "how this method's observations change the map",
+              .unkeyed = "study"},
+        s.fusion);
 }
 
 void fields(auto&& visit, Of<OccupancySettings> auto& s) {

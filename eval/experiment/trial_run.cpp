@@ -81,8 +81,8 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       label_dose_(dose_of(task.config.faults.labels)),
       segmentation_(segmentation_params(task.config.methods.front().segmentation)),
       place_voxels_(place_of(task.config, task.config.methods.front()) == Place::voxels),
-      blend_(std::get<BlendSettings>(task.config.fusion)),
-      threshold_(task.config.score.threshold.value.value_or(default_threshold(blend_.K))),
+      fusion_(trial_fusion(task.config.fusion, table)),
+      threshold_(task.config.score.threshold.value.value_or(default_threshold(fusion_.rule))),
       score_options_{positive(task.config.score.tolerances), task.config.score.distances_m,
                      task.config.score.thin},
       map_frame_(map_frame(task.config, task.seed_index)),
@@ -108,12 +108,14 @@ void TrialRun::advance(const Frame& frame) {
   if (by_itself) map_ = empty_map(task_.config);
   Counts counts = no_counts();
   times_ = {};
-  const Observation observation =
-      task_.labels == Labels::truth ? observe_truth(frame) : observe(frame, counts);
+  const bool truth = task_.labels == Labels::truth;
+  const cv::Mat1w depth = truth ? frame.depth : corrupted_depth(frame);
+  const Observation observation = truth ? observe_truth(frame) : observe(frame, depth, counts);
   const double before_mapping_s = thread_seconds();
   const auto hits = place(observation, sensor_poses(frame.index), map_.edge_m());
-  if (map_.carves()) see(frame, hits);
-  map_.fuse(hits, blend_.N, BlendRule{blend_.K});
+  if (map_.carves()) see(depth, frame.index, hits);
+  decay(depth, frame.index, hits);
+  map_.fuse(hits, fusion_.N, fusion_.rule, table_.classes.size());
   times_.mapping_s = thread_seconds() - before_mapping_s;
   ++result_.accounting.frames;
   if (by_itself) {
@@ -125,17 +127,28 @@ void TrialRun::advance(const Frame& frame) {
     frames_.push_back({frame.index, frame.stamp_s, std::move(counts), times_});
 }
 
+void TrialRun::decay(const cv::Mat1w& depth, int frame, std::span<const VoxelHit> hits) {
+  const auto* blend = std::get_if<BlendRule>(&fusion_.rule);
+  if (blend == nullptr || blend->decay != Decay::view) return;
+  map_.decay_in_view(DepthView(depth, believed_.depth, mean_sensor_pose(frame),
+                               believed_.range_min_m, believed_.range_max_m),
+                     *blend, hits);
+}
+
 TrialResult TrialRun::finish() {
   if (task_.config.score.unit == ScoreUnit::map) score(result_.counts);
   return std::move(result_);
 }
 
-Observation TrialRun::observe(const Frame& frame, Counts& counts) {
+cv::Mat1w TrialRun::corrupted_depth(const Frame& frame) const {
+  return sim::corrupt_depth(frame.depth, true_.depth, depth_dose_, trial_seed(task_),
+                            frame.depth_index);
+}
+
+Observation TrialRun::observe(const Frame& frame, const cv::Mat1w& depth, Counts& counts) {
   const std::uint64_t seed = trial_seed(task_);
   const std::vector<Detection> detections =
       sim::corrupt_detections(frame.label, table_, label_dose_, seed, frame.index);
-  const cv::Mat1w depth =
-      sim::corrupt_depth(frame.depth, true_.depth, depth_dose_, seed, frame.depth_index);
   const std::vector<Eigen::AlignedBox3d>& true_boxes = boxes_.of(frame);
   const double before_s = thread_seconds();
   std::vector<Segment> segments =
@@ -167,21 +180,21 @@ Observation TrialRun::observe_truth(const Frame& frame) const {
   return observation;
 }
 
-void TrialRun::see(const Frame& frame, std::span<const VoxelHit> hits) {
-  const bool truth = task_.labels == Labels::truth;
-  const cv::Mat1w depth = truth ? frame.depth
-                                : sim::corrupt_depth(frame.depth, true_.depth, depth_dose_,
-                                                     trial_seed(task_), frame.depth_index);
-  const Calibration& cameras = truth ? true_ : believed_;
-  const PoseBelief& belief = beliefs_.at(static_cast<std::size_t>(frame.index));
-  const Pose T_map_sensor = belief.T_map_odom * belief.T_odom_base * cameras.T_base_depth;
+void TrialRun::see(const cv::Mat1w& depth, int frame, std::span<const VoxelHit> hits) {
+  const Pose T_map_sensor = mean_sensor_pose(frame);
+  const DepthRays rays(believed_.depth);
   std::vector<Eigen::Vector3d> points;
   for (int v = 0; v < depth.rows; ++v)
     for (int u = 0; u < depth.cols; ++u)
       if (const double z = depth(v, u) / kDepthUnitsPerMetre;
-          z > 0.0 && z >= cameras.range_min_m && z <= cameras.range_max_m)
-        points.push_back(T_map_sensor * cameras.depth.back_project(u, v, z));
+          z > 0.0 && z >= believed_.range_min_m && z <= believed_.range_max_m)
+        points.push_back(T_map_sensor * rays.point(u, v, z));
   map_.see(T_map_sensor.translation(), points, hits);
+}
+
+Pose TrialRun::mean_sensor_pose(int frame) const {
+  const PoseBelief& belief = beliefs_.at(static_cast<std::size_t>(frame));
+  return belief.T_map_odom * belief.T_odom_base * believed_.T_base_depth;
 }
 
 void TrialRun::account(const Segment& segment) {
@@ -210,7 +223,7 @@ std::vector<Pose> TrialRun::sensor_poses(int frame) const {
   const PoseBelief& belief = beliefs_.at(static_cast<std::size_t>(frame));
   RandomStream stream(trial_seed(task_), "belief", {static_cast<std::uint64_t>(frame)});
   std::vector<Pose> poses =
-      draw_poses(belief, blend_.N, blend_.noise_at, blend_.covariance, stream);
+      draw_poses(belief, fusion_.N, fusion_.noise_at, fusion_.covariance, stream);
   for (Pose& pose : poses) pose = pose * believed_.T_base_depth;
   return poses;
 }

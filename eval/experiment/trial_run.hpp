@@ -14,6 +14,7 @@
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/pose_sources.hpp"
 #include "eval/experiment/store.hpp"
+#include "eval/experiment/trial_fusion.hpp"
 #include "eval/recording/recording.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
@@ -72,11 +73,18 @@ class TrialRun {
   [[nodiscard]] Counts no_counts() const;
   /// What the method sees, under the faults of depth and labels. Counts the boxes of the
   /// detections; one of a wrong class has no box there.
-  [[nodiscard]] Observation observe(const Frame& frame, Counts& counts);
+  [[nodiscard]] Observation observe(const Frame& frame, const cv::Mat1w& depth,
+                                    Counts& counts);
   /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
-  /// Carves what the frame's depth image saw from the mean of the pose belief.
-  void see(const Frame& frame, std::span<const VoxelHit> hits);
+  /// Under the faults of depth.
+  [[nodiscard]] cv::Mat1w corrupted_depth(const Frame& frame) const;
+  /// Carves what the depth image saw from the mean of the pose belief.
+  void see(const cv::Mat1w& depth, int frame, std::span<const VoxelHit> hits);
+  /// What the blend lets decay in view, where it does.
+  void decay(const cv::Mat1w& depth, int frame, std::span<const VoxelHit> hits);
+  /// T_map_sensor at the mean of the frame's pose belief.
+  [[nodiscard]] Pose mean_sensor_pose(int frame) const;
   void account(const Segment& segment);
   [[nodiscard]] std::vector<Pose> sensor_poses(int frame) const;
   /// Adds the counts of the map as it stands.
@@ -94,7 +102,7 @@ class TrialRun {
   sim::LabelDose label_dose_;
   SegmentationParams segmentation_;
   bool place_voxels_;
-  BlendSettings blend_;
+  TrialFusion fusion_;
   double threshold_;
   ScoreOptions score_options_;
   MapFrame map_frame_;

@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "'magnitude_m'?"},
         BadLine{"far_off", "fusion: {blend: {weight: 1}}\n",
                 "6: fusion.blend.weight: unknown key 'weight'; write one of K, N, noise_at, "
-                "covariance"},
+                "covariance, decay"},
         BadLine{"merge_key", "cameras: {<<: {width_px: 5}}\n",
                 "6: cameras.<<: unknown key '<<'; write one of width_px, height_px, range_min_m, "
                 "range_max_m, height_m, pan_deg, tilt_deg, shadows"},
@@ -100,8 +100,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"detect_none", "detect: []\n",
                 "6: detect: names no class; write all, or a list of class names"},
         BadLine{"detect_twice", "detect: [cup, cup]\n", "6: detect: cup stands twice; keep one"},
-        BadLine{"two_kinds", "fusion: {blend: {}, bayes: {}}\n",
-                "6: fusion: names 2 kinds; write one of blend, as {blend: {}}"},
+        BadLine{
+            "two_kinds", "fusion: {blend: {}, bayes: {}}\n",
+            "6: fusion: names 2 kinds; write one of blend, max_confidence, vote, bayes, top3, as "
+            "{blend: {}}"},
         BadLine{"unknown_kind", "fusion: {blond: {}}\n",
                 "6: fusion.blond: unknown kind 'blond'; did you mean 'blend'?"},
         BadLine{"ranges_crossed", "cameras:\n  range_min_m: 9\n",
