@@ -4,6 +4,7 @@
 #include "core/mapping/semantic_octree.hpp"
 
 #include "core/error.hpp"
+#include "core/mapping/slot_pool.hpp"
 
 #include <istream>
 #include <ostream>
@@ -61,6 +62,16 @@ OcTreeHeader read_header(std::istream& stream) {
 SemanticOcTreeNode::SemanticOcTreeNode(const SemanticOcTreeNode& other)
     : octomap::OcTreeNode(other),
       surface_(other.surface_ ? std::make_unique<Surface>(*other.surface_) : nullptr) {}
+
+using NodePool = SlotPool<sizeof(SemanticOcTreeNode)>;
+
+void* SemanticOcTreeNode::operator new(std::size_t bytes) {
+  if (bytes != sizeof(SemanticOcTreeNode)) throw std::bad_alloc();
+  return NodePool::take();
+}
+void SemanticOcTreeNode::operator delete(void* node) noexcept {
+  if (node != nullptr) NodePool::give(node);
+}
 
 const ClassBeliefs& SemanticOcTreeNode::beliefs() const {
   static const ClassBeliefs kNone;

@@ -34,6 +34,10 @@ class SemanticOcTreeNode : public octomap::OcTreeNode {
   SemanticOcTreeNode(const SemanticOcTreeNode& other);
   SemanticOcTreeNode& operator=(const SemanticOcTreeNode&) = delete;
 
+  static void* operator new(std::size_t bytes);
+  static void* operator new(std::size_t, void* place) { return place; }
+  static void operator delete(void* node) noexcept;
+
   [[nodiscard]] const ClassBeliefs& beliefs() const;
   [[nodiscard]] const ColourSum& colour() const;
   /// For changing them.
