@@ -43,10 +43,14 @@ TEST(BeliefRefinement, WrongVoxelTakesItsNeighboursClassAndKeepsItsRest) {
   EXPECT_NEAR(after[0].weight(3), 0.9, 1e-2);
 }
 
-TEST(BeliefRefinement, AsALabelTheRestIsOutvotedToo) {
+TEST(BeliefRefinement, AsALabelTheRestIsOutvotedAndOutvotesToo) {
   const auto after = refined(one_wrong(), CrfRest::label);
   EXPECT_EQ(after[3].best().class_id, 3);
-  EXPECT_GT(after[3].weight(3), 0.8);
+  EXPECT_GT(after[3].weight(3) + after[3].weight(7), 0.52);  // 0.5 before
+  std::vector<ClassBeliefs> alone(7);
+  alone[3] = ClassBeliefs(Entries{{7, 0.6}});
+  EXPECT_LT(refined(alone, CrfRest::label)[3].weight(7), 0.3);
+  EXPECT_NEAR(refined(alone, CrfRest::apart)[3].weight(7), 0.6, 1e-6);
 }
 
 TEST(BeliefRefinement, VoxelsThatNameNothing) {
