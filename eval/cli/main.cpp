@@ -52,6 +52,7 @@ int run(CLI::App& program, int argc, char** argv) {
   verbs::add_sweep(program);
   verbs::add_map(program);
   verbs::add_localize(program);
+  verbs::add_segment(program);
   verbs::add_truth(program);
   verbs::add_score(program);
   verbs::add_table(program);

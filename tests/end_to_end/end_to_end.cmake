@@ -8,7 +8,7 @@ file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
 set(suites BadFlags BadStudy BadRecording BadOutput ScoreMap MapFolder TinySweep)
 if(MAPSCORE_SIMULATOR)
   file(GLOB rendered CONFIGURE_DEPENDS ${folder}/rendered/*.cpp)
-  list(APPEND suites BadScene BadDrive Gate)
+  list(APPEND suites BadScene BadDrive DemoGrowing Gate)
 endif()
 
 add_executable(end_to_end_test ${sources} ${rendered})

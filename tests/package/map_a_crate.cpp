@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include <core/mapping/placement.hpp>
 #include <core/mapping/semantic_map.hpp>
 #include <core/segmentation/segmentation.hpp>
 
@@ -31,7 +32,7 @@ int main() {
   }
   const std::vector<Pose> T_map_depth{Pose::Identity()};  // where the robot believes its camera is
   SemanticMap map(voxel_m);
-  map.blend(place(observation, T_map_depth, voxel_m), 1, 0.5);
+  map.fuse(place(observation, T_map_depth, voxel_m), 1, BlendRule{}, table.classes.size());
   for (const MapVoxel& voxel : map.voxels())
     std::cout << centre_of(voxel.key, voxel_m).transpose() << ' ' << voxel.best_class << ' '
               << voxel.probability << '\n';
