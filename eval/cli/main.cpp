@@ -50,6 +50,7 @@ int run(CLI::App& program, int argc, char** argv) {
   verbs::add_run(program);
   verbs::add_sweep(program);
   verbs::add_localize(program);
+  verbs::add_objects(program);
   verbs::add_truth(program);
   verbs::add_score(program);
   verbs::add_table(program);

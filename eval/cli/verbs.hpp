@@ -13,6 +13,7 @@ void add_record(CLI::App& program);
 void add_run(CLI::App& program);
 void add_sweep(CLI::App& program);
 void add_localize(CLI::App& program);
+void add_objects(CLI::App& program);
 void add_truth(CLI::App& program);
 void add_score(CLI::App& program);
 void add_table(CLI::App& program);

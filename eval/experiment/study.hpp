@@ -7,6 +7,7 @@
 #include "core/segmentation/segmentation.hpp"
 #include "eval/experiment/drive_settings.hpp"
 #include "eval/experiment/localization_settings.hpp"
+#include "eval/experiment/perception_settings.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
 #include "sim/faults/pose_fault.hpp"
@@ -215,6 +216,7 @@ struct Study {
   std::optional<std::array<double, 3>> map_origin_m;  ///< empty: drawn by the seed, within a voxel
   double map_yaw_deg = 0;
   std::optional<DetectedSet> detect;  ///< empty: as the class file says
+  PerceptionSettings perception;
   std::vector<MethodSettings> methods;
   FusionSettings fusion;
   LocalizationSettings localization;

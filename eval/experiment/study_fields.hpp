@@ -6,6 +6,7 @@
 #include "eval/experiment/drive_fields.hpp"
 #include "eval/experiment/fault_fields.hpp"
 #include "eval/experiment/fields.hpp"
+#include "eval/experiment/perception_fields.hpp"
 #include "eval/experiment/study.hpp"
 
 #include <array>
@@ -151,6 +152,8 @@ void fields(auto&& visit, Of<Study> auto& s) {
         s.map_yaw_deg);
   visit(Field{"detect", "classes that become detections; default: as the class file says"},
         s.detect);
+  visit(Field{.key = "perception", .meaning = "where detections come from", .unkeyed = "labels"},
+        s.perception);
   visit(Field{"methods", "at least one, by name: letters, digits, _ and -"}, s.methods);
   visit(Field{"fusion", "how observations change the map"}, s.fusion);
   visit(Field{.key = "localization", .meaning = "where the robot believes it is", .unkeyed = "{}"},

@@ -70,6 +70,7 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       beliefs_(poses.beliefs(task, depth_of_)),
       depth_dose_(dose_of(task.config.faults.depth)),
       label_dose_(dose_of(task.config.faults.labels)),
+      simulated_(simulated_labels(task.config, recording, table)),
       segmentation_(segmentation_params(task.config.methods.front().segmentation)),
       place_voxels_(place_of(task.config, task.config.methods.front()) == Place::voxels),
       blend_(std::get<BlendSettings>(task.config.fusion)),
@@ -118,20 +119,24 @@ TrialResult TrialRun::finish() {
 
 Observation TrialRun::observe(const Frame& frame, Counts& counts) {
   const std::uint64_t seed = trial_seed(task_);
+  const cv::Mat1w label = simulated_ ? simulated_->of(frame) : frame.label;
+  const ClassTable& table = simulated_ ? simulated_->table() : table_;
   const std::vector<Detection> detections =
-      sim::corrupt_detections(frame.label, table_, label_dose_, seed, frame.index);
+      sim::corrupt_detections(label, table, label_dose_, seed, frame.index);
   const cv::Mat1w depth =
       sim::corrupt_depth(frame.depth, true_.depth, depth_dose_, seed, frame.depth_index);
-  const RegisteredCloud cloud = register_depth(
-      depth, believed_, pixels_wanted(detections, frame.label.cols, frame.label.rows));
+  const RegisteredCloud cloud =
+      register_depth(depth, believed_, pixels_wanted(detections, label.cols, label.rows));
   const std::vector<Eigen::AlignedBox3d>& true_boxes = boxes_.of(frame);
   Observation observation;
   for (const Detection& detection : detections) {
     Segment found = segment(detection, cloud, map_.edge_m(), segmentation_, place_voxels_);
     account(found);
-    const bool right = found.class_id == table_.class_of(found.instance);
-    counts[found.class_id].boxes.add(right ? found.box : Eigen::AlignedBox3d(),
-                                     true_boxes.at(found.instance), 0.5 * map_.edge_m());
+    const bool right = found.class_id == table.class_of(found.instance);
+    counts[found.class_id].boxes.add(
+        right ? found.box : Eigen::AlignedBox3d(),
+        found.instance < true_boxes.size() ? true_boxes[found.instance] : Eigen::AlignedBox3d(),
+        0.5 * map_.edge_m());
     observation.push_back({found.class_id, found.score,
                            std::move(place_voxels_ ? found.voxel_centres : found.points)});
   }

@@ -12,12 +12,14 @@
 #include "eval/experiment/lattice_truth.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/pose_sources.hpp"
+#include "eval/experiment/simulated_labels.hpp"
 #include "eval/experiment/store.hpp"
 #include "eval/recording/recording.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace mapscore::eval {
@@ -84,6 +86,7 @@ class TrialRun {
   std::vector<PoseBelief> beliefs_;  ///< by frame
   sim::DepthDose depth_dose_;
   sim::LabelDose label_dose_;
+  std::optional<SimulatedLabels> simulated_;  ///< in place of the recording's labels
   SegmentationParams segmentation_;
   bool place_voxels_;
   BlendSettings blend_;
