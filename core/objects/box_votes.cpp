@@ -9,7 +9,7 @@
 
 namespace mapscore {
 
-BoxVotes vote(const ObjectBox& box, const DepthView& view, double tolerance_m) {
+BoxVotes vote(const ObjectBox& box, const PosedDepth& view, double tolerance_m) {
   check(view);
   BoxVotes votes;
   const ObjectBox seen = moved(view.T_map_camera.inverse(), box);

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "core/objects/depth_view.hpp"
+#include "core/objects/posed_depth.hpp"
 #include "core/objects/object_box.hpp"
 
 namespace mapscore {
@@ -26,7 +26,7 @@ struct BoxVotes {
 /// tolerance, `beyond` when z > out + tolerance, else `within`; in and out: depths at which the
 /// pixel's ray enters and leaves the box, cut to the camera's range. Nothing when the box is
 /// outside the frustum.
-[[nodiscard]] BoxVotes vote(const ObjectBox& box, const DepthView& view, double tolerance_m);
+[[nodiscard]] BoxVotes vote(const ObjectBox& box, const PosedDepth& view, double tolerance_m);
 
 /// What makes an object one that should have been seen.
 struct Visibility {

@@ -66,7 +66,7 @@ void ObjectMap::check(const ObjectDetection& detection, std::size_t position) co
 }
 
 ObjectChanges ObjectMap::integrate(std::span<const ObjectDetection> detections, double stamp_s,
-                                   const DepthView* view) {
+                                   const PosedDepth* view) {
   for (std::size_t d = 0; d < detections.size(); ++d) check(detections[d], d);
   if (view) mapscore::check(*view);
   const auto object_of = associate(detections, objects_, params_.gate);
@@ -127,7 +127,7 @@ void ObjectMap::merge_overlapping(ObjectChanges& changes) {
   std::sort(changes.merged.begin(), changes.merged.end());
 }
 
-void ObjectMap::age(const std::set<ObjectId>& seen, const DepthView& view, ObjectChanges& changes) {
+void ObjectMap::age(const std::set<ObjectId>& seen, const PosedDepth& view, ObjectChanges& changes) {
   for (MapObject& object : objects_) {
     if (seen.contains(object.id)) continue;
     const BoxVotes votes = vote(object.box, view, params_.visibility.tolerance_m);

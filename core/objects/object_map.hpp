@@ -46,7 +46,7 @@ class ObjectMap {
   /// one has no class of the table, a box that is not finite or a score outside (0, 1]; the map is
   /// unchanged then.
   ObjectChanges integrate(std::span<const ObjectDetection> detections, double stamp_s,
-                          const DepthView* view = nullptr);
+                          const PosedDepth* view = nullptr);
 
   /// Adds an object as it is. Its id: the next, or `object.id` where that is above all given so
   /// far. Throws Error as integrate, and when the id was given before.
@@ -83,7 +83,7 @@ class ObjectMap {
   void tell_apart(const std::set<ObjectId>& seen);
   void pass_on_apart(ObjectId gone, ObjectId kept);
   void merge_overlapping(ObjectChanges& changes);
-  void age(const std::set<ObjectId>& seen, const DepthView& view, ObjectChanges& changes);
+  void age(const std::set<ObjectId>& seen, const PosedDepth& view, ObjectChanges& changes);
 
   std::size_t class_count_;
   ObjectMapParams params_;

@@ -22,7 +22,7 @@ struct Part {
 
 /// Those that the camera frames, the largest first; of equal ones the last first, so that what is
 /// painted later wins.
-std::vector<Part> framed_parts(std::span<const PerceivedModel> models, const DepthView& view,
+std::vector<Part> framed_parts(std::span<const PerceivedModel> models, const PosedDepth& view,
                                double tolerance_m) {
   const Frustum frustum(view.camera, view.range_min_m, view.range_max_m);
   const Pose T_camera_map = view.T_map_camera.inverse();
@@ -39,7 +39,7 @@ std::vector<Part> framed_parts(std::span<const PerceivedModel> models, const Dep
 }
 
 /// Labels the pixels whose measured point lies in the box.
-void paint(const Part& part, const DepthView& view, const DepthRays& slopes, cv::Mat1w& label) {
+void paint(const Part& part, const PosedDepth& view, const DepthRays& slopes, cv::Mat1w& label) {
   const BoxRays rays(part.box, view.range_min_m, view.range_max_m);
   const PixelBox pixels = pixels_of(part.box, view.camera, view.range_min_m);
   for (int v = pixels.v_min; v <= pixels.v_max; ++v) {
@@ -64,7 +64,7 @@ void forget_below(int min_pixels, cv::Mat1w& label) {
 
 }  // namespace
 
-cv::Mat1w perceive(std::span<const PerceivedModel> models, const DepthView& view,
+cv::Mat1w perceive(std::span<const PerceivedModel> models, const PosedDepth& view,
                    double tolerance_m, int min_pixels) {
   check(view);
   const DepthRays slopes(view.camera);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/classes.hpp"
-#include "core/objects/depth_view.hpp"
+#include "core/objects/posed_depth.hpp"
 #include "core/objects/object_box.hpp"
 #include "core/segmentation/registered_cloud.hpp"
 
@@ -26,8 +26,8 @@ struct PerceivedModel {
 /// A pixel votes for a model when the point that it measured lies in one of its boxes, each widened
 /// by `tolerance_m`; of several boxes, for the one of the least volume, ties to the earlier model
 /// and part. Models outside the frustum and those with fewer than `min_pixels` votes go unseen.
-/// Throws Error as check(DepthView).
-[[nodiscard]] cv::Mat1w perceive(std::span<const PerceivedModel> models, const DepthView& view,
+/// Throws Error as check(PosedDepth).
+[[nodiscard]] cv::Mat1w perceive(std::span<const PerceivedModel> models, const PosedDepth& view,
                                  double tolerance_m, int min_pixels = 1);
 
 /// Labels of depth pixels as the colour camera sees them: each colour pixel takes that of its depth

@@ -9,6 +9,7 @@
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
+#include "eval/experiment/trial_refinement.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
 #include "eval/recording/whole_file.hpp"
@@ -53,9 +54,10 @@ std::vector<Task> tasks_of(const Study& study, int seed, const std::string& reco
 }
 
 /// All methods walk the frames together, on one thread, so that their times compare.
-std::vector<MethodFrames> walk(const std::vector<Task>& tasks, const Recording& recording,
-                               const ClassTable& table, const FramesFlags& flags) {
-  FrameCache frames(recording, {.color = false, .label = true, .depth = true, .depth_label = true},
+std::vector<MethodFrames> walk(const Study& study, const std::vector<Task>& tasks,
+                               const Recording& recording, const ClassTable& table,
+                               const FramesFlags& flags) {
+  FrameCache frames(recording, {.color = reads_colour(study), .label = true, .depth = true, .depth_label = true},
                     flags.work.memory_bytes);
   TruthCache truths(recording, table, frames, 1);
   PoseSources poses(recording);
@@ -85,7 +87,7 @@ void compare_frames(const FramesFlags& flags) {
   const Recording recording = recording_of(study, results, flags.work.jobs, shown.progress());
   const ClassTable table = detected_table(study, recording.info().table);
   const std::vector<Task> tasks = tasks_of(study, flags.seed, recording.content_hash());
-  const std::vector<MethodFrames> methods = walk(tasks, recording, table, flags);
+  const std::vector<MethodFrames> methods = walk(study, tasks, recording, table, flags);
   const fs::path folder = results / "frames";
   fs::create_directories(folder);
   const Table times = frames_table(methods);

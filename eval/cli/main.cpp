@@ -53,6 +53,7 @@ int run(CLI::App& program, int argc, char** argv) {
   verbs::add_map(program);
   verbs::add_localize(program);
   verbs::add_segment(program);
+  verbs::add_objects(program);
   verbs::add_truth(program);
   verbs::add_score(program);
   verbs::add_table(program);

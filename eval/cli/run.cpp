@@ -12,6 +12,7 @@
 #include "eval/experiment/replay_check.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
+#include "eval/experiment/trial_refinement.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
 #include "eval/recording/whole_file.hpp"
@@ -116,7 +117,7 @@ void run(const RunFlags& flags) {
   const Task task = task_of(study, spec, Labels::detected, recording.content_hash());
   const bool by_frame = task.config.score.unit == ScoreUnit::frame;
 
-  FrameCache frames(recording, {.color = false, .label = true, .depth = true, .depth_label = true},
+  FrameCache frames(recording, {.color = reads_colour(study), .label = true, .depth = true, .depth_label = true},
                     flags.work.memory_bytes);
   TruthCache truths(recording, table, frames, 1);
   PoseSources poses(recording);

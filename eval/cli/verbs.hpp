@@ -16,6 +16,7 @@ void add_sweep(CLI::App& program);
 void add_map(CLI::App& program);
 void add_localize(CLI::App& program);
 void add_segment(CLI::App& program);
+void add_objects(CLI::App& program);
 void add_truth(CLI::App& program);
 void add_score(CLI::App& program);
 void add_table(CLI::App& program);

@@ -18,13 +18,23 @@
 #include <filesystem>
 #include <map>
 #include <unordered_map>
+#include <variant>
 
 namespace mapscore::eval {
 namespace {
 
-/// What the files hold that poses of a study come from. Each is read once.
+/// What the files hold that poses and detections of a study come from. Each is read once.
 class PoseFiles {
  public:
+  /// Hash of the object map that perception is simulated from; empty without one. Throws Error when
+  /// it is missing.
+  std::string objects(const Study& config) {
+    const auto* simulated = std::get_if<SimulatedPerceptionSettings>(&config.perception);
+    if (!simulated || !simulated->objects) return "";
+    return of(resolve_path(config, *simulated->objects),
+              [](const std::filesystem::path& file) { return read_file(file); });
+  }
+
   /// Hash of the file that the source of a configuration reads; empty when it reads none. Throws
   /// Error when the file is refused.
   std::string content(const Study& config) {
@@ -63,7 +73,7 @@ class PoseFiles {
 
 /// Leaves only what determines the result, so that renaming a study or adding a method to it does
 /// not make its trials new. The recording stands for what it was made from.
-Study determining(Study config, const std::string& pose_file) {
+Study determining(Study config, const std::string& pose_file, const std::string& objects) {
   const Study none;
   config.name.clear();
   config.seeds = 1;
@@ -78,6 +88,9 @@ Study determining(Study config, const std::string& pose_file) {
   config.faults.depth = resolved(config.faults.depth);
   config.faults.labels = resolved(config.faults.labels);
   resolve_localization(config.localization, config.faults, pose_file);
+  if (auto* simulated = std::get_if<SimulatedPerceptionSettings>(&config.perception);
+      simulated && simulated->objects)
+    simulated->objects = objects;
   config.base_folder.clear();
   for (MethodSettings& method : config.methods) method.name = "method";
   return config;
@@ -103,6 +116,7 @@ Study without_faults(Study config) {
 
 Study for_lattice_ceiling(Study config) {
   config = without_faults(std::move(config));
+  config.perception = {};  // true labels, whatever the methods see
   config.methods = {{"lattice", DirectSettings{}, Place::points}};
   config.place = Place::points;
   return config;
@@ -111,10 +125,10 @@ Study for_lattice_ceiling(Study config) {
 Task make_task(Study config, int seed_index, Labels labels, const std::string& recording_hash,
                PoseFiles& files) {
   Task task;
-  task.description =
-      fmt::format("scoring_version: {}\nrecording: {}\nlabels: {}\nseed_index: {}\n{}",
-                  kScoringVersion, recording_hash, labels == Labels::truth ? "truth" : "detected",
-                  seed_index, to_key_yaml(determining(config, files.content(config))));
+  task.description = fmt::format(
+      "scoring_version: {}\nrecording: {}\nlabels: {}\nseed_index: {}\n{}", kScoringVersion,
+      recording_hash, labels == Labels::truth ? "truth" : "detected", seed_index,
+      to_key_yaml(determining(config, files.content(config), files.objects(config))));
   task.key = hash_of(task.description);
   task.config = std::move(config);
   task.seed_index = seed_index;
@@ -146,7 +160,11 @@ std::uint64_t trial_seed(const Task& task) {
 
 void check_pose_files(const Study& study) {
   PoseFiles files;
-  for (const Cell& cell : cells(study)) static_cast<void>(files.content(resolve(study, cell)));
+  for (const Cell& cell : cells(study)) {
+    const Study config = resolve(study, cell);
+    static_cast<void>(files.content(config));
+    static_cast<void>(files.objects(config));
+  }
 }
 
 Task task_of(const Study& study, const TrialSpec& spec, Labels labels,

@@ -5,6 +5,7 @@
 
 #include "core/parallel.hpp"
 #include "eval/experiment/lattice_truth.hpp"
+#include "eval/experiment/trial_refinement.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
 
@@ -25,13 +26,14 @@ constexpr std::size_t kTrialsAtOnce = 64;
 constexpr int kFramesScoredAtOnce = 8;
 static_assert(kFramesScoredAtOnce <= static_cast<int>(TruthCache::kFramesOfLattice));
 
-std::size_t bytes_of_a_frame(const Recording& recording) {
+std::size_t bytes_of_a_frame(const Recording& recording, bool colour) {
   const CameraModel& color = recording.info().calibration.color;
   const CameraModel& depth = recording.info().calibration.depth;
   const auto pixels = [](const CameraModel& camera) {
     return static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
   };
-  return sizeof(std::uint16_t) * (pixels(color) + 2 * pixels(depth));
+  return sizeof(std::uint16_t) * (pixels(color) + 2 * pixels(depth)) +
+         (colour ? sizeof(cv::Vec3b) * pixels(color) : 0);
 }
 
 /// The missing tasks of this shard, those of one lattice together.
@@ -54,14 +56,16 @@ std::vector<const Task*> missing_tasks(const Plan& plan, const ResultStore& stor
 /// Everything that the trials of one recording share.
 class Sweep {
  public:
+  /// `colour`: whether some task reads colour images.
   Sweep(const Recording& recording, const ClassTable& table, ResultStore& store,
-        const RunnerOptions& options)
+        const RunnerOptions& options, bool colour)
       : recording_(recording),
         table_(table),
         store_(store),
         options_(options),
+        colour_(colour),
         frames_(recording,
-                Channels{.color = false, .label = true, .depth = true, .depth_label = true},
+                Channels{.color = colour, .label = true, .depth = true, .depth_label = true},
                 options.memory_bytes),
         truths_(recording, table, frames_, static_cast<std::size_t>(std::max(1, options.jobs)) + 1),
         poses_(recording) {}
@@ -81,7 +85,7 @@ class Sweep {
 
  private:
   [[nodiscard]] int block_of_frames(const std::vector<const Task*>& tasks) const {
-    std::size_t fitting = options_.memory_bytes / bytes_of_a_frame(recording_);
+    std::size_t fitting = options_.memory_bytes / bytes_of_a_frame(recording_, colour_);
     if (std::ranges::any_of(
             tasks, [](const Task* task) { return task->config.score.unit == ScoreUnit::frame; }))
       fitting = std::min<std::size_t>(fitting, kFramesScoredAtOnce);
@@ -124,6 +128,7 @@ class Sweep {
   const ClassTable& table_;
   ResultStore& store_;
   const RunnerOptions& options_;
+  bool colour_;
   FrameCache frames_;
   TruthCache truths_;
   PoseSources poses_;
@@ -137,7 +142,9 @@ class Sweep {
 RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
                        ResultStore& store, const RunnerOptions& options) {
   const std::vector<const Task*> missing = missing_tasks(plan, store, options);
-  if (!missing.empty()) Sweep(recording, table, store, options).run(missing);
+  const bool colour = std::ranges::any_of(
+      missing, [](const Task* task) { return reads_colour(task->config); });
+  if (!missing.empty()) Sweep(recording, table, store, options, colour).run(missing);
   return {missing.size(), plan.tasks.size() - missing.size()};
 }
 

@@ -7,6 +7,8 @@
 #include "eval/experiment/drive_settings.hpp"
 #include "eval/experiment/fusion_settings.hpp"
 #include "eval/experiment/localization_settings.hpp"
+#include "eval/experiment/perception_settings.hpp"
+#include "eval/experiment/refinement_settings.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
 #include "sim/faults/pose_fault.hpp"
@@ -90,6 +92,7 @@ struct MethodSettings {
   SegmentationSettings segmentation;
   std::optional<Place> place;  ///< empty: the study's
   MethodFusionSettings fusion{};
+  RefinementSettings refinement{};
 
   bool operator==(const MethodSettings&) const = default;
 };
@@ -221,6 +224,7 @@ struct Study {
   std::optional<std::array<double, 3>> map_origin_m;  ///< empty: drawn by the seed, within a voxel
   double map_yaw_deg = 0;
   std::optional<DetectedSet> detect;  ///< empty: as the class file says
+  PerceptionSettings perception;
   std::vector<MethodSettings> methods;
   FusionSettings fusion;
   OccupancySettings occupancy;

@@ -168,6 +168,14 @@ void check_localization(const Study& study, const Blame& blame) {
           fmt::format("makes dropout_rate {}; write a lesser number, a share ends at 1", rate));
 }
 
+void check_perception(const Study& study, const Blame& blame) {
+  if (std::holds_alternative<LabelPerceptionSettings>(study.perception)) return;
+  if (study.faults.time_offset_ms != 0)
+    blame("faults.time_offset_ms",
+          "stands beside simulated perception, which sees the depth image itself, at no offset; "
+          "keep one of the two");
+}
+
 void check_time(const ScoreSettings& score, const Blame& blame) {
   if (score.at_s && score.unit == ScoreUnit::frame)
     blame("score.at_s",
@@ -193,6 +201,7 @@ void check_leaves(const Study& study, const Blame& blame) {
   check_covariance(study.faults.pose, blame);
   check_wheels(study, blame);
   check_localization(study, blame);
+  check_perception(study, blame);
   check_time(study.score, blame);
   check_confusion(study.faults.labels, blame);
   check_sensor(study.faults.depth, "faults.depth", blame);

@@ -7,6 +7,8 @@
 #include "eval/experiment/fault_fields.hpp"
 #include "eval/experiment/fields.hpp"
 #include "eval/experiment/fusion_fields.hpp"
+#include "eval/experiment/perception_fields.hpp"
+#include "eval/experiment/refinement_fields.hpp"
 #include "eval/experiment/study.hpp"
 
 #include <array>
@@ -95,6 +97,10 @@ void fields(auto&& visit, Of<MethodSettings> auto& s) {
               .meaning = "how this method's observations change the map",
               .unkeyed = "study"},
         s.fusion);
+  visit(Field{.key = "refinement",
+              .meaning = "what happens to this method's map before it is scored",
+              .unkeyed = "none"},
+        s.refinement);
 }
 
 void fields(auto&& visit, Of<OccupancySettings> auto& s) {
@@ -186,6 +192,8 @@ void fields(auto&& visit, Of<Study> auto& s) {
         s.map_yaw_deg);
   visit(Field{"detect", "classes that become detections; default: as the class file says"},
         s.detect);
+  visit(Field{.key = "perception", .meaning = "where detections come from", .unkeyed = "labels"},
+        s.perception);
   visit(Field{"methods", "at least one, by name: letters, digits, _ and -"}, s.methods);
   visit(Field{"fusion", "how observations change the map"}, s.fusion);
   visit(Field{.key = "occupancy", .meaning = "free space in the map", .unkeyed = "{}"},

@@ -9,6 +9,7 @@
 #include "eval/experiment/doses.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/sensor_doses.hpp"
+#include "core/refinement/map_refinement.hpp"
 #include "eval/experiment/trial_seed.hpp"
 #include "eval/score/instance_score.hpp"
 #include "sim/faults/depth_noise.hpp"
@@ -79,9 +80,11 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       beliefs_(poses.beliefs(task, depth_of_)),
       depth_dose_(dose_of(task.config.faults.depth)),
       label_dose_(dose_of(task.config.faults.labels)),
+      simulated_(simulated_labels(task.config, recording, table)),
       segmentation_(segmentation_params(task.config.methods.front().segmentation)),
       place_voxels_(place_of(task.config, task.config.methods.front()) == Place::voxels),
       fusion_(trial_fusion(task.config.fusion, table)),
+      refinement_(trial_refinement(task.config.methods.front().refinement)),
       threshold_(task.config.score.threshold.value.value_or(default_threshold(fusion_.rule))),
       score_options_{positive(task.config.score.tolerances), task.config.score.distances_m,
                      task.config.score.thin},
@@ -116,6 +119,7 @@ void TrialRun::advance(const Frame& frame) {
   if (map_.carves()) see(depth, frame.index, hits);
   decay(depth, frame.index, hits);
   map_.fuse(hits, fusion_.N, fusion_.rule, table_.classes.size());
+  map_.add_colours(colours_);
   times_.mapping_s = thread_seconds() - before_mapping_s;
   ++result_.accounting.frames;
   if (by_itself) {
@@ -147,8 +151,11 @@ cv::Mat1w TrialRun::corrupted_depth(const Frame& frame) const {
 
 Observation TrialRun::observe(const Frame& frame, const cv::Mat1w& depth, Counts& counts) {
   const std::uint64_t seed = trial_seed(task_);
+  const cv::Mat1w label = simulated_ ? simulated_->of(frame) : frame.label;
+  const ClassTable& table = simulated_ ? simulated_->table() : table_;
   const std::vector<Detection> detections =
-      sim::corrupt_detections(frame.label, table_, label_dose_, seed, frame.index);
+      sim::corrupt_detections(label, table, label_dose_, seed, frame.index);
+  note_colours(frame, depth, detections);
   const std::vector<Eigen::AlignedBox3d>& true_boxes = boxes_.of(frame);
   const double before_s = thread_seconds();
   std::vector<Segment> segments =
@@ -157,9 +164,11 @@ Observation TrialRun::observe(const Frame& frame, const cv::Mat1w& depth, Counts
   Observation observation;
   for (Segment& found : segments) {
     account(found);
-    const bool right = found.class_id == table_.class_of(found.instance);
-    counts[found.class_id].boxes.add(right ? found.box : Eigen::AlignedBox3d(),
-                                     true_boxes.at(found.instance), 0.5 * map_.edge_m());
+    const bool right = found.class_id == table.class_of(found.instance);
+    counts[found.class_id].boxes.add(
+        right ? found.box : Eigen::AlignedBox3d(),
+        found.instance < true_boxes.size() ? true_boxes[found.instance] : Eigen::AlignedBox3d(),
+        0.5 * map_.edge_m());
     observation.push_back({found.class_id, found.score,
                            std::move(place_voxels_ ? found.voxel_centres : found.points)});
   }
@@ -178,6 +187,23 @@ Observation TrialRun::observe_truth(const Frame& frame) const {
     }
   }
   return observation;
+}
+
+void TrialRun::note_colours(const Frame& frame, const cv::Mat1w& depth,
+                            const std::vector<Detection>& detections) {
+  colours_.clear();
+  if (!refinement_ || !refinement_->reads_colour()) return;
+  const RegisteredCloud cloud = register_depth(
+      depth, believed_, pixels_wanted(detections, frame.color.cols, frame.color.rows));
+  const Pose T_map_sensor = mean_sensor_pose(frame.index);
+  for (int v = 0; v < frame.color.rows; ++v) {
+    for (int u = 0; u < frame.color.cols; ++u) {
+      const int source = cloud.source(u, v);
+      if (source == RegisteredCloud::kNone) continue;
+      const cv::Vec3b bgr = frame.color(v, u);
+      colours_.push_back({T_map_sensor * cloud.point(source), {bgr[2], bgr[1], bgr[0]}});
+    }
+  }
 }
 
 void TrialRun::see(const cv::Mat1w& depth, int frame, std::span<const VoxelHit> hits) {
@@ -236,6 +262,7 @@ void TrialRun::look_up_truth_of(int depth_image) {
 }
 
 void TrialRun::score(Counts& counts) {
+  if (refinement_) refine(map_, refinement_->rest, refinement_->params);
   const MapSnapshot snapshot(map_.voxels());
   result_.accounting.hits_beyond_span += static_cast<std::int64_t>(map_.hits_beyond_span());
   result_.accounting.map_voxels += static_cast<std::int64_t>(snapshot.voxels().size());

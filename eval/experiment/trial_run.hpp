@@ -13,13 +13,16 @@
 #include "eval/experiment/lattice_truth.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/pose_sources.hpp"
+#include "eval/experiment/simulated_labels.hpp"
 #include "eval/experiment/store.hpp"
 #include "eval/experiment/trial_fusion.hpp"
+#include "eval/experiment/trial_refinement.hpp"
 #include "eval/recording/recording.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -79,6 +82,9 @@ class TrialRun {
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
   /// Under the faults of depth.
   [[nodiscard]] cv::Mat1w corrupted_depth(const Frame& frame) const;
+  /// Notes the colours behind the masks, where the refinement asks for them.
+  void note_colours(const Frame& frame, const cv::Mat1w& depth,
+                    const std::vector<Detection>& detections);
   /// Carves what the depth image saw from the mean of the pose belief.
   void see(const cv::Mat1w& depth, int frame, std::span<const VoxelHit> hits);
   /// What the blend lets decay in view, where it does.
@@ -100,9 +106,11 @@ class TrialRun {
   std::vector<PoseBelief> beliefs_;  ///< by frame
   sim::DepthDose depth_dose_;
   sim::LabelDose label_dose_;
+  std::optional<SimulatedLabels> simulated_;  ///< in place of the recording's labels
   SegmentationParams segmentation_;
   bool place_voxels_;
   TrialFusion fusion_;
+  std::optional<TrialRefinement> refinement_;
   double threshold_;
   ScoreOptions score_options_;
   MapFrame map_frame_;
@@ -111,6 +119,7 @@ class TrialRun {
   std::shared_ptr<const LatticeTruth> truth_;
   std::shared_ptr<const LatticeTruth> instance_truth_;  ///< none where instances are not scored
   SemanticMap map_;
+  std::vector<ColouredPoint> colours_;  ///< of the last frame, in the map's frame
   TrialResult result_;
   FrameTimes times_;  ///< of the last frame
   bool keeps_frames_ = false;

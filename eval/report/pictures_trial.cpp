@@ -7,6 +7,7 @@
 #include "eval/experiment/lattice_truth.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/plan.hpp"
+#include "eval/experiment/trial_refinement.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
 #include "eval/report/figures_axes.hpp"
@@ -93,7 +94,7 @@ std::vector<JudgedMap> map_trials(const Study& study, const ClassTable& table,
   const Cell cell = chosen_cell(study, choice);
   Study undistanced = study;  // pictures need no distances, and those cost most of a truth
   undistanced.score.distances_m.clear();
-  FrameCache frames(recording, {.color = false, .label = true, .depth = true, .depth_label = true},
+  FrameCache frames(recording, {.color = reads_colour(study), .label = true, .depth = true, .depth_label = true},
                     choice.memory_bytes);
   TruthCache truths(recording, table, frames, 1);
   PoseSources poses(recording);

@@ -40,8 +40,8 @@ ObjectBox random_box(RandomStream& stream) {
 }
 
 /// A camera frame whose depth image shows the nearest of some boxes, 0 where there is none.
-DepthView rendered(const std::vector<ObjectBox>& boxes) {
-  DepthView view;
+PosedDepth rendered(const std::vector<ObjectBox>& boxes) {
+  PosedDepth view;
   view.camera = camera();
   view.depth = cv::Mat1w::zeros(48, 64);
   for (int v = 0; v < 48; ++v)
@@ -130,7 +130,7 @@ TEST(Frustum, MeetsWhatHasAPointInIt) {
 }
 
 /// Every pixel, one by one, without culling and without a rectangle.
-BoxVotes plain_votes(const ObjectBox& box, const DepthView& view, double tolerance_m) {
+BoxVotes plain_votes(const ObjectBox& box, const PosedDepth& view, double tolerance_m) {
   BoxVotes votes;
   const ObjectBox seen = moved(view.T_map_camera.inverse(), box);
   for (int v = 0; v < view.camera.height_px; ++v)
@@ -156,7 +156,7 @@ TEST(BoxVotes, EqualThoseOfEveryPixel) {
   RandomStream stream(5, "votes", {0});
   int looked = 0;
   for (int n = 0; n < 400; ++n) {
-    DepthView view =
+    PosedDepth view =
         rendered({random_box(stream), random_box(stream), upright({-9, -9, 6}, {9, 9, 7})});
     const Pose T = exp_pose((Vector6() << draw(stream, 1), draw(stream, 1), draw(stream, 1),
                              draw(stream, 1), draw(stream, 1), draw(stream, 1))
@@ -197,7 +197,7 @@ TEST(Perceive, PaintsTheSmallerBoxOverTheLarger) {
   const ObjectBox wall = upright({-9, -9, 5}, {9, 9, 5.1});
   const ObjectBox table = upright({-1, -1, 2}, {1, 1, 4}),
                   cup = upright({-0.2, -0.2, 2}, {0.2, 0.2, 2.2});
-  const DepthView view = rendered({wall, table, cup});
+  const PosedDepth view = rendered({wall, table, cup});
   const std::vector<PerceivedModel> models{
       {7, {cup}}, {3, {table}}, {9, {upright({-9, -9, -4}, {9, 9, -3})}}};
   const cv::Mat1w label = perceive(models, view, 0.01);
@@ -212,7 +212,7 @@ TEST(Perceive, PaintsTheSmallerBoxOverTheLarger) {
 }
 
 TEST(Perceive, RefusesAnImageOfAnotherSize) {
-  DepthView view = rendered({});
+  PosedDepth view = rendered({});
   view.depth = cv::Mat1w::zeros(48, 63);
   EXPECT_THROW((void)perceive({}, view, 0.01), Error);
   EXPECT_THROW((void)vote({}, view, 0.01), Error);
@@ -234,8 +234,8 @@ TEST(Ageing, TakesAwayWhatWasTakenAwayAndNothingElse) {
   map.integrate(
       std::vector{detection(stays), detection(taken), detection(behind_it), detection(elsewhere)},
       0.0);
-  const DepthView before = rendered({wall, stays, taken, behind_it});
-  const DepthView after = rendered({wall, stays, behind_it});
+  const PosedDepth before = rendered({wall, stays, taken, behind_it});
+  const PosedDepth after = rendered({wall, stays, behind_it});
   for (int frame = 1; frame <= 20; ++frame)  // what is hidden or out of view keeps
     EXPECT_THAT(
         map.integrate(std::vector{detection(stays), detection(taken)}, frame, &before).missed,

@@ -92,7 +92,7 @@ TEST(TrueObjects, SimulatedPerceptionOfTheTruthIsItsLabels) {
     ASSERT_EQ(models.size(), 1u);
     for (const Frame& frame : mapscore::testing::tiny_frames()) {
       const Calibration& c = info.calibration;
-      const DepthView view{c.depth, frame.T_world_base * c.T_base_depth, c.range_min_m,
+      const PosedDepth view{c.depth, frame.T_world_base * c.T_base_depth, c.range_min_m,
                            c.range_max_m, frame.depth};
       const cv::Mat1w label = perceive(models, view, 0.001);
       for (int v = 0; v < label.rows; ++v)

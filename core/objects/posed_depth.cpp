@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/objects/depth_view.hpp"
+#include "core/objects/posed_depth.hpp"
 
 #include "core/error.hpp"
 
@@ -9,7 +9,7 @@
 
 namespace mapscore {
 
-void check(const DepthView& view) {
+void check(const PosedDepth& view) {
   const CameraModel& camera = view.camera;
   if (view.depth.cols != camera.width_px || view.depth.rows != camera.height_px)
     throw Error("depth image: " + std::to_string(view.depth.cols) + " x " +

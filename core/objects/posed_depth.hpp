@@ -11,7 +11,7 @@
 namespace mapscore {
 
 /// A depth image and where it was taken from, or is believed to have been.
-struct DepthView {
+struct PosedDepth {
   CameraModel camera;
   Pose T_map_camera = Pose::Identity();         ///< depth_optical -> map
   double range_min_m = 0.6, range_max_m = 8.0;  ///< planar z that is measured, limits included
@@ -19,6 +19,6 @@ struct DepthView {
 };
 
 /// Throws Error when the image has another size than the camera, or the range is not one.
-void check(const DepthView& view);
+void check(const PosedDepth& view);
 
 }  // namespace mapscore

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/error.hpp"
+#include "eval/cli/options.hpp"
+#include "eval/cli/progress.hpp"
+#include "eval/cli/recording_progress.hpp"
+#include "eval/cli/verbs.hpp"
+#include "eval/experiment/object_run.hpp"
+#include "eval/experiment/study_recording.hpp"
+#include "eval/experiment/study_store.hpp"
+#include "eval/objects/object_mjcf.hpp"
+#include "eval/recording/whole_file.hpp"
+#include "eval/report/object_table.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ObjectFlags {
+  std::string source, output, method, update = "hull", against = "surface", format = "text";
+  std::optional<std::string> start;
+  std::vector<std::string> overrides;
+  int seed = 0, max_age = ObjectMapParams{}.max_age, min_points = ObjectRunOptions{}.min_points;
+  int jobs = WorkFlags{}.jobs;
+  bool quiet = false;
+};
+
+/// A study of nothing but a recording, in the scene's world, with every method by its name.
+Study study_of_recording(const fs::path& folder, const std::vector<std::string>& overrides) {
+  Study study;
+  study.name = folder.filename().string();
+  study.recording = fs::absolute(folder).string();
+  study.methods = {{"direct", DirectSettings{}, {}},
+                   {"erosion", ErosionSettings{}, {}},
+                   {"region_growing", RegionGrowingSettings{}, {}}};
+  study.map_origin_m = {0, 0, 0};
+  set_leaves(study, overrides);
+  check(study);
+  return study;
+}
+
+Study study_of(const ObjectFlags& flags) {
+  Study study = fs::is_directory(flags.source) ? study_of_recording(flags.source, flags.overrides)
+                                               : load_study(flags.source, flags.overrides);
+  study.sweep.clear();
+  return study;
+}
+
+/// The trial of one method and repetition, at the study's own doses.
+Task task_of(const Study& study, const ObjectFlags& flags, const Recording& recording) {
+  if (flags.seed >= study.seeds)
+    throw Error(fmt::format("--seed {}: no such repetition; they are 0 to {}", flags.seed,
+                            study.seeds - 1));
+  const std::string method = flags.method.empty() ? study.methods.front().name : flags.method;
+  std::string names;
+  for (const MethodSettings& each : study.methods) {
+    if (each.name == method)
+      return task_of(study, TrialSpec{0, method, {}, flags.seed}, Labels::detected,
+                     recording.content_hash());
+    names += ' ' + each.name;
+  }
+  throw Error(fmt::format("--method {}: no such method; there are:{}", method, names));
+}
+
+ObjectRunOptions options_of(const ObjectFlags& flags) {
+  ObjectRunOptions options;
+  options.map.update = flags.update == "hull" ? BoxUpdate::hull : BoxUpdate::mean;
+  options.map.max_age = flags.max_age;
+  options.min_points = flags.min_points;
+  return options;
+}
+
+void drive_through(const Recording& recording, bool quiet, ObjectRun& run) {
+  Progress progress("objects", "frames", quiet);
+  const Channels channels{.depth_label = recording.info().has_truth};
+  for (int frame = 0; frame < recording.frame_count(); ++frame) {
+    run.advance(recording.read(frame, run.depth_of(frame), channels));
+    progress.show(frame + 1, recording.frame_count());
+  }
+}
+
+void write_files(const ObjectRun& run, const ClassTable& table, const fs::path& folder) {
+  const ObjectFile file = run.file();
+  fs::create_directories(folder);
+  write_objects(folder / "objects.yaml", file, table);
+  write_whole_file(folder / "objects.xml", object_mjcf(file, table));
+  write_whole_file(folder / "objects.ply", object_ply(file.objects, table));
+}
+
+void print_score(const ObjectRun& run, const ClassTable& table, const ObjectFlags& flags) {
+  const Table scores = object_table(
+      score_objects(run.map().objects(), run.truth(flags.against == "seen"), table.classes.size()),
+      table);
+  std::cout << (flags.format == "csv"    ? to_csv(scores)
+                : flags.format == "json" ? to_json(scores)
+                                         : to_text(scores));
+}
+
+void map_objects(const ObjectFlags& flags) {
+  const Study study = study_of(flags);
+  ShownRecording shown(flags.quiet);
+  const Recording recording = recording_of(study, flags.output, flags.jobs, shown.progress());
+  const ClassTable table = detected_table(study, recording.info().table);
+  const Task task = task_of(study, flags, recording);
+  PoseSources poses(recording);
+  ObjectRun run(task, recording, table, poses, options_of(flags));
+  if (flags.start) run.start_from(read_objects(*flags.start, table));
+  drive_through(recording, flags.quiet, run);
+  write_files(run, table, flags.output);
+  if (recording.info().has_truth) print_score(run, table, flags);
+}
+
+}  // namespace
+
+void add_objects(CLI::App& program) {
+  auto* verb = program.add_subcommand("objects", "Map and score objects: class, pose, size, model");
+  const auto flags = std::make_shared<ObjectFlags>();
+  verb->add_option("SOURCE", flags->source,
+                   "Recording's folder, or a study (its sweep is left out)")
+      ->required()
+      ->check(CLI::ExistingPath);
+  verb->add_option("-o,--output", flags->output,
+                   "Folder for objects.yaml, objects.xml (MJCF) and objects.ply")
+      ->required();
+  verb->add_option("--method", flags->method,
+                   "Of the study, default its first; of a recording direct, erosion or "
+                   "region_growing");
+  verb->add_option("--seed", flags->seed, "Repetition of the study, from 0")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  verb->add_option("--start", flags->start, "Object map (YAML) to start from");
+  verb->add_option("--update", flags->update, "How boxes are merged: hull or mean")
+      ->check(CLI::IsMember({"hull", "mean"}))
+      ->capture_default_str();
+  verb->add_option("--max_age", flags->max_age,
+                   "Frames in a row after which an object is removed that should have been seen "
+                   "and was not")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  verb->add_option("--min_points", flags->min_points, "Points of a detection that becomes a box")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  verb->add_option("--against", flags->against,
+                   "Boxes of the truth: of the whole surface, or of what the frames saw of it")
+      ->check(CLI::IsMember({"surface", "seen"}))
+      ->capture_default_str();
+  verb->add_option("--format", flags->format, "Of the table: text, csv or json")
+      ->check(CLI::IsMember({"text", "csv", "json"}))
+      ->capture_default_str();
+  verb->add_option("--set", flags->overrides, "A key of the study, path=value; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("-j,--jobs", flags->jobs, "Threads that render a study's recording [all cores]")
+      ->check(CLI::Range(1, 1024));
+  verb->add_flag("-q,--quiet", flags->quiet, "No progress on standard error");
+  verb->footer(
+      "Prints found, missed and false objects by class, and the errors of centres and sizes of "
+      "those found\n"
+      "(docs/objects.md).\n"
+      "Examples:\n"
+      "  mapscore objects results/demo/recordings/apartment-* -o objects\n"
+      "  mapscore objects configs/demo.yaml -o results/demo --method erosion "
+      "--set faults.misregistration.magnitude_m=0.02\n"
+      "  mapscore objects /data/tuesday -o tuesday --start monday/objects.yaml --format csv\n"
+      "  mapscore info objects/objects.xml");
+  verb->callback([flags] { map_objects(*flags); });
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/classes.hpp"
+#include "core/frame.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/mapping/pose_belief.hpp"
+#include "core/objects/object_map.hpp"
+#include "core/segmentation/segmentation.hpp"
+#include "eval/experiment/map_frame.hpp"
+#include "eval/experiment/plan.hpp"
+#include "eval/experiment/pose_sources.hpp"
+#include "eval/experiment/simulated_labels.hpp"
+#include "eval/objects/object_file.hpp"
+#include "eval/objects/true_objects.hpp"
+#include "eval/recording/recording.hpp"
+#include "sim/faults/depth_dose.hpp"
+#include "sim/faults/label_dose.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace mapscore::eval {
+
+struct ObjectRunOptions {
+  ObjectMapParams map;
+  int min_points = 20;  ///< of a detection that becomes a box
+};
+
+/// One object map under way over the frames of a recording: what TrialRun does for voxels, under
+/// the same faults. Used by one thread at a time; `task`, `recording` and `table` must outlive it.
+class ObjectRun {
+ public:
+  /// Throws Error as PoseSources and SimulatedLabels.
+  ObjectRun(const Task& task, const Recording& recording, const ClassTable& table,
+            PoseSources& poses, const ObjectRunOptions& options);
+
+  /// Objects known before the first frame, wherever their map frame lies. Throws Error as
+  /// ObjectMap::add.
+  void start_from(const ObjectFile& known);
+
+  /// The depth image that a frame is paired with under the task's time offset.
+  [[nodiscard]] int depth_of(int frame) const {
+    return depth_of_.at(static_cast<std::size_t>(frame));
+  }
+
+  /// Register, segment, put boxes about what was kept, and take them into the map. It is read with
+  /// the depth image that `depth_of` names, and with depth_label where it is to be scored.
+  ObjectChanges advance(const Frame& frame);
+
+  [[nodiscard]] const ObjectMap& map() const { return map_; }
+  [[nodiscard]] ObjectFile file() const;
+  /// Objects of the detected set that the frames so far saw, where the recording's end has them;
+  /// their boxes: of all their surface, or of the `seen` samples. Throws Error when the recording
+  /// has no truth.
+  [[nodiscard]] std::vector<TrueObject> truth(bool seen) const;
+
+ private:
+  [[nodiscard]] std::vector<ObjectDetection> detect(const Frame& frame, const cv::Mat1w& depth,
+                                                    const Pose& T_map_depth) const;
+
+  const Task& task_;
+  const Recording& recording_;
+  const ClassTable& table_;
+  Calibration believed_;
+  std::vector<int> depth_of_;        ///< by frame
+  std::vector<PoseBelief> beliefs_;  ///< by frame
+  sim::DepthDose depth_dose_;
+  sim::LabelDose label_dose_;
+  SegmentationParams segmentation_;
+  MapFrame map_frame_;
+  int min_points_;
+  std::optional<SimulatedLabels> simulated_;
+  ObjectMap map_;
+  SeenInstances seen_;
+};
+
+}  // namespace mapscore::eval
