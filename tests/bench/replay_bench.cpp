@@ -3,18 +3,24 @@
 
 // Recording and replaying the demo's apartment at 640 x 480. One evaluation of a frame: corrupt,
 // register, segment all detections, place, fuse (5 cm, N = 1, misregistration of 20 mm), on one
-// thread.
+// thread; then the same with 100 draws, and what these cost against 100 plain passes over an
+// octree.
 
+#include "core/mapping/placement.hpp"
+#include "core/mapping/pose_belief.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
+#include "sim/faults/label_noise.hpp"
+#include "tests/core/mapping/plain_draws.hpp"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -36,6 +42,9 @@ std::filesystem::path temporary_folder(const std::string& name) {
          fmt::format("mapscore_bench_{}_{}", name, getpid());
 }
 
+constexpr double kEdge_m = 0.05;
+constexpr int kDraws = 100;
+
 /// A recording of 18 frames spread over the demo's drive, made once and removed at the end.
 class Replay {
  public:
@@ -50,15 +59,33 @@ class Replay {
         poses_(recording_) {}
   ~Replay() { std::filesystem::remove_all(folder_); }
 
-  [[nodiscard]] Task task(const std::string& method) const {
-    for (const TrialSpec& spec : trials(study_))
+  [[nodiscard]] Task task(const std::string& method,
+                          const std::vector<std::string>& changes = {}) const {
+    Study study = study_;
+    set_leaves(study, changes);
+    for (const TrialSpec& spec : trials(study))
       if (spec.method == method)
-        return task_of(study_, spec, Labels::detected, recording_.content_hash());
+        return task_of(study, spec, Labels::detected, recording_.content_hash());
     throw std::logic_error("no such method: " + method);
   }
   [[nodiscard]] std::unique_ptr<TrialRun> start(const Task& task) {
     return std::make_unique<TrialRun>(task, recording_, table_, truths_, poses_);
   }
+  /// What the method `direct` sees without faults.
+  [[nodiscard]] Observation observe(int index) {
+    const auto frame = frames_.get(index);
+    const auto detections = sim::corrupt_detections(frame->label, table_, {}, 1, index);
+    const RegisteredCloud cloud =
+        register_depth(frame->depth, recording_.info().calibration,
+                       pixels_wanted(detections, frame->label.cols, frame->label.rows));
+    Observation observation;
+    for (const Detection& detection : detections) {
+      Segment found = segment(detection, cloud, kEdge_m, DirectParams{}, false);
+      observation.push_back({found.class_id, found.score, std::move(found.points)});
+    }
+    return observation;
+  }
+  [[nodiscard]] const Calibration& calibration() const { return recording_.info().calibration; }
   [[nodiscard]] int frame_count() const { return recording_.frame_count(); }
   [[nodiscard]] std::shared_ptr<const Frame> frame(int index) { return frames_.get(index); }
 
@@ -78,9 +105,15 @@ class Replay {
   PoseSources poses_;
 };
 
-void replay(benchmark::State& state, const std::string& method) {
+Replay& the_replay() {
   static Replay replay;
-  const Task task = replay.task(method);
+  return replay;
+}
+
+void replay(benchmark::State& state, const std::string& method,
+            const std::vector<std::string>& changes = {}) {
+  Replay& replay = the_replay();
+  const Task task = replay.task(method, changes);
   const auto trial = replay.start(task);
   for (int index = 0; index < replay.frame_count(); ++index) (void)replay.frame(index);
   int index = 0;
@@ -94,6 +127,65 @@ void replay(benchmark::State& state, const std::string& method) {
 BENCHMARK_CAPTURE(replay, direct, "direct")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(replay, erosion, "erosion")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(replay, region_growing, "region_growing")->Unit(benchmark::kMillisecond);
+
+const std::vector<std::string> kManyDraws{"fusion.blend.N=100", "faults.pose.sigma_xy_m=0.02",
+                                          "faults.pose.sigma_yaw_deg=1"};
+BENCHMARK_CAPTURE(replay, direct_100_draws, "direct", kManyDraws)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(replay, region_growing_100_draws, "region_growing", kManyDraws)
+    ->Unit(benchmark::kMillisecond);
+
+double cpu_s() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Poses of the depth camera, 2 cm and 1 degree apart, somewhere on the drive.
+std::vector<Pose> sensor_draws(int frame, const Calibration& calibration) {
+  PoseBelief belief;
+  belief.T_odom_base = planar_pose(0.3 * frame, 2.0 - 0.1 * frame, 0.4 * frame);
+  belief.covariance.diagonal() << 4e-4, 4e-4, 0, 0, 0, 3.046e-4;
+  RandomStream stream(1, "bench", {static_cast<std::uint64_t>(frame)});
+  auto poses = draw_poses(belief, kDraws, NoiseAt::base, CovarianceUse::diagonal, stream);
+  for (Pose& pose : poses) pose = pose * calibration.T_base_depth;
+  return poses;
+}
+
+/// Placing and fusing alone, by cells; `ratio` is the time of 100 plain passes over an octree and
+/// the same fusion over it, taken in the same run; `equal` is 1 where all maps agreed to the bit.
+void draws(benchmark::State& state) {
+  Replay& replay = the_replay();
+  std::vector<Observation> observations;
+  std::vector<std::vector<Pose>> poses;
+  for (int index = 0; index < replay.frame_count(); ++index) {
+    observations.push_back(replay.observe(index));
+    poses.push_back(sensor_draws(index, replay.calibration()));
+  }
+  const auto run = [&](const auto& place_all) {
+    SemanticMap map(kEdge_m);
+    for (std::size_t n = 0; n < observations.size(); ++n)
+      map.fuse(place_all(observations[n], poses[n], kEdge_m), kDraws, BlendRule{0.5});
+    return map.voxels();
+  };
+  double begin = cpu_s();
+  const auto plain = run([](const auto&... all) { return mapscore::testing::plain_place(all...); });
+  const double plain_s = cpu_s() - begin;
+  std::vector<MapVoxel> voxels;
+  begin = cpu_s();
+  for (auto _ : state) voxels = run([](const auto&... all) { return place(all...); });
+  const double fast_s = (cpu_s() - begin) / static_cast<double>(state.iterations());
+  const bool equal = std::equal(voxels.begin(), voxels.end(), plain.begin(), plain.end(),
+                                [](const MapVoxel& a, const MapVoxel& b) {
+                                  return a.key == b.key && a.best_class == b.best_class &&
+                                         a.probability == b.probability;
+                                });
+  const auto frames = static_cast<double>(observations.size());
+  state.counters["ratio"] = plain_s / fast_s;
+  state.counters["equal"] = equal ? 1 : 0;
+  state.counters["plain_ms_a_frame"] = 1e3 * plain_s / frames;
+  state.counters["fast_ms_a_frame"] = 1e3 * fast_s / frames;
+}
+BENCHMARK(draws)->Unit(benchmark::kMillisecond);
 
 /// Both cameras, all files, PNGs encoded, on all cores; loading the scene included.
 void record(benchmark::State& state, bool shadows) {
