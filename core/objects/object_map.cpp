@@ -127,7 +127,8 @@ void ObjectMap::merge_overlapping(ObjectChanges& changes) {
   std::sort(changes.merged.begin(), changes.merged.end());
 }
 
-void ObjectMap::age(const std::set<ObjectId>& seen, const PosedDepth& view, ObjectChanges& changes) {
+void ObjectMap::age(const std::set<ObjectId>& seen, const PosedDepth& view,
+                    ObjectChanges& changes) {
   for (MapObject& object : objects_) {
     if (seen.contains(object.id)) continue;
     const BoxVotes votes = vote(object.box, view, params_.visibility.tolerance_m);

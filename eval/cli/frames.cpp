@@ -57,8 +57,9 @@ std::vector<Task> tasks_of(const Study& study, int seed, const std::string& reco
 std::vector<MethodFrames> walk(const Study& study, const std::vector<Task>& tasks,
                                const Recording& recording, const ClassTable& table,
                                const FramesFlags& flags) {
-  FrameCache frames(recording, {.color = reads_colour(study), .label = true, .depth = true, .depth_label = true},
-                    flags.work.memory_bytes);
+  FrameCache frames(
+      recording, {.color = reads_colour(study), .label = true, .depth = true, .depth_label = true},
+      flags.work.memory_bytes);
   TruthCache truths(recording, table, frames, 1);
   PoseSources poses(recording);
   std::vector<std::unique_ptr<TrialRun>> runs;

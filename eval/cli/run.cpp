@@ -117,8 +117,9 @@ void run(const RunFlags& flags) {
   const Task task = task_of(study, spec, Labels::detected, recording.content_hash());
   const bool by_frame = task.config.score.unit == ScoreUnit::frame;
 
-  FrameCache frames(recording, {.color = reads_colour(study), .label = true, .depth = true, .depth_label = true},
-                    flags.work.memory_bytes);
+  FrameCache frames(
+      recording, {.color = reads_colour(study), .label = true, .depth = true, .depth_label = true},
+      flags.work.memory_bytes);
   TruthCache truths(recording, table, frames, 1);
   PoseSources poses(recording);
   TrialRun trial(task, recording, table, truths, poses);

@@ -51,7 +51,7 @@ struct LatticeTruth {
   SurfaceTruth surface;
   CubeDistance distance_to_class;
   CubeDistance distance_to_thin;  ///< to the class's thin geoms alone
-  ViewTruth view;  ///< of all selected frames together; empty until it is made
+  ViewTruth view;                 ///< of all selected frames together; empty until it is made
 
   /// Counts of a map against this truth and a view of it; distances where the options name
   /// some. They do not depend on `jobs`.

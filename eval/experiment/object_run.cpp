@@ -78,8 +78,8 @@ ObjectChanges ObjectRun::advance(const Frame& frame) {
   const PoseBelief& belief = beliefs_.at(static_cast<std::size_t>(frame.index));
   const Pose T_map_depth = belief.T_map_odom * belief.T_odom_base * believed_.T_base_depth;
   const PosedDepth view{believed_.depth, T_map_depth, believed_.range_min_m, believed_.range_max_m,
-                       sim::corrupt_depth(frame.depth, truth.depth, depth_dose_, trial_seed(task_),
-                                          frame.depth_index)};
+                        sim::corrupt_depth(frame.depth, truth.depth, depth_dose_, trial_seed(task_),
+                                           frame.depth_index)};
   if (!frame.depth_label.empty())
     seen_.add(frame, truth, map_frame_.T_map_world() * frame.T_world_base);
   return map_.integrate(detect(frame, view.depth, T_map_depth), frame.stamp_s, &view);

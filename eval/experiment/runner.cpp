@@ -142,8 +142,8 @@ class Sweep {
 RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
                        ResultStore& store, const RunnerOptions& options) {
   const std::vector<const Task*> missing = missing_tasks(plan, store, options);
-  const bool colour = std::ranges::any_of(
-      missing, [](const Task* task) { return reads_colour(task->config); });
+  const bool colour =
+      std::ranges::any_of(missing, [](const Task* task) { return reads_colour(task->config); });
   if (!missing.empty()) Sweep(recording, table, store, options, colour).run(missing);
   return {missing.size(), plan.tasks.size() - missing.size()};
 }

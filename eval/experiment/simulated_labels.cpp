@@ -62,7 +62,7 @@ std::vector<PerceivedModel> SimulatedLabels::models_at(double stamp_s) const {
 
 cv::Mat1w SimulatedLabels::of(const Frame& frame) const {
   const PosedDepth view{calibration_.depth, frame.T_world_base * calibration_.T_base_depth,
-                       calibration_.range_min_m, calibration_.range_max_m, frame.depth};
+                        calibration_.range_min_m, calibration_.range_max_m, frame.depth};
   const cv::Mat1w seen =
       perceive(models_at(frame.stamp_s), view, settings_.tolerance_m, settings_.min_pixels);
   return labels_in_color(seen, register_depth(frame.depth, calibration_));

@@ -63,8 +63,8 @@ class RawSweep {
 
  private:
   static SweepAxis read_axis(const Study& study, const std::string& path, const YamlAt& values) {
-    static const std::set<std::string> kOfTheGrid{"name", "seed", "seeds", "picture_view",
-                                                  "score.instances", "score.thin"};
+    static const std::set<std::string> kOfTheGrid{
+        "name", "seed", "seeds", "picture_view", "score.instances", "score.thin"};
     if (kOfTheGrid.contains(path)) values.fail(fmt::format("{} cannot be swept; remove it", path));
     Study probe = study;
     at_section_leaf(values, probe, path, [](const Field&, const auto&) {});

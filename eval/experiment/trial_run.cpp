@@ -5,11 +5,11 @@
 
 #include "core/mapping/placement.hpp"
 #include "core/mapping/pose_belief.hpp"
+#include "core/refinement/map_refinement.hpp"
 #include "core/segmentation/frame_segmentation.hpp"
 #include "eval/experiment/doses.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/sensor_doses.hpp"
-#include "core/refinement/map_refinement.hpp"
 #include "eval/experiment/trial_seed.hpp"
 #include "eval/score/instance_score.hpp"
 #include "sim/faults/depth_noise.hpp"

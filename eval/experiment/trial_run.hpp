@@ -76,8 +76,7 @@ class TrialRun {
   [[nodiscard]] Counts no_counts() const;
   /// What the method sees, under the faults of depth and labels. Counts the boxes of the
   /// detections; one of a wrong class has no box there.
-  [[nodiscard]] Observation observe(const Frame& frame, const cv::Mat1w& depth,
-                                    Counts& counts);
+  [[nodiscard]] Observation observe(const Frame& frame, const cv::Mat1w& depth, Counts& counts);
   /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
   /// Under the faults of depth.

@@ -94,8 +94,9 @@ std::vector<JudgedMap> map_trials(const Study& study, const ClassTable& table,
   const Cell cell = chosen_cell(study, choice);
   Study undistanced = study;  // pictures need no distances, and those cost most of a truth
   undistanced.score.distances_m.clear();
-  FrameCache frames(recording, {.color = reads_colour(study), .label = true, .depth = true, .depth_label = true},
-                    choice.memory_bytes);
+  FrameCache frames(
+      recording, {.color = reads_colour(study), .label = true, .depth = true, .depth_label = true},
+      choice.memory_bytes);
   TruthCache truths(recording, table, frames, 1);
   PoseSources poses(recording);
   std::optional<int> alone;

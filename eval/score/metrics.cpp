@@ -66,8 +66,7 @@ void append_distances(const ClassCounts& counts, std::vector<Metric>& metrics) {
 void append_thin(const ThinCounts& thin, std::vector<Metric>& metrics) {
   metrics.push_back({"thin_precision", ratio(thin.true_predicted, thin.predicted)});
   metrics.push_back({"thin_recall", ratio(thin.found, thin.visible)});
-  metrics.push_back(
-      {"thin_f1", f1(thin.true_predicted, thin.predicted, thin.found, thin.visible)});
+  metrics.push_back({"thin_f1", f1(thin.true_predicted, thin.predicted, thin.found, thin.visible)});
 }
 
 /// The figures of a class as they enter the mean over classes: without those of instances.

@@ -93,7 +93,7 @@ TEST(TrueObjects, SimulatedPerceptionOfTheTruthIsItsLabels) {
     for (const Frame& frame : mapscore::testing::tiny_frames()) {
       const Calibration& c = info.calibration;
       const PosedDepth view{c.depth, frame.T_world_base * c.T_base_depth, c.range_min_m,
-                           c.range_max_m, frame.depth};
+                            c.range_max_m, frame.depth};
       const cv::Mat1w label = perceive(models, view, 0.001);
       for (int v = 0; v < label.rows; ++v)
         for (int u = 0; u < label.cols; ++u)
