@@ -32,7 +32,7 @@ struct AxisCut {
 }
 
 /// `low`: where the cell begins, in voxels. `margin`: how far its positions may lie off, in parts.
-[[nodiscard]] inline AxisCut cut_at(double low, double margin) {
+[[nodiscard]] inline AxisCut cut_at(double low, double margin, const SliceExtents& slices) {
   constexpr int kPositive = 1 << 21;  // truncates as floor does; what it rounds, the margin covers
   AxisCut cut;
   cut.voxel = static_cast<int>(low + kPositive) - kPositive;
@@ -40,13 +40,25 @@ struct AxisCut {
   cut.boundary = boundary;
   cut.below = first_parts(boundary - margin);
   cut.above = 0xffu & ~first_parts(boundary + margin + 1.0);
-  if (boundary + margin >= kCellParts) {
-    cut.twice = true;
-    cut.below &= ~first_parts(boundary + margin - kCellParts + 1.0);
+  for (std::uint32_t left = cut.open(); left != 0; left &= left - 1) {
+    const auto slice = static_cast<std::size_t>(std::countr_zero(left));
+    if (slices.high[slice] + margin < boundary)
+      cut.below |= left & -left;
+    else if (slices.low[slice] - margin >= boundary)
+      cut.above |= left & -left;
   }
-  if (boundary < margin) {
+  const auto reopen = [&cut](std::uint32_t part) {
+    cut.below &= ~part;
+    cut.above &= ~part;
     cut.twice = true;
-    cut.above &= first_parts(boundary - margin + kCellParts);
+  };
+  for (std::size_t slice = 0;
+       boundary + margin - kCellParts >= static_cast<double>(slice) && slice < 8; ++slice)
+    if (slices.low[slice] - margin < boundary - kCellParts) reopen(1u << slice);
+  for (std::size_t slice = 7; boundary - margin + kCellParts <= static_cast<double>(slice + 1);
+       --slice) {
+    if (slices.high[slice] + margin >= boundary + kCellParts) reopen(1u << slice);
+    if (slice == 0) break;
   }
   return cut;
 }
@@ -106,7 +118,6 @@ void for_parts(const PositionCell& cell, const CellCut& cut, std::uint32_t wante
   }
   const std::uint64_t sure =
       ~((columns[0] & columns[1]) | (rows[0] & rows[1]));  // not open on either axis
-  std::uint32_t first = cell.first_part;
   for (unsigned z = 0; z < 8; ++z) {
     const std::uint64_t layer = cell.layers[z];
     const bool below = (cut.z.below >> z & 1) != 0, above = (cut.z.above >> z & 1) != 0;
@@ -114,10 +125,10 @@ void for_parts(const PositionCell& cell, const CellCut& cut, std::uint32_t wante
     if (only_open && (below || above)) left &= ~sure;
     for (; left != 0; left &= left - 1) {
       const auto bit = static_cast<unsigned>(std::countr_zero(left));
-      const std::uint32_t part = first + count_bits(layer & ((std::uint64_t{1} << bit) - 1));
+      const std::uint32_t part =
+          cell.first_part[z] + count_bits(layer & ((std::uint64_t{1} << bit) - 1));
       if (!act(part, cut.octants_of(bit % 8, bit / 8, z))) return;
     }
-    first += count_bits(layer);
   }
 }
 

@@ -23,7 +23,9 @@ int voxels_on(const AxisCut& cut, double parts) {
 CellCut CellPlacer::cut_of(const PositionCell& cell) const {
   const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5);
   const Eigen::Vector3d low = turn_ * (cell.low + half) + origin_ - half;
-  return {cut_at(low.x(), margin_.x()), cut_at(low.y(), margin_.y()), cut_at(low.z(), margin_.z())};
+  return {cut_at(low.x(), margin_.x(), cell.slices[0]),
+          cut_at(low.y(), margin_.y(), cell.slices[1]),
+          cut_at(low.z(), margin_.z(), cell.slices[2])};
 }
 
 /// As the plain form has it, so that the bits agree.

@@ -55,6 +55,14 @@ class CellTable {
   std::size_t used_ = 0;
 };
 
+constexpr SliceExtents kEmptySlice = [] {
+  SliceExtents slice{};
+  slice.low.fill(100.0f);
+  slice.high.fill(-100.0f);
+  return slice;
+}();
+constexpr std::array<SliceExtents, 3> kEmptySlices{kEmptySlice, kEmptySlice, kEmptySlice};
+
 /// Index of a cell from -4096 to 4095 on each axis, and of a group.
 std::uint64_t key_of(int x, int y, int z, std::uint64_t group) {
   constexpr int kOffset = 1 << 13;
@@ -116,7 +124,7 @@ class CellFinder {
       last_key_ = key;
       last_cell_ = table_.number_of(key, static_cast<std::uint32_t>(cells_.size()));
       if (last_cell_ == cells_.size())
-        cells_.push_back({Eigen::Vector3d(x, y, z), {}, 0, group, false});
+        cells_.push_back({Eigen::Vector3d(x, y, z), {}, kEmptySlices, {}, group, false});
     }
     const auto eighth = [](double offset) {
       return std::min(7u, static_cast<unsigned>(8.0 * offset));
@@ -137,15 +145,15 @@ class CellFinder {
   std::uint32_t last_cell_ = 0;
 };
 
-/// First filled part of each layer of each cell, and at the end their number.
-std::vector<std::uint32_t> number_parts(std::vector<PositionCell>& cells) {
-  std::vector<std::uint32_t> first{0};
-  first.reserve(8 * cells.size() + 1);
-  for (PositionCell& cell : cells) {
-    cell.first_part = first.back();
-    for (const std::uint64_t layer : cell.layers) first.push_back(first.back() + count_bits(layer));
-  }
-  return first;
+/// Numbers the filled parts of all cells, layer by layer. Returns how many there are.
+std::uint32_t number_parts(std::vector<PositionCell>& cells) {
+  std::uint32_t parts = 0;
+  for (PositionCell& cell : cells)
+    for (std::size_t z = 0; z < 8; ++z) {
+      cell.first_part[z] = parts;
+      parts += count_bits(cell.layers[z]);
+    }
+  return parts;
 }
 
 }  // namespace
@@ -169,14 +177,14 @@ std::optional<PositionCells> PositionCells::sort(const Observation& observation,
     for (const Eigen::Vector3d& p : object.positions)
       if (!finder.find(p, group, places[n++])) return {};
   }
-  const std::vector<std::uint32_t> first_of_layer = number_parts(sorted.cells_);
-  sorted.part_begin_.assign(first_of_layer.back() + 2, 0);
-  sorted.boxes_.resize(first_of_layer.back());
+  const std::uint32_t parts = number_parts(sorted.cells_);
+  sorted.part_begin_.assign(parts + 2, 0);
+  sorted.boxes_.resize(parts);
   std::vector<std::uint32_t> part_of(positions);
   for (n = 0; n < positions; ++n) {
     const auto& [cell, part, offset] = places[n];
     const std::uint64_t below = (std::uint64_t{1} << part % 64) - 1;
-    part_of[n] = first_of_layer[8 * std::size_t{cell} + part / 64] +
+    part_of[n] = sorted.cells_[cell].first_part[part / 64] +
                  count_bits(sorted.cells_[cell].layers[part / 64] & below);
     ++sorted.part_begin_[part_of[n] + 2];
     PartBox& box = sorted.boxes_[part_of[n]];
@@ -190,8 +198,28 @@ std::optional<PositionCells> PositionCells::sort(const Observation& observation,
   for (const ObservedObject& object : observation)
     for (const Eigen::Vector3d& p : object.positions)
       sorted.positions_[sorted.part_begin_[part_of[n++] + 1]++] = p;
+  sorted.measure_slices();
   sorted.mark_contested();
   return sorted;
+}
+
+void PositionCells::measure_slices() {
+  constexpr float kParts = 8.0f;
+  for (PositionCell& cell : cells_)
+    for (unsigned z = 0; z < 8; ++z) {
+      std::uint32_t part = cell.first_part[z];
+      for (std::uint64_t left = cell.layers[z]; left != 0; left &= left - 1, ++part) {
+        const auto bit = static_cast<unsigned>(std::countr_zero(left));
+        const std::array<unsigned, 3> slice{bit % 8, bit / 8, z};
+        for (int axis = 0; axis < 3; ++axis) {
+          SliceExtents& extents = cell.slices[static_cast<std::size_t>(axis)];
+          float& low = extents.low[slice[static_cast<std::size_t>(axis)]];
+          float& high = extents.high[slice[static_cast<std::size_t>(axis)]];
+          low = std::min(low, kParts * boxes_[part].low[axis]);
+          high = std::max(high, kParts * boxes_[part].high[axis]);
+        }
+      }
+    }
 }
 
 /// Positions in one voxel lie at most two cells apart on each axis as long as the draw's rotation

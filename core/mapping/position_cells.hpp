@@ -22,12 +22,19 @@ struct ScoredClass {
   double score = 0.0;
 };
 
+/// Least and greatest coordinate of the positions in each of a cell's slices across one axis, in
+/// parts from the cell's low side; far apart the wrong way where a slice is empty.
+struct SliceExtents {
+  std::array<float, 8> low, high;
+};
+
 /// A cube of one voxel's edge, cut into 8 x 8 x 8 parts, and which of them hold positions of one
 /// group.
 struct PositionCell {
   Eigen::Vector3d low;                  ///< low corner, in voxels, in the turned sensor frame
   std::array<std::uint64_t, 8> layers;  ///< by z: bit 8 y + x is set where a part holds positions
-  std::uint32_t first_part = 0;         ///< of the filled parts, which follow by z, y, x
+  std::array<SliceExtents, 3> slices;   ///< by axis
+  std::array<std::uint32_t, 8> first_part;  ///< filled ones of each layer, which follow by y, x
   std::uint16_t group = 0;
   bool contested = false;  ///< positions of another class may share a voxel with it
 };
@@ -62,6 +69,7 @@ class PositionCells {
   [[nodiscard]] const Eigen::Vector3d& offset() const { return offset_; }
 
  private:
+  void measure_slices();
   void mark_contested();
 
   Eigen::Matrix3d R_;
