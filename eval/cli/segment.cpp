@@ -81,7 +81,7 @@ std::vector<std::string> cells_of(const Segment& segment, const ClassTable& tabl
   const Pose T_base_box = T_base_depth * box->T_frame_box;
   for (const double x : T_base_box.translation()) add(x);
   const Eigen::Vector3d along = T_base_box.linear().col(0);
-  add(std::atan2(along.y(), along.x()) * 180.0 / std::acos(-1.0));
+  add(std::remainder(std::atan2(along.y(), along.x()) * 180.0 / std::acos(-1.0), 180.0));
   for (const double x : box->size_m) add(x);
   return cells;
 }
