@@ -35,6 +35,7 @@ void SemanticMap::decay_in_view(const DepthView& view, const BlendRule& rule,
   std::vector<VoxelKey> in_view;
   const auto end = tree_->end_leafs_bbx();
   for (auto leaf = tree_->begin_leafs_bbx(low, high); leaf != end; ++leaf) {
+    if (leaf->beliefs().empty()) continue;
     const int span = 1 << (tree_->getTreeDepth() - leaf.getDepth());
     const VoxelKey corner = voxel_key(leaf.getIndexKey());
     for (int n = 0; n < span * span * span; ++n) {
@@ -43,9 +44,8 @@ void SemanticMap::decay_in_view(const DepthView& view, const BlendRule& rule,
       if (view.sees(key, edge_m_) && !is_hit(hits, key)) in_view.push_back(key);
     }
   }
-  constexpr bool kLazy = true;
   for (const VoxelKey& key : in_view)
-    decay(rule, tree_->updateNode(octree_key(key), 0.0f, kLazy)->beliefs);
+    decay(rule, tree_->finest(octree_key(key)).mutable_beliefs());
 }
 
 }  // namespace mapscore

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/mapping/semantic_map.hpp"
-#include "core/refinement/refine_beliefs.hpp"
+#include "core/refinement/belief_refinement.hpp"
 
 namespace mapscore {
 

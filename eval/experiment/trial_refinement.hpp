@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "core/refinement/refine_beliefs.hpp"
+#include "core/refinement/belief_refinement.hpp"
 #include "eval/experiment/study.hpp"
 
 #include <optional>
