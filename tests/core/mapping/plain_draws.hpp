@@ -72,13 +72,13 @@ inline std::vector<VoxelHit> plain_place(const Observation& observation,
   for (const Pose& pose : T_map_sensor)
     for (const VoxelHit& hit : plain_draw(observation, pose, edge_m)) {
       constexpr bool kLazy = true;
-      ClassBeliefs& beliefs = tally.updateNode(octree_key(hit.key), true, kLazy)->beliefs;
+      ClassBeliefs& beliefs = tally.updateNode(octree_key(hit.key), true, kLazy)->mutable_beliefs();
       beliefs.weight_of(static_cast<ClassId>(2 * hit.class_id)) += 1.0;
       beliefs.weight_of(static_cast<ClassId>(2 * hit.class_id + 1)) += hit.score_sum;
     }
   std::vector<VoxelHit> hits;
   for (auto leaf = tally.begin_leafs(), end = tally.end_leafs(); leaf != end; ++leaf) {
-    const auto entries = std::as_const(leaf->beliefs).entries();
+    const std::span<const ClassProbability> entries = leaf->beliefs().entries();
     for (std::size_t n = 0; n + 1 < entries.size(); n += 2)
       hits.push_back({voxel_key(leaf.getIndexKey()), static_cast<ClassId>(entries[n].class_id / 2),
                       static_cast<int>(entries[n].probability), entries[n + 1].probability});
