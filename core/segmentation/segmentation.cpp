@@ -68,8 +68,8 @@ struct Segmenter {
       segment.skipped = points.empty() ? SkipReason::no_points : SkipReason::no_seed_point;
       return;
     }
-    const Region region =
-        grow_region(points, *seed, voxel_m, params.radius_factor, params.released);
+    const auto grow = params.kd_tree ? grow_region_reference : grow_region;
+    const Region region = grow(points, *seed, voxel_m, params.radius_factor, params.released);
     if (region.points.empty()) segment.skipped = SkipReason::seed_off_object;
     segment.points.reserve(region.points.size());
     for (const int index : region.points)

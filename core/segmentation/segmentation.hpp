@@ -24,11 +24,12 @@ struct ErosionParams {
 
 /// Region growing [M, algorithm 1]. Search radius k_r = radius_factor * voxel edge: 1 in the paper,
 /// 0.5 in the authors' released code, which also compares distances in single precision
-/// (`released`).
+/// (`released`). `kd_tree` searches as the paper does, for the same points and voxels, more slowly.
 struct RegionGrowingParams {
   double radius_factor = 1.0;
   bool released = false;
   SeedRule seed = SeedRule::box_centre;
+  bool kd_tree = false;
 };
 
 /// Outlines of a frame fitted to its depth edges, then votes on the depth surface; of a whole frame

@@ -67,7 +67,7 @@ SegmentationParams segmentation_params(const SegmentationSettings& settings) {
       return ErosionParams{s.radius_px};
     }
     SegmentationParams operator()(const RegionGrowingSettings& s) const {
-      return RegionGrowingParams{s.radius_factor, s.released, s.seed};
+      return RegionGrowingParams{s.radius_factor, s.released, s.seed, s.kd_tree};
     }
     SegmentationParams operator()(const EdgeAlignedSettings& s) const {
       return EdgeAlignedParams{s.search_px, s.reach_px};

@@ -73,6 +73,7 @@ struct RegionGrowingSettings {
   double radius_factor = 1;
   bool released = false;
   SeedRule seed = SeedRule::box_centre;
+  bool kd_tree = false;
   bool operator==(const RegionGrowingSettings&) const = default;
 };
 

@@ -81,6 +81,10 @@ void fields(auto&& visit, Of<RegionGrowingSettings> auto& s) {
   visit(Field{"released", "compare distances in single precision, as the released code does"},
         s.released);
   visit(Field{"seed", "pixel whose point the growing starts from"}, s.seed);
+  visit(Field{.key = "kd_tree",
+              .meaning = "search by a KD-tree, as the paper does: the same result, more slowly",
+              .unkeyed = "false"},
+        s.kd_tree);
 }
 
 void fields(auto&& visit, Of<EdgeAlignedSettings> auto& s) {

@@ -19,7 +19,7 @@ namespace mapscore::eval {
 namespace {
 
 constexpr double kMilliseconds = 1000.0;
-constexpr double kPanelHeight_in = 1.25;
+constexpr double kPanelWidth_in = 6.4, kPanelHeight_in = 1.4;
 
 /// What one panel shows of a frame, in the order of the data file's columns.
 struct Shown {
@@ -106,7 +106,7 @@ FigureSheet frames_figure(const Study& study, const ClassTable& table,
   const std::array<Shown, 4> panels = shown();
   FigureSheet sheet;
   sheet.name = "by_frame";
-  sheet.panel_width_in = panel_width_in(1);
+  sheet.panel_width_in = kPanelWidth_in;
   sheet.panel_height_in = kPanelHeight_in;
   for (std::size_t p = 0; p < panels.size(); ++p) {
     Panel panel;
@@ -138,8 +138,8 @@ FigureSheet frames_figure(const Study& study, const ClassTable& table,
 
 Table frames_table(std::span<const MethodFrames> methods) {
   Table times;
-  times.columns = {"method",          "max_ms", "mean_ms",   "min_ms", "sd_ms", "registration_ms",
-                   "segmentation_ms", "voxels", "precision", "recall", "F1"};
+  times.columns = {"method",     "max_ms", "mean_ms",   "min_ms", "sd_ms", "segmentation_ms",
+                   "mapping_ms", "voxels", "precision", "recall", "F1"};
   for (const MethodFrames& method : methods) times.rows.push_back(row_of(method));
   return times;
 }
