@@ -8,6 +8,7 @@
 #include "eval/experiment/doses.hpp"
 #include "eval/experiment/folder_mapping.hpp"
 #include "eval/experiment/map_frame.hpp"
+#include "eval/experiment/trial_fusion.hpp"
 #include "eval/recording/frame_selection.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +45,7 @@ const MethodSettings& method_of(const Study& study, const std::string& name) {
   throw Error(fmt::format("--method: no method '{}' in the study; methods:{}", name, names));
 }
 
-void take_from_study(const MapVerbFlags& flags, FolderMapping& mapping) {
+void take_from_study(const MapVerbFlags& flags, const ClassTable& table, FolderMapping& mapping) {
   if (flags.study.empty()) {
     if (!flags.method.empty())
       throw Error("--method: names a method of a study; give --study, or --segmentation");
@@ -55,12 +56,7 @@ void take_from_study(const MapVerbFlags& flags, FolderMapping& mapping) {
   mapping.segmentation = segmentation_params(method.segmentation);
   mapping.place_voxels = place_of(study, method) == Place::voxels;
   mapping.voxel_m = study.voxel_m;
-  const auto* blend = std::get_if<BlendSettings>(&study.fusion);
-  if (blend == nullptr)
-    throw Error(
-        "--study: fuses by another rule than the blend, which is what map knows; give K and "
-        "--segmentation by flags");
-  mapping.fusion = BlendRule{blend->K};
+  mapping.fusion = trial_fusion(fusion_of(study.fusion, method.fusion), table).rule;
 }
 
 void take_segmentation(const MapVerbFlags& flags, FolderMapping& mapping) {
@@ -74,13 +70,14 @@ void take_segmentation(const MapVerbFlags& flags, FolderMapping& mapping) {
   if (kind == "direct") mapping.segmentation = DirectParams{};
   if (kind == "erosion")
     mapping.segmentation = ErosionParams{flags.radius_px.value_or(ErosionParams{}.radius_px)};
+  if (kind == "edge_aligned") mapping.segmentation = EdgeAlignedParams{};
   if (kind == "region_growing")
     mapping.segmentation = RegionGrowingParams{.radius_factor = flags.radius_factor.value_or(0.5)};
 }
 
-FolderMapping mapping_of(const MapVerbFlags& flags) {
+FolderMapping mapping_of(const MapVerbFlags& flags, const ClassTable& table) {
   FolderMapping mapping;
-  take_from_study(flags, mapping);
+  take_from_study(flags, table, mapping);
   take_segmentation(flags, mapping);
   if (flags.voxel_m) mapping.voxel_m = *flags.voxel_m;
   if (flags.K) mapping.fusion = BlendRule{*flags.K};
@@ -113,11 +110,11 @@ std::string class_lines(const SemanticMap& map, const ClassTable& table, double 
 }
 
 void map_recording(const MapVerbFlags& flags) {
-  const FolderMapping mapping = mapping_of(flags);
   LabelledFolderOptions reading = flags.reading;
   if (flags.masks == "classes") reading.masks = ClassMasks::classes;
   if (!flags.range_m.empty()) reading.range_m = std::pair(flags.range_m.at(0), flags.range_m.at(1));
   const LabelledFolder folder(flags.folder, reading);
+  const FolderMapping mapping = mapping_of(flags, folder.table());
   const std::vector<int> frames =
       (flags.frames.empty() ? FrameSelection() : FrameSelection(flags.frames))
           .of(folder.frame_count());
@@ -163,8 +160,10 @@ void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
   };
   add("--study", flags.study, "Takes voxel size, segmentation, place and fusion of this study");
   add("--method", flags.method, "Name of its method [the first]");
-  add("--segmentation", flags.segmentation, "direct, erosion or region_growing [region_growing]")
-      ->check(CLI::IsMember(std::set<std::string>{"direct", "erosion", "region_growing"}));
+  add("--segmentation", flags.segmentation,
+      "direct, erosion, region_growing or edge_aligned [region_growing]")
+      ->check(CLI::IsMember(
+          std::set<std::string>{"direct", "erosion", "region_growing", "edge_aligned"}));
   add("--radius_px", flags.radius_px, "Of erosion [5]")->check(CLI::Range(0, 1000));
   add("--radius_factor", flags.radius_factor, "Of region growing, in voxel edges [0.5]")
       ->check(finite_within(0.01, 10));

@@ -3,7 +3,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/oriented_box.hpp"
-#include "core/segmentation/segmentation.hpp"
+#include "core/segmentation/frame_segmentation.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/study_fields.hpp"
@@ -35,6 +35,7 @@ struct SegmentFlags {
 SegmentationParams params_of(const SegmentFlags& flags) {
   if (flags.method == "direct") return DirectParams{};
   if (flags.method == "erosion") return ErosionParams{flags.radius_px};
+  if (flags.method == "edge_aligned") return EdgeAlignedParams{};
   const auto& names = kNames<SeedRule>;
   const auto rule = std::find(names.begin(), names.end(), flags.seed) - names.begin();
   return RegionGrowingParams{flags.radius_factor, flags.released, static_cast<SeedRule>(rule)};
@@ -96,22 +97,20 @@ void write_segment(const Segment& segment, const fs::path& folder) {
   }
 }
 
-void segment_frame(const SegmentFlags& flags) {
+void write_segments(const SegmentFlags& flags) {
   const SegmentationParams params = params_of(flags);
   const Recording recording = Recording::open(flags.recording);
   const Frame frame = frame_of(recording, flags.frame);
   const Calibration& calibration = recording.info().calibration;
   const ClassTable& table = recording.info().table;
   const std::vector<Detection> detections = detections_of(frame.label, table);
-  const RegisteredCloud cloud = register_depth(
-      frame.depth, calibration, pixels_wanted(detections, frame.label.cols, frame.label.rows));
   const fs::path folder = flags.output;
   fs::create_directories(folder);
   std::string csv = csv_line(columns());
   std::cout << fmt::format("{:<8} {:<16} {:>8} {:>8}  {}\n", "instance", "class", "points",
                            "voxels", "skipped");
-  for (const Detection& detection : detections) {
-    const Segment found = segment(detection, cloud, flags.voxel_m, params, true);
+  for (const Segment& found :
+       segment_frame(detections, frame.depth, calibration, flags.voxel_m, params, true)) {
     write_segment(found, folder);
     csv += csv_line(cells_of(found, table, calibration.T_base_depth));
     std::cout << fmt::format("{:<8} {:<16} {:>8} {:>8}  {}\n", found.instance,
@@ -132,8 +131,8 @@ void add_segment(CLI::App& program) {
   verb->add_option("RECORDING", flags->recording, "Folder of a recording")->required();
   verb->add_option("-o,--output", flags->output, "Folder for the files")->required();
   verb->add_option("--frame", flags->frame, "Index of the frame [0]");
-  verb->add_option("--method", flags->method, "direct, erosion or region_growing")
-      ->check(CLI::IsMember({"direct", "erosion", "region_growing"}))
+  verb->add_option("--method", flags->method, "direct, erosion, region_growing or edge_aligned")
+      ->check(CLI::IsMember({"direct", "erosion", "region_growing", "edge_aligned"}))
       ->capture_default_str();
   verb->add_option("--voxel_m", flags->voxel_m, "Edge of a voxel")
       ->check(finite_within(1e-4, 10))
@@ -156,7 +155,7 @@ void add_segment(CLI::App& program) {
       "  mapscore segment results/demo/recordings/apartment-* --frame 12 -o segments\n"
       "  mapscore segment /data/home --method region_growing --seed depth_mode --voxel_m 0.02 -o "
       "segments");
-  verb->callback([flags] { segment_frame(*flags); });
+  verb->callback([flags] { write_segments(*flags); });
 }
 
 }  // namespace mapscore::eval

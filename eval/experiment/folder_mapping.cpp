@@ -6,7 +6,7 @@
 #include "core/mapping/observation.hpp"
 #include "core/mapping/placement.hpp"
 #include "core/segmentation/detection.hpp"
-#include "core/segmentation/registered_cloud.hpp"
+#include "core/segmentation/frame_segmentation.hpp"
 
 #include <utility>
 
@@ -16,12 +16,9 @@ namespace {
 Observation observe(const Frame& frame, const ClassTable& table, const Calibration& calibration,
                     const FolderMapping& mapping, MappedCounts& counts) {
   const std::vector<Detection> detections = detections_of(frame.label, table);
-  const RegisteredCloud cloud = register_depth(
-      frame.depth, calibration, pixels_wanted(detections, frame.label.cols, frame.label.rows));
   Observation observation;
-  for (const Detection& detection : detections) {
-    Segment found =
-        segment(detection, cloud, mapping.voxel_m, mapping.segmentation, mapping.place_voxels);
+  for (Segment& found : segment_frame(detections, frame.depth, calibration, mapping.voxel_m,
+                                      mapping.segmentation, mapping.place_voxels)) {
     ++counts.detections;
     counts.points += static_cast<std::int64_t>(found.points.size());
     counts.empty += found.skipped == SkipReason::none ? 0 : 1;
