@@ -73,13 +73,22 @@ class EdgeFinder {
   DepthEdges find() {
     const cv::Mat1f& w = edges_.inverse_depth;
     for (int v = 0; v < w.rows; ++v) {
+      const float* row = w[v];
+      const float* above_row = v > 0 ? w[v - 1] : row;
+      float *right = edges_.right[v], *down = edges_.down[std::max(v - 1, 0)];
       int last = -1;
       for (int u = 0; u < w.cols; ++u) {
-        if (!(w(v, u) > 0)) continue;
-        if (last >= 0) across_row(v, last, u);
+        if (!(row[u] > 0)) continue;
+        if (last >= 0 && last == u - 1 && std::abs(row[u] - row[last]) <= tau_)
+          right[last] = 1.0F;
+        else if (last >= 0)
+          across_row(v, last, u);
         last = u;
         int& above = last_row_[static_cast<std::size_t>(u)];
-        if (above >= 0) across_column(u, above, v);
+        if (above >= 0 && above == v - 1 && std::abs(row[u] - above_row[u]) <= tau_)
+          down[u] = 1.0F;
+        else if (above >= 0)
+          across_column(u, above, v);
         above = v;
       }
     }

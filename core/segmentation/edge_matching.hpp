@@ -15,7 +15,7 @@
 namespace mapscore {
 
 /// Weight of edges that face against the outline they lie on: something stands in front there.
-inline constexpr float kOtherWay = 0.4F;
+inline constexpr float kOtherWay = 0.7F;
 
 [[nodiscard]] inline Eigen::Vector2f direction_of(Outward way) {
   switch (way) {

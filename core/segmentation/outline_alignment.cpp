@@ -16,14 +16,16 @@ namespace mapscore {
 namespace {
 
 constexpr float kCoarse = 4.0F;  // pixels a cell of the coarse maps
-constexpr std::size_t kCoarseEdges = 1500, kFineEdges = 6000;
+constexpr std::size_t kCoarseEdges = 800, kFineEdges = 4000;
 constexpr float kStepPx = 4.0F;   // between turns that are tried
 constexpr float kStepM = 0.005F;  // between shifts that are tried
 constexpr float kReachM = 0.06F;
 constexpr float kApartPx = 8.0F;  // between the turns that are kept for the fine fit
 
-constexpr float kNearest_m = 0.05F;  // from the colour camera
-constexpr float kPrior = 0.1F;
+constexpr float kNearest_m = 0.05F;   // from the colour camera
+constexpr float kLeastScore = 0.15F;  // below, the edges show nothing of the masks
+constexpr float kLabelOffset_px = 3.5F;
+constexpr float kPrior = 0.2F;
 
 using Parameters = Eigen::Matrix<float, 5, 1>;  // rx ry (px at the image's middle) tx ty (m) offset
 
@@ -68,6 +70,7 @@ class Aligner {
     refine(best, 2.0F, 2, kFineEdges, Parameters::Ones());
     refine(best, 1.2F, 4, kFineEdges, Parameters::Ones());
     best.score = fine_score(best, 1.5F);
+    if (best.score < kLeastScore) return {};
     best.sharpness = fine_score(best, 1.2F) / std::max(fine_score(best, 4.0F), 1e-6F);
     return best;
   }
@@ -103,8 +106,8 @@ class Aligner {
   [[nodiscard]] float penalty(const OutlineAlignment& a) const {
     const Eigen::Vector2f turn(project_.fx * a.rotation(0, 2), project_.fy * a.rotation(1, 2));
     const Eigen::Vector2f shift = a.translation.head<2>() * project_.fx / 2.0F;
-    return 0.02F * ((turn.squaredNorm() + shift.squaredNorm()) / (20.0F * 20.0F) +
-                    a.offset_px * a.offset_px / (2.0F * 2.0F));
+    return 0.03F * ((turn.squaredNorm() + shift.squaredNorm()) / (20.0F * 20.0F) +
+                    a.offset_px * a.offset_px / (4.0F * 4.0F));
   }
 
   enum class Family { none, turn, shift };
@@ -130,7 +133,9 @@ class Aligner {
 
   /// The alignments that the fine fit starts from: none, the best turns, the best shifts.
   [[nodiscard]] std::vector<Candidate> candidates() const {
-    std::vector<Candidate> starts{Candidate{}};
+    std::vector<Candidate> starts{Candidate{}, Candidate{}, Candidate{}};
+    starts[1].offset_px = kLabelOffset_px;
+    starts[2].offset_px = -kLabelOffset_px;
     std::vector<Candidate> tried;
     for (float dv = -search_px_; dv <= search_px_; dv += kStepPx)
       for (float du = -search_px_; du <= search_px_; du += kStepPx)

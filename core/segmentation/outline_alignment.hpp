@@ -19,7 +19,7 @@ struct OutlineAlignment {
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
   Eigen::Vector3f translation = Eigen::Vector3f::Zero();
   float offset_px = 0;
-  float sharpness = 0;  ///< that share at 1.2 px over the share at 4 px: near 1 where all is rigid
+  float sharpness = 1;  ///< that share at 1.2 px over the share at 4 px: near 1 where all is rigid
   float score = 0;      ///< share of the outline that depth edges explain, about 0 to 1
 };
 

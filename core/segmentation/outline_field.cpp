@@ -12,7 +12,7 @@ namespace mapscore {
 namespace {
 
 constexpr int kCoarse = 4;         // pixels a cell of the coarse maps
-constexpr double kOtherWay = 0.4;  // weight of outlines that face the other way: occluded ones
+constexpr double kOtherWay = 0.7;  // weight of outlines that face the other way: occluded ones
 
 cv::Mat1w painted(const std::vector<Detection>& detections, int width_px, int height_px) {
   cv::Mat1w owner(height_px, width_px, std::uint16_t{0});
@@ -36,42 +36,32 @@ cv::Rect window_of(const std::vector<Detection>& detections, const cv::Size& ima
   return window & cv::Rect({0, 0}, image);
 }
 
-/// Gives pixels outside the masks the owner of the nearest mask pixel, and all of the window their
-/// distance to the outline.
-void measure(cv::Mat1w owner, cv::Mat1f distance) {
+/// Distances of the window's pixels to the outline.
+void measure(const cv::Mat1w& owner, cv::Mat1f distance) {
   cv::Mat1b outside = owner == 0;
   cv::Mat1b deep(owner.rows, owner.cols, std::uint8_t{0});
   for (int v = 0; v < owner.rows; ++v) {
     const std::uint16_t* row = owner[v];
     const std::uint16_t* above = v > 0 ? owner[v - 1] : row;
     const std::uint16_t* below = v + 1 < owner.rows ? owner[v + 1] : row;
+    std::uint8_t* inner = deep[v];
     for (int u = 0; u < owner.cols; ++u) {
       const std::uint16_t own = row[u];
       const std::uint16_t left = u > 0 ? row[u - 1] : own,
                           right = u + 1 < owner.cols ? row[u + 1] : own;
-      deep(v, u) =
+      inner[u] =
           own != 0 && left == own && right == own && above[u] == own && below[u] == own ? 255 : 0;
     }
   }
   cv::Mat1f within, beyond;
-  cv::Mat1i nearest;
-  cv::distanceTransform(deep, within, cv::DIST_L2, cv::DIST_MASK_5);
-  cv::distanceTransform(outside, beyond, nearest, cv::DIST_L2, cv::DIST_MASK_5,
-                        cv::DIST_LABEL_PIXEL);
-  std::vector<std::uint16_t> owners(1, 0);
-  for (int v = 0; v < owner.rows; ++v)
-    for (int u = 0; u < owner.cols; ++u)
-      if (owner(v, u) != 0) {
-        const auto label = static_cast<std::size_t>(nearest(v, u));
-        if (owners.size() <= label) owners.resize(label + 1, 0);
-        owners[label] = owner(v, u);
-      }
-  for (int v = 0; v < owner.rows; ++v)
-    for (int u = 0; u < owner.cols; ++u) {
-      const bool inside = owner(v, u) != 0;
-      distance(v, u) = inside ? -0.5F - within(v, u) : beyond(v, u) - 0.5F;
-      if (!inside) owner(v, u) = owners[static_cast<std::size_t>(nearest(v, u))];
-    }
+  cv::distanceTransform(deep, within, cv::DIST_L2, cv::DIST_MASK_3);
+  cv::distanceTransform(outside, beyond, cv::DIST_L2, cv::DIST_MASK_3);
+  for (int v = 0; v < owner.rows; ++v) {
+    const std::uint16_t* own = owner[v];
+    const float *in = within[v], *out = beyond[v];
+    float* to = distance[v];
+    for (int u = 0; u < owner.cols; ++u) to[u] = own[u] != 0 ? -0.5F - in[u] : out[u] - 0.5F;
+  }
 }
 
 /// Outline elements by the way they face, counted in cells.
@@ -84,15 +74,18 @@ std::array<cv::Mat1f, 4> counted(const cv::Mat1w& masks, int& length_px) {
     cells[static_cast<std::size_t>(way)](v / kCoarse, u / kCoarse) += 1.0F;
   };
   for (int v = 0; v < masks.rows; ++v) {
+    const std::uint16_t* row = masks[v];
+    const std::uint16_t* below = v + 1 < masks.rows ? masks[v + 1] : row;
     for (int u = 0; u < masks.cols; ++u) {
-      const std::uint16_t own = masks(v, u);
-      if (u + 1 < masks.cols && masks(v, u + 1) != own) {
+      const std::uint16_t own = row[u], next = u + 1 < masks.cols ? row[u + 1] : own;
+      if (own == next && own == below[u]) continue;
+      if (next != own) {
         if (own != 0) count(Outward::right, v, u);
-        if (masks(v, u + 1) != 0) count(Outward::left, v, u + 1);
+        if (next != 0) count(Outward::left, v, u + 1);
       }
-      if (v + 1 < masks.rows && masks(v + 1, u) != own) {
+      if (below[u] != own) {
         if (own != 0) count(Outward::down, v, u);
-        if (masks(v + 1, u) != 0) count(Outward::up, v + 1, u);
+        if (below[u] != 0) count(Outward::up, v + 1, u);
       }
     }
   }
@@ -114,6 +107,26 @@ std::array<cv::Mat1b, 4> coarse_maps(const std::array<cv::Mat1f, 4>& cells) {
 }
 
 }  // namespace
+
+cv::Mat1w spread_owners(const cv::Mat1w& masks, int reach_px) {
+  cv::Mat1w owner = masks.clone();
+  for (int step = 0; step < reach_px; ++step) {
+    const cv::Mat1w before = owner.clone();
+    for (int v = 0; v < owner.rows; ++v) {
+      const std::uint16_t* row = before[v];
+      const std::uint16_t* above = before[std::max(v - 1, 0)];
+      const std::uint16_t* below = before[std::min(v + 1, owner.rows - 1)];
+      std::uint16_t* out = owner[v];
+      for (int u = 0; u < owner.cols; ++u) {
+        if (row[u] != 0) continue;
+        const int left = std::max(u - 1, 0), right = std::min(u + 1, owner.cols - 1);
+        for (const std::uint16_t near : {row[left], row[right], above[u], below[u]})
+          if (near != 0 && (out[u] == 0 || near < out[u])) out[u] = near;
+      }
+    }
+  }
+  return owner;
+}
 
 OutlineField outline_field(const std::vector<Detection>& detections, int width_px, int height_px,
                            int reach_px) {

@@ -16,7 +16,8 @@ namespace mapscore {
 /// The masks of a frame as one field over the colour image. An outline runs half-way between a
 /// mask's pixels and the others; the image's own edge is none.
 struct OutlineField {
-  cv::Mat1w owner;  ///< 1 + index of the detection whose mask is nearest, 0 where none is near
+  /// 1 + index of the detection whose mask holds the pixel, 0 for none.
+  cv::Mat1w owner;
   cv::Mat1f
       distance;  ///< pixels to the nearest outline, negative inside a mask; kFar where none is near
   /// How well an edge that faces Outward d fits at quarter size, 0 to 255: 255 on outlines that
@@ -28,6 +29,10 @@ struct OutlineField {
 
   static constexpr float kFar = 1e4F;
 };
+
+/// Gives the pixels around the masks the owner that is fewest steps along rows and columns away,
+/// up to so many; ties to the lower index.
+[[nodiscard]] cv::Mat1w spread_owners(const cv::Mat1w& masks, int reach_px);
 
 /// `reach_px`: how far from the masks the field is wanted.
 [[nodiscard]] OutlineField outline_field(const std::vector<Detection>& detections, int width_px,

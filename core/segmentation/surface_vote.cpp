@@ -17,6 +17,9 @@ constexpr float kHidden = 0.015F;   // share of inverse depth by which a hidden 
 constexpr float kSureAt_px = 3.0F;  // from the outline a pixel's vote has full weight
 constexpr float kLeastVote = 0.05F;
 constexpr int kRounds = 3;
+constexpr int kWideHole_px = 9;
+constexpr float kShare = 0.9F;       // of the votes; only where a surface goes on does it trim
+constexpr float kLeastSteps = 0.1F;  // share of an object's rim that must be depth steps
 
 /// What the masks say of each depth pixel.
 struct Votes {
@@ -73,35 +76,72 @@ class Voting {
       }
   }
 
+  /// A wide hole of the depth image may be an object nearer than the sensor's range: it hides what
+  /// the colour camera has behind it, wherever between the least depth and half of it the object
+  /// stands.
+  void hide_behind_holes(cv::Mat1f& hit) const {
+    cv::Mat1b hole = edges_.inverse_depth == 0.0F;
+    cv::erode(hole, hole, cv::Mat(kWideHole_px, kWideHole_px, CV_8U, cv::Scalar(1)), {-1, -1}, 1,
+              cv::BORDER_REPLICATE);
+    if (cv::countNonZero(hole) == 0) return;
+    Calibration mended = believed_;
+    mended.T_color_depth.linear() =
+        alignment_.rotation.cast<double>() * believed_.T_color_depth.linear();
+    mended.T_color_depth.translation() =
+        alignment_.rotation.cast<double>() * believed_.T_color_depth.translation() +
+        alignment_.translation.cast<double>();
+    for (const double share : {1.0, 0.85, 0.7, 0.6, 0.5}) {
+      const double z_m = share * believed_.range_min_m;
+      for (int v = 0; v < hole.rows; ++v)
+        for (int u = 0; u < hole.cols; ++u) {
+          if (!hole(v, u)) continue;
+          const Eigen::Vector2d at =
+              mended.color.project(mended.T_color_depth * mended.depth.back_project(u, v, z_m));
+          const int c = static_cast<int>(at.x() + 0.5), r = static_cast<int>(at.y() + 0.5);
+          if (c < 0 || r < 0 || c >= hit.cols || r >= hit.rows) continue;
+          hit(r, c) = std::max(hit(r, c), static_cast<float>(1.0 / z_m));
+        }
+    }
+  }
+
   /// Nearest surface by colour pixel, as inverse depth, spread over the neighbouring pixels.
   void find_nearest() {
     const cv::Mat1f& w = edges_.inverse_depth;
     cv::Mat1f hit(field_.owner.rows, field_.owner.cols, 0.0F);
-    for (int v = 0; v < w.rows; ++v)
+    for (int v = 0; v < w.rows; ++v) {
+      const float *in = w[v], *us = u_[v], *vs = v_[v];
       for (int u = 0; u < w.cols; ++u) {
-        if (!(w(v, u) > 0)) continue;
-        const int c = static_cast<int>(u_(v, u) + 0.5F), r = static_cast<int>(v_(v, u) + 0.5F);
+        const int c = static_cast<int>(us[u] + 0.5F), r = static_cast<int>(vs[u] + 0.5F);
         if (c < 0 || r < 0 || c >= hit.cols || r >= hit.rows) continue;
-        if (w(v, u) > hit(r, c)) hit(r, c) = w(v, u);
+        float& nearest = hit(r, c);
+        if (in[u] > nearest) nearest = in[u];
       }
+    }
+    hide_behind_holes(hit);
     cv::dilate(hit, nearest_, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
   }
 
   Votes collect() {
     const cv::Mat1f& w = edges_.inverse_depth;
+    const int beyond_px = static_cast<int>(std::ceil(1.5F * alignment_.offset_px));
+    const cv::Mat1w owners =
+        alignment_.offset_px > 0.5F ? spread_owners(field_.owner, beyond_px) : field_.owner;
     Votes votes{cv::Mat1w(w.rows, w.cols, std::uint16_t{0}), cv::Mat1f(w.rows, w.cols, -1e4F),
                 cv::Mat1f(w.rows, w.cols, 0.0F)};
-    for (int v = 0; v < w.rows; ++v)
+    for (int v = 0; v < w.rows; ++v) {
+      const float *in = w[v], *us = u_[v], *vs = v_[v];
+      std::uint16_t* owner = votes.owner[v];
+      float *depth_in = votes.depth_in[v], *weight = votes.weight[v];
       for (int u = 0; u < w.cols; ++u) {
-        if (!(w(v, u) > 0)) continue;
-        const int c = static_cast<int>(u_(v, u) + 0.5F), r = static_cast<int>(v_(v, u) + 0.5F);
-        if (c < 0 || r < 0 || c >= field_.owner.cols || r >= field_.owner.rows) continue;
-        votes.owner(v, u) = field_.owner(r, c);
-        const float inside = alignment_.offset_px - field_.distance(r, c);
-        votes.depth_in(v, u) = inside;
-        if (w(v, u) < nearest_(r, c) * (1.0F - kHidden)) continue;
-        votes.weight(v, u) = std::clamp(std::abs(inside) / kSureAt_px, kLeastVote, 1.0F);
+        if (!(in[u] > 0)) continue;
+        const int c = static_cast<int>(us[u] + 0.5F), r = static_cast<int>(vs[u] + 0.5F);
+        if (c < 0 || r < 0 || c >= owners.cols || r >= owners.rows) continue;
+        owner[u] = owners(r, c);
+        depth_in[u] = alignment_.offset_px - field_.distance(r, c);
+        if (in[u] < nearest_(r, c) * (1.0F - kHidden)) continue;
+        weight[u] = std::clamp(std::abs(depth_in[u]) / kSureAt_px, kLeastVote, 1.0F);
       }
+    }
     return votes;
   }
 
@@ -127,15 +167,39 @@ void smooth(cv::Mat2f& votes, const cv::Mat1f& right, const cv::Mat1f& down, flo
         row[u] = row[u] + a * (row[u + 1] - a * row[u]);
       }
     }
-    for (int v = 1; v < votes.rows; ++v)
-      for (int u = 0; u < votes.cols; ++u)
-        votes(v, u) += feedback * down(v - 1, u) * votes(v - 1, u);
-    for (int v = votes.rows - 2; v >= 0; --v)
+    for (int v = 1; v < votes.rows; ++v) {
+      const cv::Vec2f* above = votes[v - 1];
+      const float* open = down[v - 1];
+      cv::Vec2f* row = votes[v];
+      for (int u = 0; u < votes.cols; ++u) row[u] += feedback * open[u] * above[u];
+    }
+    for (int v = votes.rows - 2; v >= 0; --v) {
+      const cv::Vec2f* below = votes[v + 1];
+      const float* open = down[v];
+      cv::Vec2f* row = votes[v];
       for (int u = 0; u < votes.cols; ++u) {
-        const float a = feedback * down(v, u);
-        votes(v, u) = votes(v, u) + a * (votes(v + 1, u) - a * votes(v, u));
+        const float a = feedback * open[u];
+        row[u] = row[u] + a * (below[u] - a * row[u]);
       }
+    }
   }
+}
+
+/// True when hardly any of the rim of an object, where depth is known on both sides, is a depth
+/// step: a mask whose object the depth camera cannot see, painted on what lies behind.
+bool lacks_steps(const cv::Mat1w& labels, std::uint16_t label, const cv::Rect& box,
+                 const DepthEdges& edges) {
+  float rim = 0, steps = 0;
+  for (int v = box.y; v + 1 < box.y + box.height; ++v)
+    for (int u = box.x; u + 1 < box.x + box.width; ++u) {
+      const bool own = labels(v, u) == label;
+      if (!(edges.inverse_depth(v, u) > 0)) continue;
+      if (own != (labels(v, u + 1) == label) && edges.inverse_depth(v, u + 1) > 0)
+        rim += 1, steps += 1 - edges.right(v, u);
+      if (own != (labels(v + 1, u) == label) && edges.inverse_depth(v + 1, u) > 0)
+        rim += 1, steps += 1 - edges.down(v, u);
+    }
+  return rim > 0 && steps < kLeastSteps * rim;
 }
 
 }  // namespace
@@ -151,16 +215,18 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
   const cv::Size size = votes.owner.size();
   cv::Mat1w labels(size, std::uint16_t{0});
   std::vector<cv::Rect> boxes(detections + 1);
-  const float margin = 2.0F * static_cast<float>(reach_px);
+  const int margin = static_cast<int>(std::ceil(2.0 * reach_px)) + 2;
   for (int v = 0; v < size.height; ++v)
     for (int u = 0; u < size.width; ++u)
-      if (votes.depth_in(v, u) > -margin && votes.owner(v, u) != 0) {
+      if (votes.depth_in(v, u) > 0 && votes.owner(v, u) != 0) {
         cv::Rect& box = boxes[votes.owner(v, u)];
         box = box.empty() ? cv::Rect(u, v, 1, 1) : box | cv::Rect(u, v, 1, 1);
       }
   for (std::size_t n = 1; n <= detections; ++n) {
-    const cv::Rect box = boxes[n];
-    if (box.empty()) continue;
+    if (boxes[n].empty()) continue;
+    const cv::Rect box = cv::Rect(boxes[n].x - margin, boxes[n].y - margin,
+                                  boxes[n].width + 2 * margin, boxes[n].height + 2 * margin) &
+                         cv::Rect({0, 0}, size);
     cv::Mat2f sums(box.size());
     for (int v = 0; v < box.height; ++v)
       for (int u = 0; u < box.width; ++u) {
@@ -172,9 +238,11 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
     smooth(sums, edges.right(box), edges.down(box), static_cast<float>(reach_px));
     for (int v = 0; v < box.height; ++v)
       for (int u = 0; u < box.width; ++u)
-        if (sums(v, u)[0] > 0.5F * sums(v, u)[1] && sums(v, u)[1] > 1e-4F &&
+        if (sums(v, u)[0] > kShare * sums(v, u)[1] && sums(v, u)[1] > 1e-4F &&
             edges.inverse_depth(v + box.y, u + box.x) > 0)
           labels(v + box.y, u + box.x) = static_cast<std::uint16_t>(n);
+    if (lacks_steps(labels, static_cast<std::uint16_t>(n), box, edges))
+      labels(box).setTo(0, labels(box) == static_cast<double>(n));
   }
   return labels;
 }
