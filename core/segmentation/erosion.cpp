@@ -3,32 +3,42 @@
 
 #include "core/segmentation/erosion.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace mapscore {
 namespace {
 
-constexpr int kEndless = 1 << 20;
-
-/// For each pixel of the mask, how many further pixels in its row lie inside on the shorter side:
-/// the largest w such that columns u - w .. u + w are inside; -1 outside the mask. Beyond the
-/// image's edge the row goes on.
-cv::Mat1i inner_half_widths(const cv::Mat1b& mask, bool open_left, bool open_right) {
-  cv::Mat1i half_widths(mask.rows, mask.cols);
+/// 255 where the mask is set, with one more column on either side: 255 where the image ends there,
+/// so that the mask goes on beyond it, else 0.
+cv::Mat1b with_margins(const cv::Mat1b& mask, bool open_left, bool open_right) {
+  cv::Mat1b inner(mask.rows, mask.cols + 2);
   for (int v = 0; v < mask.rows; ++v) {
-    int run = open_left ? kEndless : 0;
-    for (int u = 0; u < mask.cols; ++u) {
-      run = mask(v, u) ? run + 1 : 0;
-      half_widths(v, u) = run - 1;
-    }
-    run = open_right ? kEndless : 0;
-    for (int u = mask.cols - 1; u >= 0; --u) {
-      run = mask(v, u) ? run + 1 : 0;
-      half_widths(v, u) = std::min(half_widths(v, u), run - 1);
-    }
+    const std::uint8_t* in = mask[v];
+    std::uint8_t* out = inner[v];
+    out[0] = open_left ? 255 : 0;
+    out[mask.cols + 1] = open_right ? 255 : 0;
+    for (int u = 0; u < mask.cols; ++u) out[u + 1] = in[u] != 0 ? 255 : 0;
   }
-  return half_widths;
+  return inner;
+}
+
+/// Shrinks every run of a row by one pixel at either end; the margins stay, since what lies beyond
+/// an edge asks no more than the pixel at the edge does.
+void shrink_rows(const cv::Mat1b& from, cv::Mat1b& to) {
+  for (int v = 0; v < from.rows; ++v) {
+    const std::uint8_t* in = from[v];
+    std::uint8_t* out = to[v];
+    const int last = from.cols - 1;
+    for (int u = 1; u < last; ++u)
+      out[u] = static_cast<std::uint8_t>(in[u - 1] & in[u] & in[u + 1]);
+  }
+}
+
+void keep_common(const std::uint8_t* row, std::uint8_t* kept, int count) {
+  for (int u = 0; u < count; ++u) kept[u] = static_cast<std::uint8_t>(kept[u] & row[u]);
 }
 
 /// Half widths of the disc's rows, from its middle outwards.
@@ -48,23 +58,26 @@ std::vector<int> disc_half_widths(int radius_px) {
 cv::Mat1b erode_mask(const Detection& detection, int radius_px, int image_width_px,
                      int image_height_px) {
   const PixelBox& box = detection.box;
-  const cv::Mat1i inner =
-      inner_half_widths(detection.mask, box.u_min == 0, box.u_max == image_width_px - 1);
   const std::vector<int> disc = disc_half_widths(radius_px);
-  cv::Mat1b eroded = detection.mask.clone();
-  for (int v = 0; v < eroded.rows; ++v) {
-    for (int dy = -radius_px; dy <= radius_px; ++dy) {
-      const int needed = disc[static_cast<std::size_t>(std::abs(dy))];
-      const int row = v + dy;
-      const bool beyond_image = row + box.v_min < 0 || row + box.v_min >= image_height_px;
-      if (beyond_image) continue;
-      if (row < 0 || row >= inner.rows) {
-        eroded.row(v) = 0;
-        break;
-      }
-      const int* widths = inner[row];
-      std::uint8_t* out = eroded[v];
-      for (int u = 0; u < eroded.cols; ++u) out[u] = widths[u] >= needed ? out[u] : std::uint8_t{0};
+  cv::Mat1b inner = with_margins(detection.mask, box.u_min == 0, box.u_max == image_width_px - 1);
+  cv::Mat1b shrunk = inner.clone(), eroded = detection.mask.clone();
+  const auto ask = [&](int v, int dy) {  // whether the disc's row at v + dy lies in the mask
+    const int row = v + dy;
+    if (row + box.v_min < 0 || row + box.v_min >= image_height_px) return;
+    if (row < 0 || row >= inner.rows)
+      eroded.row(v) = 0;
+    else
+      keep_common(inner[row] + 1, eroded[v], eroded.cols);
+  };
+  int width = 0;  // of which `inner` holds the pixels with as many neighbours on either side
+  for (int dy = radius_px; dy >= 0; --dy) {
+    for (; width < disc[static_cast<std::size_t>(dy)]; ++width) {
+      shrink_rows(inner, shrunk);
+      std::swap(inner, shrunk);
+    }
+    for (int v = 0; v < eroded.rows; ++v) {
+      ask(v, dy);
+      if (dy > 0) ask(v, -dy);
     }
   }
   return eroded;

@@ -139,8 +139,9 @@ struct Sieve {
         half_v(0.5 - 1e-12 * (1.0 + std::abs(believed.color.cy_px) + believed.color.height_px)) {}
 
   template <bool kParallel>
-  void sort(const Projection& projection, const std::uint16_t* row, const double* ray_x,
-            double ray_y, std::size_t width, std::int32_t* target) const {
+  [[gnu::always_inline]] void sort(const Projection& projection, const std::uint16_t* row,
+                                   const double* ray_x, double ray_y, std::size_t width,
+                                   std::int32_t* target) const {
     const Projection camera = projection;  // copies: what is written cannot change them
     const Sieve sieve = *this;
     const double left = columns.first - 1.0, right = columns.last + 1.0;
@@ -179,6 +180,25 @@ struct Sieve {
   double half_u, half_v;  ///< half a pixel, less what rounding may move
 };
 
+// Compiled for several widths, of which the processor's is chosen when the program starts; no
+// result depends on the width: there are neither sums over pixels nor fused products.
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+[[gnu::target_clones("default", "avx2", "avx512f")]]
+#endif
+void sort_parallel(const Sieve& sieve, const Projection& projection, const std::uint16_t* row,
+                   const double* ray_x, double ray_y, std::size_t width, std::int32_t* target) {
+  sieve.sort<true>(projection, row, ray_x, ray_y, width, target);
+}
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+[[gnu::target_clones("default", "avx2", "avx512f")]]
+#endif
+void sort_rotated(const Sieve& sieve, const Projection& projection, const std::uint16_t* row,
+                  const double* ray_x, double ray_y, std::size_t width, std::int32_t* target) {
+  sieve.sort<false>(projection, row, ray_x, ray_y, width, target);
+}
+
 /// Keeps the nearest depth pixel per colour pixel. Depth pixels arrive in row-major order, so
 /// "strictly nearer" leaves ties to the lower row, then column. The winners so far stand in for a
 /// buffer of distances: most colour pixels are asked for once.
@@ -201,9 +221,11 @@ class ZBuffer {
     for (int v = 0; v < depth_.rows; ++v) {
       const double ray_y = rays_.y()[static_cast<std::size_t>(v)];
       if (projection_.parallel)
-        sieve_.sort<true>(projection_, depth_[v], rays_.x().data(), ray_y, width, targets.data());
+        sort_parallel(sieve_, projection_, depth_[v], rays_.x().data(), ray_y, width,
+                      targets.data());
       else
-        sieve_.sort<false>(projection_, depth_[v], rays_.x().data(), ray_y, width, targets.data());
+        sort_rotated(sieve_, projection_, depth_[v], rays_.x().data(), ray_y, width,
+                     targets.data());
       for (std::size_t i = 0; i < width; ++i) {
         const int depth_pixel = v * depth_.cols + static_cast<int>(i);
         if (targets[i] >= 0)

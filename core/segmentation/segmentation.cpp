@@ -8,7 +8,6 @@
 #include "core/segmentation/occupied_centres.hpp"
 #include "core/segmentation/region_growing.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace mapscore {
@@ -55,7 +54,7 @@ struct Segmenter {
     if (params.radius_px < 0) throw Error("radius_px: must not be negative");
     const cv::Mat1b eroded =
         erode_mask(detection, params.radius_px, cloud.width_px(), cloud.height_px());
-    if (std::none_of(eroded.begin(), eroded.end(), [](std::uint8_t inside) { return inside; }))
+    if (cv::countNonZero(eroded) == 0)
       segment.skipped = SkipReason::eroded_away;
     else
       keep(eroded);
