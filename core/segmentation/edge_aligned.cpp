@@ -18,6 +18,13 @@ namespace mapscore {
 
 cv::Mat1w label_depth(const std::vector<Detection>& detections, const cv::Mat1w& depth,
                       const Calibration& believed, const EdgeAlignedParams& params) {
+  if (depth.cols != believed.depth.width_px || depth.rows != believed.depth.height_px)
+    throw Error(
+        "depth image: not of the depth camera's size; give the intrinsics it was taken with");
+  if (!(params.search_px >= 0.0) || !std::isfinite(params.search_px))
+    throw Error("search_px: must not be negative");
+  if (!(params.reach_px > 0.0) || !std::isfinite(params.reach_px))
+    throw Error("reach_px: must be positive");
   const DepthEdges edges = find_depth_edges(depth, believed);
   const int reach_px = static_cast<int>(std::ceil(1.3 * params.search_px)) + 16;
   const OutlineField field =

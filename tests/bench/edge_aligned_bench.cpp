@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/depth_edges.hpp"
+#include "core/segmentation/edge_aligned.hpp"
+#include "core/segmentation/outline_alignment.hpp"
+#include "core/segmentation/outline_field.hpp"
+#include "synthetic_person.hpp"
+
+#include <benchmark/benchmark.h>
+
+namespace {
+
+using namespace mapscore;
+
+constexpr double kFrameBar_ms = 10.0;
+
+const testing::SyntheticPerson& person() {
+  static const testing::SyntheticPerson kPerson = testing::synthetic_person();
+  return kPerson;
+}
+
+/// Labels 20 mm off: the search has something to find.
+Calibration misregistered() {
+  Calibration believed = person().calibration;
+  believed.T_color_depth.translation().x() += 0.02;
+  return believed;
+}
+
+/// One frame of 640 x 480, everything; `bar_ms` is what a frame may take.
+void edge_aligned_frame(benchmark::State& state) {
+  const std::vector<Detection> detections = detections_of(person().label, person().table);
+  const Calibration believed = misregistered();
+  for (auto _ : state)
+    benchmark::DoNotOptimize(label_depth(detections, person().depth, believed, {}));
+  state.counters["bar_ms"] = kFrameBar_ms;
+}
+BENCHMARK(edge_aligned_frame)->Unit(benchmark::kMillisecond);
+
+void edge_aligned_edges(benchmark::State& state) {
+  const Calibration believed = misregistered();
+  for (auto _ : state) benchmark::DoNotOptimize(find_depth_edges(person().depth, believed));
+}
+BENCHMARK(edge_aligned_edges)->Unit(benchmark::kMillisecond);
+
+void edge_aligned_alignment(benchmark::State& state) {
+  const Calibration believed = misregistered();
+  const std::vector<Detection> detections = detections_of(person().label, person().table);
+  const DepthEdges edges = find_depth_edges(person().depth, believed);
+  const OutlineField field = outline_field(detections, 640, 480, 68);
+  for (auto _ : state) benchmark::DoNotOptimize(align_outlines(edges, field, believed, 40));
+}
+BENCHMARK(edge_aligned_alignment)->Unit(benchmark::kMillisecond);
+
+}  // namespace
