@@ -186,17 +186,12 @@ struct Sieve {
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 [[gnu::target_clones("default", "avx2", "avx512f")]]
 #endif
-void sort_parallel(const Sieve& sieve, const Projection& projection, const std::uint16_t* row,
-                   const double* ray_x, double ray_y, std::size_t width, std::int32_t* target) {
-  sieve.sort<true>(projection, row, ray_x, ray_y, width, target);
-}
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-[[gnu::target_clones("default", "avx2", "avx512f")]]
-#endif
-void sort_rotated(const Sieve& sieve, const Projection& projection, const std::uint16_t* row,
-                  const double* ray_x, double ray_y, std::size_t width, std::int32_t* target) {
-  sieve.sort<false>(projection, row, ray_x, ray_y, width, target);
+void sort_row(const Sieve& sieve, const Projection& projection, const std::uint16_t* row,
+              const double* ray_x, double ray_y, std::size_t width, std::int32_t* target) {
+  if (projection.parallel)
+    sieve.sort<true>(projection, row, ray_x, ray_y, width, target);
+  else
+    sieve.sort<false>(projection, row, ray_x, ray_y, width, target);
 }
 
 /// Keeps the nearest depth pixel per colour pixel. Depth pixels arrive in row-major order, so
@@ -213,24 +208,22 @@ class ZBuffer {
         ratio_u_(believed.color.fx_px / believed.depth.fx_px),
         ratio_v_(believed.color.fy_px / believed.depth.fy_px),
         wanted_(wanted.isContinuous() ? wanted : wanted.clone()),
-        source_(believed.color.height_px, believed.color.width_px, RegisteredCloud::kNone) {}
+        source_(believed.color.height_px, believed.color.width_px) {
+    std::fill_n(source_.ptr<int>(), source_.total(), RegisteredCloud::kNone);
+  }
 
   void cover() {
+    const bool all = wanted_.empty();
     const auto width = static_cast<std::size_t>(depth_.cols);
     std::vector<std::int32_t> targets(width);
     for (int v = 0; v < depth_.rows; ++v) {
       const double ray_y = rays_.y()[static_cast<std::size_t>(v)];
-      if (projection_.parallel)
-        sort_parallel(sieve_, projection_, depth_[v], rays_.x().data(), ray_y, width,
-                      targets.data());
-      else
-        sort_rotated(sieve_, projection_, depth_[v], rays_.x().data(), ray_y, width,
-                     targets.data());
+      sort_row(sieve_, projection_, depth_[v], rays_.x().data(), ray_y, width, targets.data());
       for (std::size_t i = 0; i < width; ++i) {
         const int depth_pixel = v * depth_.cols + static_cast<int>(i);
-        if (targets[i] >= 0)
-          offer(targets[i], depth_pixel);
-        else if (targets[i] == kUndecided)
+        if (targets[i] >= 0) {
+          if (all || wanted_.data[targets[i]] != 0) offer(targets[i], depth_pixel);
+        } else if (targets[i] == kUndecided)
           cover_block(depth_pixel);
       }
     }
@@ -249,11 +242,11 @@ class ZBuffer {
     const Span rows = covered(v, 0.5 * std::max(1.0, ratio_v_ * s), window_.rows);
     for (int row = rows.first; row <= rows.last; ++row)
       for (int column = columns.first; column <= columns.last; ++column)
-        offer(row * source_.cols + column, depth_pixel);
+        if (wanted_.empty() || wanted_(row, column) != 0)
+          offer(row * source_.cols + column, depth_pixel);
   }
 
   void offer(int color_pixel, int depth_pixel) {
-    if (!wanted_.empty() && wanted_.data[color_pixel] == 0) return;
     int& source = source_.ptr<int>()[color_pixel];
     if (source == RegisteredCloud::kNone || z_color(depth_pixel) < z_color(source))
       source = depth_pixel;
