@@ -33,6 +33,8 @@ constexpr std::array kKnownLeaves{
     KnownLeaf{"faults.time_offset_ms", "time offset", "ms"},
     KnownLeaf{"faults.depth.preset", "depth camera", ""},
     KnownLeaf{"faults.labels.preset", "2D segmentation", ""},
+    KnownLeaf{"faults.labels.scale", "label errors", "× the preset's"},
+    KnownLeaf{"faults.labels.boundary_px", "label boundary off by", "px"},
     KnownLeaf{"localization.source", "pose source", ""},
     KnownLeaf{"fusion.blend.N", "N", ""},
     KnownLeaf{"fusion.blend.K", "K", ""},
