@@ -6,8 +6,10 @@
 #include "core/classes.hpp"
 #include "core/objects/object_box.hpp"
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace mapscore {
 
@@ -36,6 +38,9 @@ struct MapObject {
   int age = 0;               ///< of these, since the last detection
   /// (1 + sum of its detections' scores) / (2 + observations + misses), Laplace's rule.
   double confidence = 0.5;
+  /// Least covers of its latest detections along the axes of `box`, in coordinates with these axes
+  /// and the map's origin; what the quantile rule reads (object_merge.hpp). Not in files.
+  std::vector<Eigen::AlignedBox3d> views{};
 };
 
 }  // namespace mapscore

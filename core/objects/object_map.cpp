@@ -27,6 +27,8 @@ void check_params(const ObjectMapParams& params) {
   if (!(params.visibility.tolerance_m >= 0.0)) refuse("tolerance_m", "give a length of at least 0");
   if (!share(params.visibility.min_share)) refuse("min_share", "give a share from 0 to 1");
   if (params.visibility.min_pixels < 1) refuse("min_pixels", "give at least 1");
+  if (!share(params.update.share) || params.update.share == 0.0)
+    refuse("update.share", "give a share above 0, up to 1");
   if (params.max_age < 1) refuse("max_age", "give at least 1");
 }
 

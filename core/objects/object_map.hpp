@@ -20,7 +20,7 @@ namespace mapscore {
 
 struct ObjectMapParams {
   AssociationGate gate;
-  BoxUpdate update = BoxUpdate::hull;
+  BoxMerge update;
   double merge_overlap = 0.5;  ///< share of the smaller box from which two objects are one
   Visibility visibility;
   int max_age = 5;  ///< an object that reaches this age is removed

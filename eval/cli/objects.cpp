@@ -28,9 +28,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ObjectFlags {
-  std::string source, output, method, update = "hull", against = "surface", format = "text";
+  std::string source, output, method, update = "quantile", against = "surface", format = "text";
   std::optional<std::string> start;
   std::vector<std::string> overrides;
+  double face_share = BoxMerge{}.share, piece_m = ObjectRunOptions{}.piece_m;
   int seed = 0, max_age = ObjectMapParams{}.max_age, min_points = ObjectRunOptions{}.min_points;
   int jobs = WorkFlags{}.jobs;
   bool quiet = false;
@@ -75,7 +76,11 @@ Task task_of(const Study& study, const ObjectFlags& flags, const Recording& reco
 
 ObjectRunOptions options_of(const ObjectFlags& flags) {
   ObjectRunOptions options;
-  options.map.update = flags.update == "hull" ? BoxUpdate::hull : BoxUpdate::mean;
+  options.map.update.rule = flags.update == "hull"   ? BoxUpdate::hull
+                            : flags.update == "mean" ? BoxUpdate::mean
+                                                     : BoxUpdate::quantile;
+  options.map.update.share = flags.face_share;
+  options.piece_m = flags.piece_m;
   options.map.max_age = flags.max_age;
   options.min_points = flags.min_points;
   return options;
@@ -140,8 +145,18 @@ void add_objects(CLI::App& program) {
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   verb->add_option("--start", flags->start, "Object map (YAML) to start from");
-  verb->add_option("--update", flags->update, "How boxes are merged: hull or mean")
-      ->check(CLI::IsMember({"hull", "mean"}))
+  verb->add_option("--update", flags->update,
+                   "How boxes of views are merged: hull, mean or quantile")
+      ->check(CLI::IsMember({"hull", "mean", "quantile"}))
+      ->capture_default_str();
+  verb->add_option("--face_share", flags->face_share,
+                   "Of quantile: share of the views that see each face no farther out")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
+  verb->add_option("--piece_m", flags->piece_m,
+                   "Cells in which the points of a detection hang together; the largest piece "
+                   "becomes the box")
+      ->check(CLI::Range(0.001, 1000.0))
       ->capture_default_str();
   verb->add_option("--max_age", flags->max_age,
                    "Frames in a row after which an object is removed that should have been seen "

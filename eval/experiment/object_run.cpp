@@ -4,6 +4,8 @@
 #include "eval/experiment/object_run.hpp"
 
 #include "core/error.hpp"
+#include "core/objects/solid_piece.hpp"
+#include "core/segmentation/frame_segmentation.hpp"
 #include "eval/experiment/doses.hpp"
 #include "eval/experiment/sensor_doses.hpp"
 #include "eval/experiment/trial_run.hpp"
@@ -43,7 +45,7 @@ ObjectRun::ObjectRun(const Task& task, const Recording& recording, const ClassTa
       label_dose_(dose_of(task.config.faults.labels)),
       segmentation_(segmentation_params(task.config.methods.front().segmentation)),
       map_frame_(map_frame(task.config, task.seed_index)),
-      min_points_(options.min_points),
+      options_(options),
       simulated_(simulated_labels(task.config, recording, table)),
       map_(table.classes.size(), options.map),
       seen_(table.instances.size()) {}
@@ -62,13 +64,14 @@ std::vector<ObjectDetection> ObjectRun::detect(const Frame& frame, const cv::Mat
   const std::vector<Detection> detections =
       sim::corrupt_detections(label, simulated_ ? simulated_->table() : table_, label_dose_,
                               trial_seed(task_), frame.index);
-  const RegisteredCloud cloud =
-      register_depth(depth, believed_, pixels_wanted(detections, label.cols, label.rows));
+  const std::vector<Segment> segments =
+      segment_frame(detections, depth, believed_, map_frame_.edge_m, segmentation_, false);
   std::vector<ObjectDetection> found;
-  for (const Detection& detection : detections) {
-    const Segment kept = segment(detection, cloud, map_frame_.edge_m, segmentation_, false);
-    if (kept.points.size() < static_cast<std::size_t>(min_points_)) continue;
-    found.push_back({kept.class_id, oriented(bounds_of(kept.points, T_map_depth)), kept.score, {}});
+  for (const Segment& segment : segments) {
+    const std::vector<Eigen::Vector3d> solid =
+        largest_solid_piece(segment.points, options_.piece_m);
+    if (solid.size() < static_cast<std::size_t>(options_.min_points)) continue;
+    found.push_back({segment.class_id, oriented(bounds_of(solid, T_map_depth)), segment.score, {}});
   }
   return found;
 }

@@ -27,7 +27,8 @@ namespace mapscore::eval {
 
 struct ObjectRunOptions {
   ObjectMapParams map;
-  int min_points = 20;  ///< of a detection that becomes a box
+  int min_points = 20;    ///< of a detection's largest piece, that becomes a box
+  double piece_m = 0.05;  ///< cells of the lattice that tells pieces apart (solid_piece.hpp)
 };
 
 /// One object map under way over the frames of a recording: what TrialRun does for voxels, under
@@ -72,7 +73,7 @@ class ObjectRun {
   sim::LabelDose label_dose_;
   SegmentationParams segmentation_;
   MapFrame map_frame_;
-  int min_points_;
+  ObjectRunOptions options_;
   std::optional<SimulatedLabels> simulated_;
   ObjectMap map_;
   SeenInstances seen_;

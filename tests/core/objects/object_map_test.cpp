@@ -63,7 +63,7 @@ TEST(ObjectMap, EachObjectTakesOneDetectionOfAFrame) {
 
 TEST(ObjectMap, MeanWeighsFacesByObservations) {
   ObjectMapParams params;
-  params.update = BoxUpdate::mean;
+  params.update.rule = BoxUpdate::mean;
   ObjectMap map(2, params);
   integrate(map, {seen(1, {0, 0, 0}, {1, 1, 1})}, 0.0);
   integrate(map, {seen(1, {0, 0, 0}, {1.3, 1, 1})}, 0.0);
