@@ -5,10 +5,10 @@
 # records.
 set(folder ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end)
 file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
-set(suites BadFlags BadStudy BadRecording BadOutput ScoreMap MapFolder TinySweep)
+set(suites BadFlags BadStudy BadRecording BadOutput ScoreMap MapFolder MapObjects TinySweep)
 if(MAPSCORE_SIMULATOR)
   file(GLOB rendered CONFIGURE_DEPENDS ${folder}/rendered/*.cpp)
-  list(APPEND suites BadScene BadDrive DemoGrowing Gate)
+  list(APPEND suites ObjectScene BadScene BadDrive DemoGrowing Gate)
 endif()
 
 add_executable(end_to_end_test ${sources} ${rendered})

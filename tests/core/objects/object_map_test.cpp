@@ -73,6 +73,43 @@ TEST(ObjectMap, MeanWeighsFacesByObservations) {
   EXPECT_NEAR(map.find(1)->box.bounds().max().x(), 1.1, 1e-12);
 }
 
+TEST(ObjectMap, QuantileLeavesTheFewWrongViewsAway) {
+  ObjectMap map(2);  // share 0.75
+  const auto upper_x = [&] { return map.find(1)->box.bounds().max().x(); };
+  integrate(map, {seen(1, {0, 0, 0}, {1, 1, 1})}, 0.0);
+  integrate(map, {seen(1, {0, 0, 0}, {3, 1, 1})}, 0.0);  // leaked
+  EXPECT_NEAR(upper_x(), 3.0, 1e-12);                    // ceil(1.5) = 2nd of 1 3
+  integrate(map, {seen(1, {0, 0, 0}, {1.1, 1, 1})}, 0.0);
+  EXPECT_NEAR(upper_x(), 3.0, 1e-12);                        // ceil(2.25) = 3rd of 1 1.1 3
+  integrate(map, {seen(1, {0.4, 0, 0}, {0.6, 1, 1})}, 0.0);  // a part
+  EXPECT_NEAR(upper_x(), 1.1, 1e-12);                        // 3rd of 0.6 1 1.1 3
+  EXPECT_NEAR(map.find(1)->box.bounds().min().x(), 0.0, 1e-12);
+  EXPECT_EQ(map.find(1)->views.size(), 4u);
+}
+
+TEST(ObjectMap, BoxOfAFileCountsAsItsObservations) {
+  ObjectMap map(2);
+  MapObject known;
+  known.class_id = 1;
+  known.box = oriented({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1)});
+  known.observations = 3;
+  map.add(known);
+  integrate(map, {seen(1, {0, 0, 0}, {2, 1, 1})}, 1.0);
+  EXPECT_NEAR(map.find(1)->box.size_m.x(), 1.0, 1e-12);  // 3rd of 1 1 1 2
+  integrate(map, {seen(1, {0, 0, 0}, {2, 1, 1})}, 2.0);
+  EXPECT_NEAR(map.find(1)->box.size_m.x(), 2.0, 1e-12);  // 4th of 1 1 1 2 2
+}
+
+TEST(ObjectMap, QuantileOfATurnedBoxIsAlongItsAxes) {
+  ObjectMap map(2);
+  ObjectDetection turned = seen(1, {-0.5, -0.2, -0.1}, {0.5, 0.2, 0.1});
+  turned.box = moved(exp_pose((Vector6() << 2, 1, 0.5, 0, 0, 0.6).finished()), turned.box);
+  for (int frame = 0; frame < 5; ++frame) integrate(map, {turned}, frame);
+  const ObjectBox& box = map.find(1)->box;
+  EXPECT_TRUE(box.T_frame_box.isApprox(turned.box.T_frame_box, 1e-12));
+  EXPECT_TRUE(box.size_m.isApprox(turned.box.size_m, 1e-12));
+}
+
 TEST(ObjectMap, PartsThatCameToOverlapAreMerged) {
   ObjectMap map(2);
   integrate(map, {seen(1, {0, 0, 0}, {0.4, 1, 1})}, 0.0);
@@ -139,6 +176,9 @@ TEST(ObjectMap, BadDetectionsLeaveTheMapAsItWas) {
   }
   ObjectMapParams params;
   params.max_age = 0;
+  EXPECT_THROW(ObjectMap(3, params), Error);
+  params = {};
+  params.update.share = 0.0;
   EXPECT_THROW(ObjectMap(3, params), Error);
   params = {};
   params.gate.max_distance_m = nan;
