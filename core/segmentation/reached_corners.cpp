@@ -9,8 +9,6 @@
 namespace mapscore {
 namespace {
 
-constexpr double kNearestAlone = 0.75;
-
 /// Coordinates x y z of points, in a row.
 struct Coordinates {
   const double* values;
@@ -63,12 +61,9 @@ template <class Scalar>
   }
 }
 
-/// For a reach below kNearestAlone, where few points have more than their nearest position: that
-/// one as the low corner of a cube.
 template <class Scalar>
 [[gnu::always_inline]] inline void find_nearest(Coordinates points, const LatticeBox& lattice,
-                                                Scalar radius_squared, std::uint32_t* cubes,
-                                                std::uint8_t* corners) {
+                                                Scalar radius_squared, std::uint32_t* nearest) {
   const LatticeBox box = lattice;
   const double inverse = 1.0 / box.pitch_m, alone = 1.0 - box.reach;
   for (std::size_t n = 0; n < points.count; ++n) {
@@ -88,9 +83,8 @@ template <class Scalar>
     const double off_u = std::abs(u - i), off_v = std::abs(v - j), off_w = std::abs(w - k);
     double off = off_u > off_v ? off_u : off_v;
     off = off > off_w ? off : off_w;
-    const std::uint32_t cube = reached ? box.address(i, j, k) : kNoCube;
-    cubes[n] = off >= alone ? kManyCubes : cube;
-    corners[n] = reached ? 1 : 0;
+    const std::uint32_t position = reached ? box.address(i, j, k) : kNoCube;
+    nearest[n] = off >= alone ? kManyCubes : position;
   }
 }
 
@@ -98,8 +92,8 @@ template <class Scalar>
 [[gnu::target_clones("default", "avx2", "avx512f")]]
 #endif
 void find_nearest_double(Coordinates p, const LatticeBox& box, double radius_squared,
-                         std::uint32_t* cubes, std::uint8_t* corners) {
-  find_nearest(p, box, radius_squared, cubes, corners);
+                         std::uint32_t* nearest) {
+  find_nearest(p, box, radius_squared, nearest);
 }
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -114,8 +108,8 @@ void find_corners_double(Coordinates p, const LatticeBox& box, double radius_squ
 [[gnu::target_clones("default", "avx2", "avx512f")]]
 #endif
 void find_nearest_float(Coordinates p, const LatticeBox& box, float radius_squared,
-                         std::uint32_t* cubes, std::uint8_t* corners) {
-  find_nearest(p, box, radius_squared, cubes, corners);
+                         std::uint32_t* nearest) {
+  find_nearest(p, box, radius_squared, nearest);
 }
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -128,22 +122,26 @@ void find_corners_float(Coordinates p, const LatticeBox& box, float radius_squar
 
 }  // namespace
 
+void find_nearest_positions(std::span<const Eigen::Vector3d> points, const LatticeBox& lattice,
+                            double radius_squared, std::uint32_t* nearest) {
+  find_nearest_double({points.data()->data(), points.size()}, lattice, radius_squared, nearest);
+}
+
 void find_reached_corners(std::span<const Eigen::Vector3d> points, const LatticeBox& lattice,
                           double radius_squared, std::uint32_t* cubes, std::uint8_t* corners) {
-  const Coordinates p{points.data()->data(), points.size()};
-  if (lattice.reach < kNearestAlone)
-    find_nearest_double(p, lattice, radius_squared, cubes, corners);
-  else
-    find_corners_double(p, lattice, radius_squared, cubes, corners);
+  find_corners_double({points.data()->data(), points.size()}, lattice, radius_squared, cubes,
+                      corners);
+}
+
+void find_nearest_positions(std::span<const Eigen::Vector3d> points, const LatticeBox& lattice,
+                            float radius_squared, std::uint32_t* nearest) {
+  find_nearest_float({points.data()->data(), points.size()}, lattice, radius_squared, nearest);
 }
 
 void find_reached_corners(std::span<const Eigen::Vector3d> points, const LatticeBox& lattice,
                           float radius_squared, std::uint32_t* cubes, std::uint8_t* corners) {
-  const Coordinates p{points.data()->data(), points.size()};
-  if (lattice.reach < kNearestAlone)
-    find_nearest_float(p, lattice, radius_squared, cubes, corners);
-  else
-    find_corners_float(p, lattice, radius_squared, cubes, corners);
+  find_corners_float({points.data()->data(), points.size()}, lattice, radius_squared, cubes,
+                     corners);
 }
 
 }  // namespace mapscore

@@ -37,4 +37,12 @@ void find_reached_corners(std::span<const Eigen::Vector3d> points, const Lattice
 void find_reached_corners(std::span<const Eigen::Vector3d> points, const LatticeBox& lattice,
                           float radius_squared, std::uint32_t* cubes, std::uint8_t* corners);
 
+/// For a reach below kNearestAlone, where few points have more than their nearest position: that
+/// one's address, or kNoCube, or kManyCubes.
+constexpr double kNearestAlone = 0.75;
+void find_nearest_positions(std::span<const Eigen::Vector3d> points, const LatticeBox& lattice,
+                            double radius_squared, std::uint32_t* nearest);
+void find_nearest_positions(std::span<const Eigen::Vector3d> points, const LatticeBox& lattice,
+                            float radius_squared, std::uint32_t* nearest);
+
 }  // namespace mapscore

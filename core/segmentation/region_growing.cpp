@@ -21,6 +21,8 @@ namespace {
 
 /// Above this many lattice positions (64 MB) the points lie too far apart for a dense grid.
 constexpr double kMostPositions = 1 << 26;
+/// Bytes that a thread keeps at most for its next call.
+constexpr std::size_t kMostSpare = 1 << 23;
 
 /// Grows over finite points. Indices here are relative to the grid's low corner. The products with
 /// the inverse pitch only choose which positions are tested, with slack for all rounding; the test
@@ -60,14 +62,25 @@ class FastGrowing {
   [[nodiscard]] Region grow() {
     occupied_ = LatticeBits(low_, size_);
     accepted_ = LatticeBits(low_, size_);
-    find_corners();
-    mark_occupied();
+    cube_of_.resize(points_.size());
+    if (reach_ < kNearestAlone)
+      mark_nearest();
+    else
+      mark_cubes();
+    for (const std::size_t n : spread_) {
+      for_each_reached(n, [&](Address a) {
+        occupied_.set(a);
+        return false;
+      });
+    }
     Region region;
     const std::size_t accepted = flood();
-    if (accepted == 0) return region;
-    region.positions.reserve(accepted);
-    accepted_.for_each([&](Address a) { region.positions.push_back(accepted_.key(a)); });
-    keep_points(region);
+    if (accepted != 0) {
+      region.positions.reserve(accepted);
+      accepted_.for_each([&](Address a) { region.positions.push_back(accepted_.key(a)); });
+      keep_points(region);
+    }
+    give_back_cubes();
     return region;
   }
 
@@ -129,13 +142,26 @@ class FastGrowing {
     return limits;
   }
 
-  /// Gathers per cube of 2 x 2 x 2 positions which of them are reached by its points.
-  void find_corners() {
+  /// Marks the nearest position of each point that reaches it.
+  void mark_nearest() {
+    find_nearest_positions(points_, lattice_box(), radius_squared_, cube_of_.data());
+    for (std::size_t n = 0; n < points_.size(); ++n) {
+      if (cube_of_[n] == kManyCubes)
+        spread_.push_back(n);
+      else
+        occupied_.set(cube_of_[n]);
+    }
+    occupied_.clear(kNoCube);
+  }
+
+  /// Gathers per cube of 2 x 2 x 2 positions which of them are reached by its points, and marks
+  /// those.
+  void mark_cubes() {
     constexpr std::size_t kMost = 1024;  // points at a time, which stay in the cache
     std::array<std::uint8_t, kMost> corners;
     const LatticeBox box = lattice_box();
-    cubes_.assign(occupied_.addresses(), 0);
-    cube_of_.resize(points_.size());
+    cubes_ = std::exchange(spare_cubes(), {});
+    if (cubes_.size() < occupied_.addresses()) cubes_.resize(occupied_.addresses(), 0);
     marked_.resize(points_.size());
     std::size_t marked = 0;  // no branches here: which cubes are new is hard to foresee
     for (std::size_t first = 0; first < points_.size(); first += kMost) {
@@ -145,34 +171,30 @@ class FastGrowing {
       for (std::size_t n = 0; n < count; ++n) {
         const Address cube = cube_of_[first + n];
         if (cube == kManyCubes) {
-          spread_.push_back(static_cast<int>(first + n));
+          spread_.push_back(first + n);
           continue;
         }
         std::uint8_t& known = cubes_[cube];
         marked_[marked] = cube;
         marked += known == 0 && cube != kNoCube;
-        known = static_cast<std::uint8_t>(known | (cube != kNoCube ? corners[n] : 0));
+        known = static_cast<std::uint8_t>(known | corners[n]);
       }
     }
     marked_.resize(marked);
+    for (const Address cube : marked_) occupied_.set_corners(cube, cubes_[cube]);
   }
 
-  /// Marks every position that reaches some point.
-  void mark_occupied() {
-    for (const Address cube : marked_) occupied_.set_corners(cube, cubes_[cube]);
-    for (const int n : spread_) {
-      const LatticePoint point = on_lattice(points_[static_cast<std::size_t>(n)]);
-      for_each_reached(point, [&](Address a) {
-        occupied_.set(a);
-        return false;
-      });
-    }
+  /// All zero between calls, so that a grid need not be cleared where no point lies.
+  static std::vector<std::uint8_t>& spare_cubes() {
+    thread_local std::vector<std::uint8_t> spare;
+    return spare;
   }
 
   /// Calls `visit(address)` for the positions within reach of a point until it returns true;
   /// whether it did.
   template <class Visit>
-  bool for_each_reached(const LatticePoint& point, const Visit& visit) const {
+  bool for_each_reached(std::size_t n, const Visit& visit) const {
+    const LatticePoint point = on_lattice(points_[n]);
     const auto [first, last] = block(point);
     for (std::int32_t i = first[0]; i <= last[0]; ++i)
       for (std::int32_t j = first[1]; j <= last[1]; ++j)
@@ -212,26 +234,41 @@ class FastGrowing {
     return queue.size();
   }
 
-  /// The marked corners of a cube are neighbours and end in the same piece, so one stands for all,
-  /// and the cube for its points.
   void keep_points(Region& region) {
     constexpr Address kAccepted = kNoCube + 1;  // both lie in the margin
+    for (const std::size_t n : spread_) {
+      const bool kept = for_each_reached(n, [&](Address a) { return accepted_.test(a); });
+      cube_of_[n] = kept ? kAccepted : kNoCube;
+    }
+    accepted_.set(kAccepted);
+    if (reach_ < kNearestAlone) {
+      keep_if(region, [&](Address a) { return accepted_.test(a); });
+      return;
+    }
+    // The marked corners of a cube are neighbours and end in the same piece, so one stands for all,
+    // and the cube for its points.
     for (const Address cube : marked_)
       cubes_[cube] = accepted_.test(occupied_.lowest_corner(cube, cubes_[cube])) ? 1 : 0;
     cubes_[kAccepted] = 1;
-    for (const int n : spread_) {
-      const auto index = static_cast<std::size_t>(n);
-      const bool kept = for_each_reached(on_lattice(points_[index]),
-                                         [&](Address a) { return accepted_.test(a); });
-      cube_of_[index] = kept ? kAccepted : kNoCube;
-    }
+    keep_if(region, [&](Address a) { return cubes_[a] != 0; });
+  }
+
+  template <class Keep>
+  void keep_if(Region& region, const Keep& keep) const {
     std::size_t kept = 0;  // no branches here: which points are kept is hard to foresee
     region.points.resize(points_.size());
     for (std::size_t n = 0; n < points_.size(); ++n) {
       region.points[kept] = static_cast<int>(n);
-      kept += cubes_[cube_of_[n]];
+      kept += keep(cube_of_[n]);
     }
     region.points.resize(kept);
+  }
+
+  void give_back_cubes() {
+    if (cubes_.size() > kMostSpare) return;
+    for (const Address cube : marked_) cubes_[cube] = 0;
+    if (!cubes_.empty()) cubes_[kNoCube + 1] = 0;
+    if (cubes_.size() > spare_cubes().size()) spare_cubes() = std::move(cubes_);
   }
 
   std::span<const Eigen::Vector3d> points_;
@@ -246,7 +283,7 @@ class FastGrowing {
                                      ///< they are accepted
   std::vector<Address> cube_of_;     ///< each point's cube
   std::vector<Address> marked_;      ///< cubes with a reached corner
-  std::vector<int> spread_;          ///< points that may reach more than the corners of a cube
+  std::vector<std::size_t> spread_;  ///< points that may reach more than the corners of a cube
 };
 
 template <class Scalar>
