@@ -43,6 +43,23 @@ class LatticeBits {
   void set(Address a) { words_[a >> 6] |= std::uint64_t{1} << (a & 63); }
   void clear(Address a) { words_[a >> 6] &= ~(std::uint64_t{1} << (a & 63)); }
 
+  /// One above the greatest address.
+  [[nodiscard]] std::size_t addresses() const { return 64 * words_.size(); }
+
+  /// Sets corners of the cube of 2 x 2 x 2 positions above `cube`: bit 4 di + 2 dj + dk of
+  /// `corners` stands for (di, dj, dk).
+  void set_corners(Address cube, unsigned corners) {
+    set_pair(cube, corners & 3);
+    set_pair(cube + row_, corners >> 2 & 3);
+    set_pair(cube + slab_, corners >> 4 & 3);
+    set_pair(cube + slab_ + row_, corners >> 6 & 3);
+  }
+  /// Address of the lowest of the `corners` (one at least) above `cube`.
+  [[nodiscard]] Address lowest_corner(Address cube, unsigned corners) const {
+    const auto bit = static_cast<Address>(std::countr_zero(corners));
+    return cube + (bit >> 2) * slab_ + (bit >> 1 & 1) * row_ + (bit & 1);
+  }
+
   /// Calls `visit(address)` for the set bits among a position inside the box and its 26 neighbours.
   template <class Visit>
   void for_each_near(Address centre, const Visit& visit) const {
@@ -63,6 +80,12 @@ class LatticeBits {
   }
 
  private:
+  void set_pair(Address a, std::uint64_t pair) {
+    const unsigned shift = a & 63;
+    words_[a >> 6] |= pair << shift;
+    words_[(a >> 6) + 1] |= pair >> 1 >> (63 - shift);
+  }
+
   [[nodiscard]] unsigned three_from(Address a) const {
     const unsigned shift = a & 63;
     std::uint64_t bits = words_[a >> 6] >> shift;

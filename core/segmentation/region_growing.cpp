@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "core/segmentation/lattice_bits.hpp"
-#include "core/segmentation/nearest_positions.hpp"
 #include "core/segmentation/point_extent.hpp"
+#include "core/segmentation/reached_corners.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +19,10 @@
 namespace mapscore {
 namespace {
 
-/// Above this many lattice positions (32 MB of bits) the points lie too far apart for a dense grid.
-constexpr double kMostPositions = 1 << 28;
+/// Above this many lattice positions (64 MB) the points lie too far apart for a dense grid.
+constexpr double kMostPositions = 1 << 26;
+/// Bytes that a thread keeps at most for its next call.
+constexpr std::size_t kMostSpare = 1 << 23;
 
 /// Grows over finite points. Indices here are relative to the grid's low corner. The products with
 /// the inverse pitch only choose which positions are tested, with slack for all rounding; the test
@@ -60,24 +62,31 @@ class FastGrowing {
   [[nodiscard]] Region grow() {
     occupied_ = LatticeBits(low_, size_);
     accepted_ = LatticeBits(low_, size_);
-    full_ = LatticeBits(low_, size_);
-    mark_occupied();
+    cube_of_.resize(points_.size());
+    if (reach_ < kNearestAlone)
+      mark_nearest();
+    else
+      mark_cubes();
+    for (const std::size_t n : spread_) {
+      for_each_reached(n, [&](Address a) {
+        occupied_.set(a);
+        return false;
+      });
+    }
     Region region;
     const std::size_t accepted = flood();
-    if (accepted == 0) return region;
-    region.positions.reserve(accepted);
-    accepted_.for_each([&](Address a) { region.positions.push_back(accepted_.key(a)); });
-    keep_points(region);
+    if (accepted != 0) {
+      region.positions.reserve(accepted);
+      accepted_.for_each([&](Address a) { region.positions.push_back(accepted_.key(a)); });
+      keep_points(region);
+    }
+    give_back_cubes();
     return region;
   }
 
  private:
   using Address = LatticeBits::Address;
   using Index3 = std::array<std::int32_t, 3>;
-
-  // What a point's pass over its positions leaves for the next one, in place of an address.
-  static constexpr Address kNowhere = ~Address{0};     ///< no position reaches it
-  static constexpr Address kUndecided = kNowhere - 1;  ///< positions of two pieces may
 
   /// The point in units of the pitch from the grid's low corner, at least `reach_` + 1 on every
   /// axis.
@@ -123,13 +132,6 @@ class FastGrowing {
     return occupied_.address(at[0], at[1], at[2]);
   }
 
-  [[nodiscard]] static Index3 nearest(const LatticePoint& point) {
-    Index3 at;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      at[axis] = static_cast<std::int32_t>(point.q[axis] + 0.5);
-    return at;
-  }
-
   /// Limits, included, of the positions that may be within reach. Truncation rounds down here.
   [[nodiscard]] std::pair<Index3, Index3> block(const LatticePoint& point) const {
     std::pair<Index3, Index3> limits;
@@ -140,24 +142,65 @@ class FastGrowing {
     return limits;
   }
 
-  /// Marks every position that reaches some point, and notes for each point one that reaches it.
-  void mark_occupied() {
-    reached_.resize(points_.size());
+  /// Marks the nearest position of each point that reaches it.
+  void mark_nearest() {
+    find_nearest_positions(points_, lattice_box(), radius_squared_, cube_of_.data());
+    for (std::size_t n = 0; n < points_.size(); ++n) {
+      if (cube_of_[n] == kManyCubes)
+        spread_.push_back(n);
+      else
+        occupied_.set(cube_of_[n]);
+    }
+    occupied_.clear(kNoCube);
+  }
+
+  /// Gathers per cube of 2 x 2 x 2 positions which of them are reached by its points, and marks
+  /// those.
+  void mark_cubes() {
+    constexpr std::size_t kMost = 1024;  // points at a time, which stay in the cache
+    std::array<std::uint8_t, kMost> corners;
     const LatticeBox box = lattice_box();
-    NearestPositions<Scalar> positions;
-    for (std::size_t first = 0; first < points_.size(); first += positions.kMost) {
-      const std::size_t count = std::min(positions.kMost, points_.size() - first);
-      positions.locate(points_.subspan(first, count), box, radius_squared_);
+    cubes_ = std::exchange(spare_cubes(), {});
+    if (cubes_.size() < occupied_.addresses()) cubes_.resize(occupied_.addresses(), 0);
+    marked_.resize(points_.size());
+    std::size_t marked = 0;  // no branches here: which cubes are new is hard to foresee
+    for (std::size_t first = 0; first < points_.size(); first += kMost) {
+      const std::size_t count = std::min(kMost, points_.size() - first);
+      find_reached_corners(points_.subspan(first, count), box, radius_squared_, &cube_of_[first],
+                           corners.data());
       for (std::size_t n = 0; n < count; ++n) {
-        Address reached = positions.nearest(n);
-        if (reached != kNowhere) occupied_.set(reached);
-        const bool done = reached != kNowhere && positions.cube(n) != kNowhere &&
-                          positions.has_more(n) && full_.test(positions.cube(n));
-        if (positions.has_more(n) && !done)
-          reached = mark_block(on_lattice(points_[first + n]), reached);
-        reached_[first + n] = reached;
+        const Address cube = cube_of_[first + n];
+        if (cube == kManyCubes) {
+          spread_.push_back(first + n);
+          continue;
+        }
+        std::uint8_t& known = cubes_[cube];
+        marked_[marked] = cube;
+        marked += known == 0 && cube != kNoCube;
+        known = static_cast<std::uint8_t>(known | corners[n]);
       }
     }
+    marked_.resize(marked);
+    for (const Address cube : marked_) occupied_.set_corners(cube, cubes_[cube]);
+  }
+
+  /// All zero between calls, so that a grid need not be cleared where no point lies.
+  static std::vector<std::uint8_t>& spare_cubes() {
+    thread_local std::vector<std::uint8_t> spare;
+    return spare;
+  }
+
+  /// Calls `visit(address)` for the positions within reach of a point until it returns true;
+  /// whether it did.
+  template <class Visit>
+  bool for_each_reached(std::size_t n, const Visit& visit) const {
+    const LatticePoint point = on_lattice(points_[n]);
+    const auto [first, last] = block(point);
+    for (std::int32_t i = first[0]; i <= last[0]; ++i)
+      for (std::int32_t j = first[1]; j <= last[1]; ++j)
+        for (std::int32_t k = first[2]; k <= last[2]; ++k)
+          if (reaches({i, j, k}, point) && visit(address({i, j, k}))) return true;
+    return false;
   }
 
   [[nodiscard]] LatticeBox lattice_box() const {
@@ -171,34 +214,6 @@ class FastGrowing {
     box.stride = {occupied_.address(1, 0, 0) - occupied_.address(0, 0, 0),
                   occupied_.address(0, 1, 0) - occupied_.address(0, 0, 0)};
     return box;
-  }
-
-  /// Marks the block of a point whose nearest position is done; what to note for the point.
-  /// Positions within a block of 2 x 2 x 2 are neighbours and end in the same piece, so one stands
-  /// for all.
-  [[nodiscard]] Address mark_block(const LatticePoint& point, Address reached) {
-    const auto [first, last] = block(point);
-    const Index3 steps{last[0] - first[0], last[1] - first[1], last[2] - first[2]};
-    const auto [least, most] = std::minmax({steps[0], steps[1], steps[2]});
-    const bool compact = most <= 1, cube = compact && least == 1;
-    const bool known = reached != kNowhere;
-    bool full = true;
-    for (std::int32_t i = first[0]; i <= last[0]; ++i) {
-      for (std::int32_t j = first[1]; j <= last[1]; ++j) {
-        for (std::int32_t k = first[2]; k <= last[2]; ++k) {
-          const Address a = occupied_.address(i, j, k);
-          if (known && occupied_.test(a)) continue;
-          if (!reaches({i, j, k}, point)) {
-            full = full && occupied_.test(a);
-            continue;
-          }
-          occupied_.set(a);
-          reached = a;
-        }
-      }
-    }
-    if (cube && full) full_.set(address(first));
-    return compact || reached == kNowhere ? reached : kUndecided;
   }
 
   /// Moves the piece that holds the seed's position from occupied to accepted; its size.
@@ -219,30 +234,41 @@ class FastGrowing {
     return queue.size();
   }
 
-  void keep_points(Region& region) const {
+  void keep_points(Region& region) {
+    constexpr Address kAccepted = kNoCube + 1;  // both lie in the margin
+    for (const std::size_t n : spread_) {
+      const bool kept = for_each_reached(n, [&](Address a) { return accepted_.test(a); });
+      cube_of_[n] = kept ? kAccepted : kNoCube;
+    }
+    accepted_.set(kAccepted);
+    if (reach_ < kNearestAlone) {
+      keep_if(region, [&](Address a) { return accepted_.test(a); });
+      return;
+    }
+    // The marked corners of a cube are neighbours and end in the same piece, so one stands for all,
+    // and the cube for its points.
+    for (const Address cube : marked_)
+      cubes_[cube] = accepted_.test(occupied_.lowest_corner(cube, cubes_[cube])) ? 1 : 0;
+    cubes_[kAccepted] = 1;
+    keep_if(region, [&](Address a) { return cubes_[a] != 0; });
+  }
+
+  template <class Keep>
+  void keep_if(Region& region, const Keep& keep) const {
     std::size_t kept = 0;  // no branches here: which points are kept is hard to foresee
     region.points.resize(points_.size());
     for (std::size_t n = 0; n < points_.size(); ++n) {
-      const Address a = reached_[n];
       region.points[kept] = static_cast<int>(n);
-      kept +=
-          a < kUndecided ? accepted_.test(a) : a == kUndecided && reached_by_accepted(points_[n]);
+      kept += keep(cube_of_[n]);
     }
     region.points.resize(kept);
   }
 
-  [[nodiscard]] bool reached_by_accepted(const Eigen::Vector3d& p) const {
-    const LatticePoint point = on_lattice(p);
-    const auto accepted = [&](const Index3& at) {
-      return accepted_.test(address(at)) && reaches(at, point);
-    };
-    if (accepted(nearest(point))) return true;
-    const auto [first, last] = block(point);
-    for (std::int32_t i = first[0]; i <= last[0]; ++i)
-      for (std::int32_t j = first[1]; j <= last[1]; ++j)
-        for (std::int32_t k = first[2]; k <= last[2]; ++k)
-          if (accepted({i, j, k})) return true;
-    return false;
+  void give_back_cubes() {
+    if (cubes_.size() > kMostSpare) return;
+    for (const Address cube : marked_) cubes_[cube] = 0;
+    if (!cubes_.empty()) cubes_[kNoCube + 1] = 0;
+    if (cubes_.size() > spare_cubes().size()) spare_cubes() = std::move(cubes_);
   }
 
   std::span<const Eigen::Vector3d> points_;
@@ -253,8 +279,11 @@ class FastGrowing {
   Index3 low_{}, size_{};
   std::array<std::vector<Scalar>, 3> coordinates_;  ///< of the positions, along each axis
   LatticeBits occupied_, accepted_;
-  LatticeBits full_;  ///< low corners of the 2 x 2 x 2 blocks that are occupied throughout
-  std::vector<Address> reached_;
+  std::vector<std::uint8_t> cubes_;  ///< by low corner: the corners that are reached; then, whether
+                                     ///< they are accepted
+  std::vector<Address> cube_of_;     ///< each point's cube
+  std::vector<Address> marked_;      ///< cubes with a reached corner
+  std::vector<std::size_t> spread_;  ///< points that may reach more than the corners of a cube
 };
 
 template <class Scalar>
