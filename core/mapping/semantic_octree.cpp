@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::int32_t kOctreeOffset = 1 << 15;
 /// In a node's number of classes: a sum of colours follows them.
-constexpr std::uint16_t kHasColour = 0x8000;
 constexpr const char* kMisfit = "its data do not fit its header; write it again";
 
 template <class T>

@@ -15,6 +15,7 @@
 #include <octomap/OccupancyOcTreeBase.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <iosfwd>
 #include <memory>
 #include <string>
@@ -24,6 +25,9 @@ namespace mapscore {
 
 /// Most finest voxels that the leaves of a map file may cover; damaged leaves can ask for 2^48.
 inline constexpr std::size_t kMostMapVoxels = 50'000'000;
+
+/// In a file, the bit of a voxel's number of classes that says that its colour follows them.
+inline constexpr std::uint16_t kHasColour = 0x8000;
 
 /// Voxel of a semantic map: occupancy log-odds (OctoMap's), and where a surface was seen its mean
 /// colour and what is believed of its class. Free voxels, which are most of a carved map, hold

@@ -4,6 +4,7 @@
 #include "eval/map_files/octree_leaves.hpp"
 
 #include "core/mapping/class_beliefs.hpp"
+#include "core/mapping/semantic_octree.hpp"
 #include "eval/map_files/refusal.hpp"
 
 #include <fmt/format.h>
@@ -122,13 +123,15 @@ class NodeReader {
   }
 
   void take_best_class(OctreeLeaf& leaf) {
-    std::vector<ClassProbability> entries(take<std::uint16_t>());
+    const auto head = take<std::uint16_t>();
+    std::vector<ClassProbability> entries(head & ~kHasColour);
     for (ClassProbability& entry : entries) {
       entry.class_id = take<ClassId>();
       entry.probability = take<double>();
       if (!(entry.probability >= 0.0) || !std::isfinite(entry.probability))
         damaged(fmt::format("node {} has a class of weight {}", nodes_, entry.probability));
     }
+    if (head & kHasColour) pass_colour();
     const ClassProbability best = ClassBeliefs(std::move(entries)).best();
     if (best.probability > 1.0 + kRounding)
       damaged(fmt::format("node {} has a class of probability {}", nodes_, best.probability));

@@ -290,7 +290,9 @@ TEST_F(OctreeFile, RefusesDamagedNodes) {
     put<ClassId>(node, 3);
     put(node, probability);
     node.push_back('\0');
-    expect_refusal(header("SemanticOcTree", 1) + node, "node 1 has a class of probability");
+    expect_refusal(header("SemanticOcTree", 1) + node, probability == 1.5
+                                                           ? "node 1 has a class of probability 1.5"
+                                                           : "node 1 has a class of weight");
   }
 }
 
