@@ -8,43 +8,39 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace mapscore {
 
 /// One bit for each position of a box of lattice indices, with an empty margin of one position on
 /// every side, so that the 26 neighbours of a position need no bounds check. Addresses ascend with
-/// i, then j, then k.
+/// i, then j, then k; each row along k starts with a word of its own.
 class LatticeBits {
  public:
   using Address = std::uint32_t;
 
   LatticeBits() = default;
   /// Positions low .. low + extent - 1 on each axis; all bits clear. (extent + 2) multiplied over
-  /// the axes must fit an Address.
+  /// the axes, the last rounded up to a multiple of 64, must fit an Address.
   LatticeBits(const std::array<std::int32_t, 3>& low, const std::array<std::int32_t, 3>& extent)
       : low_(low),
-        row_(static_cast<Address>(extent[2]) + 2),
+        extent_(extent),
+        row_((static_cast<Address>(extent[2]) + 2 + 63) / 64 * 64),
         slab_(row_ * (static_cast<Address>(extent[1]) + 2)),
-        words_((std::size_t{slab_} * (static_cast<Address>(extent[0]) + 2) + 63) / 64 + 1, 0) {}
+        words_(std::size_t{slab_} * (static_cast<Address>(extent[0]) + 2) / 64 + 1, 0) {}
 
   /// Address of a position given relative to `low`; -1 and extent lie in the margin.
   [[nodiscard]] Address address(std::int32_t i, std::int32_t j, std::int32_t k) const {
     return static_cast<Address>(i + 1) * slab_ + static_cast<Address>(j + 1) * row_ +
            static_cast<Address>(k + 1);
   }
-  [[nodiscard]] VoxelKey key(Address address) const {
-    const auto index = [](Address a) { return static_cast<std::int32_t>(a) - 1; };
-    return {low_[0] + index(address / slab_), low_[1] + index(address % slab_ / row_),
-            low_[2] + index(address % row_)};
-  }
+  /// One above the greatest address.
+  [[nodiscard]] std::size_t addresses() const { return 64 * words_.size(); }
 
   [[nodiscard]] bool test(Address a) const { return (words_[a >> 6] >> (a & 63) & 1) != 0; }
   void set(Address a) { words_[a >> 6] |= std::uint64_t{1} << (a & 63); }
   void clear(Address a) { words_[a >> 6] &= ~(std::uint64_t{1} << (a & 63)); }
-
-  /// One above the greatest address.
-  [[nodiscard]] std::size_t addresses() const { return 64 * words_.size(); }
 
   /// Sets corners of the cube of 2 x 2 x 2 positions above `cube`: bit 4 di + 2 dj + dk of
   /// `corners` stands for (di, dj, dk).
@@ -60,23 +56,56 @@ class LatticeBits {
     return cube + (bit >> 2) * slab_ + (bit >> 1 & 1) * row_ + (bit & 1);
   }
 
-  /// Calls `visit(address)` for the set bits among a position inside the box and its 26 neighbours.
-  template <class Visit>
-  void for_each_near(Address centre, const Visit& visit) const {
-    for (Address slab = centre - slab_; slab <= centre + slab_; slab += slab_) {
-      for (Address middle = slab - row_; middle <= slab + row_; middle += row_) {
-        for (unsigned bits = three_from(middle - 1); bits != 0; bits &= bits - 1)
-          visit(middle - 1 + static_cast<Address>(std::countr_zero(bits)));
+  /// Moves the piece (of 26 neighbours) that holds `seed`, whose bit must be set, to `piece`, which
+  /// has the same box; how many positions it has. Whole words at a time.
+  std::size_t move_piece(Address seed, LatticeBits& piece) {
+    std::vector<std::pair<std::size_t, std::uint64_t>>
+        moved;  // of which neighbours are to be asked
+    std::size_t count = 0;
+    const auto take = [&](std::size_t word, std::uint64_t bits) {
+      std::uint64_t& left = words_[word];
+      bits &= left;
+      if (bits == 0) return;
+      for (std::uint64_t before = 0; before != bits;) {  // the runs that the bits lie in
+        before = bits;
+        bits |= (bits << 1 | bits >> 1) & left;
+      }
+      left &= ~bits;
+      piece.words_[word] |= bits;
+      count += static_cast<std::size_t>(std::popcount(bits));
+      moved.emplace_back(word, bits);
+    };
+    const std::size_t row = row_ / 64, slab = slab_ / 64;
+    take(seed >> 6, std::uint64_t{1} << (seed & 63));
+    while (!moved.empty()) {
+      const auto [centre, bits] = moved.back();
+      moved.pop_back();
+      const std::uint64_t near = bits | bits << 1 | bits >> 1;
+      for (std::size_t middle = centre - slab; middle <= centre + slab; middle += slab) {
+        for (std::size_t word = middle - row; word <= middle + row; word += row) {
+          take(word, near);
+          if ((bits & 1) != 0) take(word - 1, std::uint64_t{1} << 63);
+          if (bits >> 63 != 0) take(word + 1, 1);
+        }
       }
     }
+    return count;
   }
 
-  /// Calls `visit(address)` for all set bits, ascending.
+  /// Calls `visit(key)` for the positions whose bits are set, ascending.
   template <class Visit>
   void for_each(const Visit& visit) const {
-    for (std::size_t word = 0; word < words_.size(); ++word)
-      for (std::uint64_t bits = words_[word]; bits != 0; bits &= bits - 1)
-        visit(static_cast<Address>(64 * word + static_cast<std::size_t>(std::countr_zero(bits))));
+    for (std::int32_t i = 0; i < extent_[0]; ++i) {
+      for (std::int32_t j = 0; j < extent_[1]; ++j) {
+        const Address row = address(i, j, -1);
+        for (Address first = 0; first < row_; first += 64) {
+          for (std::uint64_t bits = words_[(row + first) >> 6]; bits != 0; bits &= bits - 1) {
+            const auto k = static_cast<std::int32_t>(first) + std::countr_zero(bits) - 1;
+            visit(VoxelKey{low_[0] + i, low_[1] + j, low_[2] + k});
+          }
+        }
+      }
+    }
   }
 
  private:
@@ -86,14 +115,7 @@ class LatticeBits {
     words_[(a >> 6) + 1] |= pair >> 1 >> (63 - shift);
   }
 
-  [[nodiscard]] unsigned three_from(Address a) const {
-    const unsigned shift = a & 63;
-    std::uint64_t bits = words_[a >> 6] >> shift;
-    if (shift > 61) bits |= words_[(a >> 6) + 1] << (64 - shift);
-    return static_cast<unsigned>(bits & 7);
-  }
-
-  std::array<std::int32_t, 3> low_{};
+  std::array<std::int32_t, 3> low_{}, extent_{};
   Address row_ = 0, slab_ = 0;
   std::vector<std::uint64_t> words_;
 };

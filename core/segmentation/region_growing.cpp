@@ -48,7 +48,8 @@ class FastGrowing {
     const Eigen::Array3d low = ((extent.low - seed_.array()) / pitch_m_ - reach_).floor() - 1.0;
     const Eigen::Array3d high = ((extent.high - seed_.array()) / pitch_m_ + reach_).ceil() + 1.0;
     const Eigen::Array3d size = high - low + 1.0;
-    if ((size + 2.0).prod() > kMostPositions || !(low.abs() < 1e9).all() || slack > 1.0)
+    const double rows = (size[0] + 2.0) * (size[1] + 2.0);
+    if (rows * (size[2] + 65.0) > kMostPositions || !(low.abs() < 1e9).all() || slack > 1.0)
       return false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<Eigen::Index>(axis);
@@ -77,7 +78,7 @@ class FastGrowing {
     const std::size_t accepted = flood();
     if (accepted != 0) {
       region.positions.reserve(accepted);
-      accepted_.for_each([&](Address a) { region.positions.push_back(accepted_.key(a)); });
+      accepted_.for_each([&](const VoxelKey& key) { region.positions.push_back(key); });
       keep_points(region);
     }
     give_back_cubes();
@@ -218,20 +219,12 @@ class FastGrowing {
 
   /// Moves the piece that holds the seed's position from occupied to accepted; its size.
   std::size_t flood() {
-    std::vector<Address> queue;
-    const auto accept = [&](Address a) {
-      occupied_.clear(a);
-      accepted_.set(a);
-      queue.push_back(a);
-    };
     const Index3 seed{-low_[0], -low_[1], -low_[2]};
     bool inside = true;
     for (std::size_t axis = 0; axis < 3; ++axis)
       inside = inside && seed[axis] >= 0 && seed[axis] < size_[axis];
-    if (inside && occupied_.test(address(seed))) accept(address(seed));
-    for (std::size_t next = 0; next < queue.size(); ++next)
-      occupied_.for_each_near(queue[next], accept);
-    return queue.size();
+    if (!inside || !occupied_.test(address(seed))) return 0;
+    return occupied_.move_piece(address(seed), accepted_);
   }
 
   void keep_points(Region& region) {
