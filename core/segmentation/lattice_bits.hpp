@@ -20,15 +20,15 @@ class LatticeBits {
  public:
   using Address = std::uint32_t;
 
-  LatticeBits() = default;
-  /// Positions low .. low + extent - 1 on each axis; all bits clear. (extent + 2) multiplied over
-  /// the axes, the last rounded up to a multiple of 64, must fit an Address.
-  LatticeBits(const std::array<std::int32_t, 3>& low, const std::array<std::int32_t, 3>& extent)
-      : low_(low),
-        extent_(extent),
-        row_((static_cast<Address>(extent[2]) + 2 + 63) / 64 * 64),
-        slab_(row_ * (static_cast<Address>(extent[1]) + 2)),
-        words_(std::size_t{slab_} * (static_cast<Address>(extent[0]) + 2) / 64 + 1, 0) {}
+  /// Lays the box anew: positions low .. low + extent - 1 on each axis; all bits clear. (extent +
+  /// 2) multiplied over the axes, the last rounded up to a multiple of 64, must fit an Address.
+  void lay(const std::array<std::int32_t, 3>& low, const std::array<std::int32_t, 3>& extent) {
+    low_ = low;
+    extent_ = extent;
+    row_ = (static_cast<Address>(extent[2]) + 2 + 63) / 64 * 64;
+    slab_ = row_ * (static_cast<Address>(extent[1]) + 2);
+    words_.assign(std::size_t{slab_} * (static_cast<Address>(extent[0]) + 2) / 64 + 1, 0);
+  }
 
   /// Address of a position given relative to `low`; -1 and extent lie in the margin.
   [[nodiscard]] Address address(std::int32_t i, std::int32_t j, std::int32_t k) const {

@@ -4,6 +4,7 @@
 #include "core/segmentation/region_growing.hpp"
 
 #include "core/error.hpp"
+#include "core/segmentation/growing_workspace.hpp"
 #include "core/segmentation/lattice_bits.hpp"
 #include "core/segmentation/point_extent.hpp"
 #include "core/segmentation/reached_corners.hpp"
@@ -21,8 +22,6 @@ namespace {
 
 /// Above this many lattice positions (64 MB) the points lie too far apart for a dense grid.
 constexpr double kMostPositions = 1 << 26;
-/// Bytes that a thread keeps at most for its next call.
-constexpr std::size_t kMostSpare = 1 << 23;
 
 /// Grows over finite points. Indices here are relative to the grid's low corner. The products with
 /// the inverse pitch only choose which positions are tested, with slack for all rounding; the test
@@ -47,10 +46,8 @@ class FastGrowing {
     reach_ = factor_ + slack;
     const Eigen::Array3d low = ((extent.low - seed_.array()) / pitch_m_ - reach_).floor() - 1.0;
     const Eigen::Array3d high = ((extent.high - seed_.array()) / pitch_m_ + reach_).ceil() + 1.0;
-    const Eigen::Array3d size = high - low + 1.0;
-    const double rows = (size[0] + 2.0) * (size[1] + 2.0);
-    if (rows * (size[2] + 65.0) > kMostPositions || !(low.abs() < 1e9).all() || slack > 1.0)
-      return false;
+    const Eigen::Array3d size = high - low + 1.0, padded = size + Eigen::Array3d(2.0, 2.0, 65.0);
+    if (padded.prod() > kMostPositions || !(low.abs() < 1e9).all() || slack > 1.0) return false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<Eigen::Index>(axis);
       low_[axis] = static_cast<std::int32_t>(low[a]);
@@ -61,27 +58,25 @@ class FastGrowing {
   }
 
   [[nodiscard]] Region grow() {
-    occupied_ = LatticeBits(low_, size_);
-    accepted_ = LatticeBits(low_, size_);
-    cube_of_.resize(points_.size());
+    work_.occupied.lay(low_, size_);
+    work_.accepted.lay(low_, size_);
+    work_.marked.clear();
+    work_.spread.clear();
+    work_.cube_of.resize(points_.size());
     if (reach_ < kNearestAlone)
       mark_nearest();
     else
       mark_cubes();
-    for (const std::size_t n : spread_) {
-      for_each_reached(n, [&](Address a) {
-        occupied_.set(a);
-        return false;
-      });
-    }
+    for (const std::size_t n : work_.spread)
+      for_each_reached(n, [&](Address a) { return work_.occupied.set(a), false; });
     Region region;
     const std::size_t accepted = flood();
     if (accepted != 0) {
       region.positions.reserve(accepted);
-      accepted_.for_each([&](const VoxelKey& key) { region.positions.push_back(key); });
+      work_.accepted.for_each([&](const VoxelKey& key) { region.positions.push_back(key); });
       keep_points(region);
     }
-    give_back_cubes();
+    GrowingWorkspace::give_back(std::move(work_));
     return region;
   }
 
@@ -130,7 +125,7 @@ class FastGrowing {
   }
 
   [[nodiscard]] Address address(const Index3& at) const {
-    return occupied_.address(at[0], at[1], at[2]);
+    return work_.occupied.address(at[0], at[1], at[2]);
   }
 
   /// Limits, included, of the positions that may be within reach. Truncation rounds down here.
@@ -145,14 +140,14 @@ class FastGrowing {
 
   /// Marks the nearest position of each point that reaches it.
   void mark_nearest() {
-    find_nearest_positions(points_, lattice_box(), radius_squared_, cube_of_.data());
+    find_nearest_positions(points_, lattice_box(), radius_squared_, work_.cube_of.data());
     for (std::size_t n = 0; n < points_.size(); ++n) {
-      if (cube_of_[n] == kManyCubes)
-        spread_.push_back(n);
+      if (work_.cube_of[n] == kManyCubes)
+        work_.spread.push_back(n);
       else
-        occupied_.set(cube_of_[n]);
+        work_.occupied.set(work_.cube_of[n]);
     }
-    occupied_.clear(kNoCube);
+    work_.occupied.clear(kNoCube);
   }
 
   /// Gathers per cube of 2 x 2 x 2 positions which of them are reached by its points, and marks
@@ -161,34 +156,26 @@ class FastGrowing {
     constexpr std::size_t kMost = 1024;  // points at a time, which stay in the cache
     std::array<std::uint8_t, kMost> corners;
     const LatticeBox box = lattice_box();
-    cubes_ = std::exchange(spare_cubes(), {});
-    if (cubes_.size() < occupied_.addresses()) cubes_.resize(occupied_.addresses(), 0);
-    marked_.resize(points_.size());
+    if (work_.cubes.size() < work_.occupied.addresses())
+      work_.cubes.resize(work_.occupied.addresses(), 0);
+    work_.marked.resize(points_.size());
     std::size_t marked = 0;  // no branches here: which cubes are new is hard to foresee
     for (std::size_t first = 0; first < points_.size(); first += kMost) {
       const std::size_t count = std::min(kMost, points_.size() - first);
-      find_reached_corners(points_.subspan(first, count), box, radius_squared_, &cube_of_[first],
-                           corners.data());
+      find_reached_corners(points_.subspan(first, count), box, radius_squared_,
+                           &work_.cube_of[first], corners.data());
       for (std::size_t n = 0; n < count; ++n) {
-        const Address cube = cube_of_[first + n];
-        if (cube == kManyCubes) {
-          spread_.push_back(first + n);
-          continue;
-        }
-        std::uint8_t& known = cubes_[cube];
-        marked_[marked] = cube;
+        const Address cube = work_.cube_of[first + n];
+        if (cube == kManyCubes) work_.spread.push_back(first + n);
+        if (cube == kManyCubes) continue;
+        std::uint8_t& known = work_.cubes[cube];
+        work_.marked[marked] = cube;
         marked += known == 0 && cube != kNoCube;
         known = static_cast<std::uint8_t>(known | corners[n]);
       }
     }
-    marked_.resize(marked);
-    for (const Address cube : marked_) occupied_.set_corners(cube, cubes_[cube]);
-  }
-
-  /// All zero between calls, so that a grid need not be cleared where no point lies.
-  static std::vector<std::uint8_t>& spare_cubes() {
-    thread_local std::vector<std::uint8_t> spare;
-    return spare;
+    work_.marked.resize(marked);
+    for (const Address cube : work_.marked) work_.occupied.set_corners(cube, work_.cubes[cube]);
   }
 
   /// Calls `visit(address)` for the positions within reach of a point until it returns true;
@@ -212,8 +199,8 @@ class FastGrowing {
     }
     box.pitch_m = pitch_m_;
     box.reach = reach_;
-    box.stride = {occupied_.address(1, 0, 0) - occupied_.address(0, 0, 0),
-                  occupied_.address(0, 1, 0) - occupied_.address(0, 0, 0)};
+    box.stride = {work_.occupied.address(1, 0, 0) - work_.occupied.address(0, 0, 0),
+                  work_.occupied.address(0, 1, 0) - work_.occupied.address(0, 0, 0)};
     return box;
   }
 
@@ -223,27 +210,29 @@ class FastGrowing {
     bool inside = true;
     for (std::size_t axis = 0; axis < 3; ++axis)
       inside = inside && seed[axis] >= 0 && seed[axis] < size_[axis];
-    if (!inside || !occupied_.test(address(seed))) return 0;
-    return occupied_.move_piece(address(seed), accepted_);
+    if (!inside || !work_.occupied.test(address(seed))) return 0;
+    return work_.occupied.move_piece(address(seed), work_.accepted);
   }
 
   void keep_points(Region& region) {
     constexpr Address kAccepted = kNoCube + 1;  // both lie in the margin
-    for (const std::size_t n : spread_) {
-      const bool kept = for_each_reached(n, [&](Address a) { return accepted_.test(a); });
-      cube_of_[n] = kept ? kAccepted : kNoCube;
+    for (const std::size_t n : work_.spread) {
+      const bool kept = for_each_reached(n, [&](Address a) { return work_.accepted.test(a); });
+      work_.cube_of[n] = kept ? kAccepted : kNoCube;
     }
-    accepted_.set(kAccepted);
+    work_.accepted.set(kAccepted);
     if (reach_ < kNearestAlone) {
-      keep_if(region, [&](Address a) { return accepted_.test(a); });
+      keep_if(region, [&](Address a) { return work_.accepted.test(a); });
       return;
     }
     // The marked corners of a cube are neighbours and end in the same piece, so one stands for all,
     // and the cube for its points.
-    for (const Address cube : marked_)
-      cubes_[cube] = accepted_.test(occupied_.lowest_corner(cube, cubes_[cube])) ? 1 : 0;
-    cubes_[kAccepted] = 1;
-    keep_if(region, [&](Address a) { return cubes_[a] != 0; });
+    for (const Address cube : work_.marked)
+      work_.cubes[cube] =
+          work_.accepted.test(work_.occupied.lowest_corner(cube, work_.cubes[cube])) ? 1 : 0;
+    work_.cubes[kAccepted] = 1;
+    keep_if(region, [&](Address a) { return work_.cubes[a] != 0; });
+    work_.cubes[kAccepted] = 0;
   }
 
   template <class Keep>
@@ -252,16 +241,9 @@ class FastGrowing {
     region.points.resize(points_.size());
     for (std::size_t n = 0; n < points_.size(); ++n) {
       region.points[kept] = static_cast<int>(n);
-      kept += keep(cube_of_[n]);
+      kept += keep(work_.cube_of[n]);
     }
     region.points.resize(kept);
-  }
-
-  void give_back_cubes() {
-    if (cubes_.size() > kMostSpare) return;
-    for (const Address cube : marked_) cubes_[cube] = 0;
-    if (!cubes_.empty()) cubes_[kNoCube + 1] = 0;
-    if (cubes_.size() > spare_cubes().size()) spare_cubes() = std::move(cubes_);
   }
 
   std::span<const Eigen::Vector3d> points_;
@@ -271,12 +253,7 @@ class FastGrowing {
   double reach_ = 0.0;  ///< search radius in pitches, with slack
   Index3 low_{}, size_{};
   std::array<std::vector<Scalar>, 3> coordinates_;  ///< of the positions, along each axis
-  LatticeBits occupied_, accepted_;
-  std::vector<std::uint8_t> cubes_;  ///< by low corner: the corners that are reached; then, whether
-                                     ///< they are accepted
-  std::vector<Address> cube_of_;     ///< each point's cube
-  std::vector<Address> marked_;      ///< cubes with a reached corner
-  std::vector<std::size_t> spread_;  ///< points that may reach more than the corners of a cube
+  GrowingWorkspace work_ = GrowingWorkspace::take();
 };
 
 template <class Scalar>
