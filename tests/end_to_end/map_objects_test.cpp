@@ -29,7 +29,7 @@ TEST_F(MapObjects, WritesWhatItFoundAndScoresIt) {
   EXPECT_EQ(outcome.err, "");
   EXPECT_THAT(outcome.out, ::testing::StartsWith("class,truth,found,missed,false,"));
   EXPECT_THAT(outcome.out, HasSubstr("\ncrate,1,1,0,0,"));
-  EXPECT_THAT(bytes_of(path("map/objects.yaml")), HasSubstr("class: crate"));
+  EXPECT_THAT(bytes_of(path("map/objects.yaml")), HasSubstr("class: \"crate\""));
   EXPECT_THAT(bytes_of(path("map/objects.ply")), ::testing::StartsWith("ply\n"));
   EXPECT_THAT(bytes_of(path("map/objects.xml")), HasSubstr("crate_1"));
   expect_done(map(path("tiny"), "text"));

@@ -22,9 +22,9 @@ class TinyObjects : public testing::TinyExperiment {
   [[nodiscard]] ObjectFile mapped(const std::string& lines, const ObjectFile& known = {},
                                   ObjectRunOptions options = {}) {
     options.map.visibility.min_pixels = 30;  // of 64 x 48
-    const Study study = study_of("map_origin_m: [0, 0, 0]\n" + lines);
+    const Study study = study_of(lines + "map_origin_m: [0, 0, 0]\n");
     const Plan planned = plan(study);
-    const Task& task = planned.tasks[planned.trials[0].task];
+    const Task& task = planned.tasks[planned.trials.back().task];  // last method
     PoseSources poses(recording());
     ObjectRun run(task, recording(), table(), poses, options);
     run.start_from(known);
@@ -54,16 +54,19 @@ TEST_F(TinyObjects, TheCrateIsFoundWhereItStands) {
   ASSERT_EQ(file.objects.size(), 1u);
   EXPECT_EQ(file.objects.front().observations, 4);
   EXPECT_EQ(scores().found, 1);
-  EXPECT_LT(scores().centre_max_m, 0.15);  // the back is never seen
+  EXPECT_LT(scores().centre_max_m, 0.22);  // half its depth: the back is never seen
 }
 
 TEST_F(TinyObjects, BoxesOfAllPiecesReachToTheWall) {
   ObjectRunOptions all;
   all.piece_m = 1000.0;
   all.map.update.rule = BoxUpdate::hull;
-  const double far_x = mapped("", {}, all).objects.at(0).box.bounds().max().x();
-  EXPECT_GT(far_x, 2.9);  // the wall's 3.011
-  EXPECT_LT(mapped("").objects.at(0).box.bounds().max().x(), 2.1);
+  const std::string shifted = "faults: {misregistration: {magnitude_m: 0.1}}\n";
+  const auto far_x = [](const ObjectFile& file) {
+    return file.objects.at(0).box.bounds().max().x();
+  };
+  EXPECT_GT(far_x(mapped(shifted, {}, all)), 2.9);  // the wall's 3.011
+  EXPECT_LT(far_x(mapped(shifted)), 2.1);
 }
 
 TEST_F(TinyObjects, WhatWasTakenAwayGoesAndWhatIsHiddenStays) {

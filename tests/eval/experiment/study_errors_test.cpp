@@ -64,8 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"far_off", "fusion: {blend: {weight: 1}}\n",
                 "6: fusion.blend.weight: unknown key 'weight'; write one of K, N, noise_at, "
                 "covariance, decay"},
-        BadLine{"perception_kind", "perception: guessed\n",
-                "6: perception: unknown kind 'guessed'; write one of labels, simulated"},
+        BadLine{"perception_kind", "perception: {guessed: {}}\n",
+                "6: perception.guessed: unknown kind 'guessed'; write one of labels, simulated"},
         BadLine{"perception_at_an_offset",
                 "faults: {time_offset_ms: 20}\nperception: {simulated: {}}\n",
                 "6: faults.time_offset_ms: stands beside simulated perception, which sees the "
