@@ -44,8 +44,7 @@ void SemanticMap::decay_in_view(const DepthView& view, const BlendRule& rule,
       if (view.sees(key, edge_m_) && !is_hit(hits, key)) in_view.push_back(key);
     }
   }
-  for (const VoxelKey& key : in_view)
-    decay(rule, tree_->finest(octree_key(key)).mutable_beliefs());
+  for (const VoxelKey& key : in_view) decay(rule, tree_->finest(octree_key(key)).mutable_beliefs());
 }
 
 }  // namespace mapscore
