@@ -3,11 +3,9 @@
 
 #pragma once
 
-#include "core/geometry/camera.hpp"
 #include "core/geometry/pose.hpp"
+#include "core/geometry/posed_depth.hpp"
 #include "core/geometry/voxel.hpp"
-
-#include <opencv2/core.hpp>
 
 #include <Eigen/Geometry>
 
@@ -16,10 +14,8 @@ namespace mapscore {
 /// What one depth image says of the space in its frustum. Immutable, safe to share between threads.
 class DepthView {
  public:
-  /// `depth` in units of kDepthUnitsPerMetre, range as Calibration's (metres). Throws Error when
-  /// the image has another size than its camera.
-  DepthView(const cv::Mat1w& depth, const CameraModel& camera, const Pose& T_map_depth,
-            double range_min_m, double range_max_m);
+  /// Throws Error as check(PosedDepth).
+  explicit DepthView(PosedDepth seen);
 
   /// Whether a voxel is in view: its centre has planar z within the range, limits included,
   /// projects into the image, onto a pixel that has a depth, and lies at most one edge behind that
@@ -30,10 +26,8 @@ class DepthView {
   [[nodiscard]] Eigen::AlignedBox3d box(double edge_m) const;
 
  private:
-  cv::Mat1w depth_;
-  CameraModel camera_;
-  Pose T_map_depth_, T_depth_map_;
-  double range_min_m_, range_max_m_;
+  PosedDepth seen_;
+  Pose T_camera_map_;
 };
 
 }  // namespace mapscore

@@ -3,8 +3,8 @@
 
 #pragma once
 
+#include "core/geometry/posed_depth.hpp"
 #include "core/objects/object_box.hpp"
-#include "core/objects/posed_depth.hpp"
 
 namespace mapscore {
 

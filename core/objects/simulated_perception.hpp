@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "core/geometry/posed_depth.hpp"
 #include "core/objects/object_box.hpp"
-#include "core/objects/posed_depth.hpp"
 #include "core/segmentation/registered_cloud.hpp"
 
 #include <opencv2/core.hpp>

@@ -7,6 +7,7 @@
 #include "eval/experiment/drive_settings.hpp"
 #include "eval/experiment/fusion_settings.hpp"
 #include "eval/experiment/localization_settings.hpp"
+#include "eval/experiment/occupancy_settings.hpp"
 #include "eval/experiment/perception_settings.hpp"
 #include "eval/experiment/refinement_settings.hpp"
 #include "sim/faults/depth_dose.hpp"
@@ -96,14 +97,6 @@ struct MethodSettings {
   RefinementSettings refinement{};
 
   bool operator==(const MethodSettings&) const = default;
-};
-
-/// Free space, where the map carves it; the numbers are OccupancyModel's.
-struct OccupancySettings {
-  bool carve = false;
-  double hit = 0.7, miss = 0.4, clamp_min = 0.1192, clamp_max = 0.971;
-  std::optional<double> max_range_m;
-  bool operator==(const OccupancySettings&) const = default;
 };
 
 /// T_believed_color_depth = E * T_color_depth, and wrong intrinsics of the colour camera.

@@ -134,8 +134,8 @@ void TrialRun::advance(const Frame& frame) {
 void TrialRun::decay(const cv::Mat1w& depth, int frame, std::span<const VoxelHit> hits) {
   const auto* blend = std::get_if<BlendRule>(&fusion_.rule);
   if (blend == nullptr || blend->decay != Decay::view) return;
-  map_.decay_in_view(DepthView(depth, believed_.depth, mean_sensor_pose(frame),
-                               believed_.range_min_m, believed_.range_max_m),
+  map_.decay_in_view(DepthView({believed_.depth, mean_sensor_pose(frame), believed_.range_min_m,
+                                believed_.range_max_m, depth}),
                      *blend, hits);
 }
 

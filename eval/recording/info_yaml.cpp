@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 
 namespace mapscore::eval {
@@ -60,17 +59,6 @@ Pose pose_at(const YamlValue& root, const std::string& key) {
   return *pose;
 }
 
-Colour colour_of(const YamlValue& value) {
-  const std::string text = value.text();
-  std::uint32_t rgb = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, rgb, 16);
-  if (text.size() != 6 || error != std::errc() || stop != end)
-    value.refuse("expected a colour as six hexadecimal digits, \"RRGGBB\"");
-  return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255),
-          static_cast<std::uint8_t>(rgb & 255)};
-}
-
 /// Ids stand in order without gaps, so the n-th entry has id n.
 std::uint16_t id_of(const YamlValue& item, std::size_t expected) {
   if (expected > std::numeric_limits<std::uint16_t>::max()) item.refuse("more than 65536 entries");
@@ -81,8 +69,8 @@ std::vector<SemanticClass> classes_of(const YamlValue& value) {
   std::vector<SemanticClass> classes;
   for (const YamlValue& item : value.items()) {
     item.only({"id", "name", "colour", "detect"});
-    SemanticClass c{id_of(item, classes.size()), item.at("name").text(),
-                    colour_of(item.at("colour")), item.at("detect").boolean()};
+    SemanticClass c{id_of(item, classes.size()), item.at("name").text(), item.at("colour").colour(),
+                    item.at("detect").boolean()};
     for (const SemanticClass& other : classes)
       if (other.name == c.name) item.refuse("two classes have this name; rename one");
     classes.push_back(std::move(c));

@@ -10,7 +10,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <map>
 
@@ -18,17 +17,6 @@ namespace mapscore::eval {
 namespace {
 
 constexpr std::uint64_t kMostLabel = std::numeric_limits<std::uint16_t>::max();
-
-Colour colour_of(const YamlValue& value) {
-  const std::string text = value.text();
-  std::uint32_t rgb = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, rgb, 16);
-  if (text.size() != 6 || error != std::errc() || stop != end)
-    value.refuse("expected a colour as six hexadecimal digits, \"RRGGBB\"");
-  return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255),
-          static_cast<std::uint8_t>(rgb & 255)};
-}
 
 /// Colours that tell classes apart: hues a golden ratio of the circle from one another.
 Colour hue(std::size_t n) {
@@ -46,7 +34,7 @@ void add_class(const YamlValue& item, LabelClasses& classes) {
   auto& known = classes.table.classes;
   SemanticClass added{static_cast<ClassId>(known.size()), item.at("name").text(), hue(known.size()),
                       true};
-  if (item.has("colour")) added.colour = colour_of(item.at("colour"));
+  if (item.has("colour")) added.colour = item.at("colour").colour();
   if (item.has("detect")) added.detect = item.at("detect").boolean();
   for (const SemanticClass& other : known)
     if (other.name == added.name) item.refuse("two classes have this name; rename one");

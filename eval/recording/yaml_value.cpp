@@ -62,6 +62,17 @@ std::string YamlValue::text() const {
   return node_.Scalar();
 }
 
+Colour YamlValue::colour() const {
+  const std::string digits = text();
+  std::uint32_t rgb = 0;
+  const char* end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, rgb, 16);
+  if (digits.size() != 6 || error != std::errc() || stop != end)
+    refuse("expected a colour as six hexadecimal digits, \"RRGGBB\"");
+  return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255),
+          static_cast<std::uint8_t>(rgb & 255)};
+}
+
 bool YamlValue::boolean() const {
   if (!node_.IsScalar() || (node_.Scalar() != "true" && node_.Scalar() != "false"))
     refuse("expected true or false");

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "core/classes.hpp"
+
 #include <yaml-cpp/yaml.h>
 
 #include <cstdint>
@@ -29,6 +31,8 @@ class YamlValue {
   [[nodiscard]] std::vector<YamlValue> items() const;
 
   [[nodiscard]] std::string text() const;
+  /// Six hexadecimal digits, RRGGBB.
+  [[nodiscard]] Colour colour() const;
   [[nodiscard]] bool boolean() const;
   [[nodiscard]] double number() const;
   [[nodiscard]] double positive() const;

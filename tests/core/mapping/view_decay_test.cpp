@@ -23,7 +23,7 @@ class DecayInView : public testing::Test {
     map_.fuse(hits_, 1, rule_);
   }
   [[nodiscard]] DepthView view(const Pose& T_map_depth = Pose::Identity()) const {
-    return {depth_, camera_, T_map_depth, 0.5, 4.0};
+    return DepthView({camera_, T_map_depth, 0.5, 4.0, depth_});
   }
   [[nodiscard]] double at(const VoxelKey& key) const {
     const auto entries = map_.classes_at(key);
@@ -75,8 +75,8 @@ TEST_F(DecayInView, AnImageWithoutDepthSeesNothing) {
 }
 
 TEST_F(DecayInView, RefusesAnotherSizeOfImage) {
-  EXPECT_THROW((DepthView{cv::Mat1w(90, 100, std::uint16_t{0}), camera_, Pose::Identity(), 0, 1}),
-               Error);
+  const PosedDepth other{camera_, Pose::Identity(), 0, 1, cv::Mat1w(90, 100, std::uint16_t{0})};
+  EXPECT_THROW(DepthView{other}, Error);
   EXPECT_THROW(map_.decay_in_view(view(), BlendRule{-1.0}, {}), Error);
   EXPECT_EQ(at(near_), 0.5);
 }

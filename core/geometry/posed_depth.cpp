@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/objects/posed_depth.hpp"
+#include "core/geometry/posed_depth.hpp"
 
 #include "core/error.hpp"
 
