@@ -56,6 +56,7 @@ int run(CLI::App& program, int argc, char** argv) {
   verbs::add_objects(program);
   verbs::add_truth(program);
   verbs::add_score(program);
+  verbs::add_resolutions(program);
   verbs::add_table(program);
   verbs::add_compare(program);
   verbs::add_figures(program);

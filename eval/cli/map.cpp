@@ -8,6 +8,7 @@
 #include "eval/experiment/doses.hpp"
 #include "eval/experiment/folder_mapping.hpp"
 #include "eval/experiment/map_frame.hpp"
+#include "eval/experiment/study_store.hpp"
 #include "eval/experiment/trial_fusion.hpp"
 #include "eval/recording/frame_selection.hpp"
 
@@ -27,6 +28,7 @@ struct MapVerbFlags {
   LabelledFolderOptions reading;
   std::vector<double> range_m;
   std::string study, method, segmentation, frames, masks;
+  std::vector<std::string> detect;
   std::optional<double> voxel_m, K, threshold;
   std::optional<int> radius_px;
   std::optional<double> radius_factor;
@@ -113,7 +115,8 @@ void map_recording(const MapVerbFlags& flags) {
   LabelledFolderOptions reading = flags.reading;
   if (flags.masks == "classes") reading.masks = ClassMasks::classes;
   if (!flags.range_m.empty()) reading.range_m = std::pair(flags.range_m.at(0), flags.range_m.at(1));
-  const LabelledFolder folder(flags.folder, reading);
+  LabelledFolder folder(flags.folder, reading);
+  if (!flags.detect.empty()) folder.detect_as(detected_table(flags.detect, folder.table()).classes);
   const FolderMapping mapping = mapping_of(flags, folder.table());
   const std::vector<int> frames =
       (flags.frames.empty() ? FrameSelection() : FrameSelection(flags.frames))
@@ -143,6 +146,9 @@ void add_reading_flags(CLI::App& verb, MapVerbFlags& flags) {
       "Class labels become a detection for each connected component, or one a class: components, "
       "classes [components]")
       ->check(CLI::IsMember(std::set<std::string>{"components", "classes"}));
+  add("--detect", flags.detect, "Classes that are mapped, by commas, or all [as the table says]")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   add("--depth_scale", reading.depth_units_per_m, "Depth image's units in a metre [5000]")
       ->check(finite_within(1, 1e6));
   add("--range_m", flags.range_m, "Least and most depth that counts: near far [the cameras']")

@@ -17,6 +17,10 @@ namespace mapscore::eval {
 void LatticeFlags::add_to(CLI::App& verb) {
   verb.add_option("--voxel_m", voxel_m, "Voxel edge in metres [0.05]")
       ->check(finite_within(1e-4, 100.0));
+  add_without_voxel_to(verb);
+}
+
+void LatticeFlags::add_without_voxel_to(CLI::App& verb) {
   verb.add_option("--origin_m", origin_m, "Origin of the map frame in the world: x y z [0 0 0]")
       ->expected(3)
       ->check(finite_within(-1e6, 1e6));
@@ -79,10 +83,7 @@ TruthSource::TruthSource(const std::string& source, const LatticeFlags& lattice,
 }
 
 void TruthSource::detect(const std::vector<std::string>& classes) {
-  Study study;
-  study.detect = DetectedSet{classes == std::vector<std::string>{"all"}, classes};
-  if (study.detect->all) study.detect->classes.clear();
-  table_ = detected_table(study, std::move(table_));
+  table_ = detected_table(classes, std::move(table_));
 }
 
 std::vector<int> TruthSource::frames() const {

@@ -31,6 +31,8 @@ struct LatticeFlags {
   std::optional<int> frame;    ///< the same, as a frame
 
   void add_to(CLI::App& verb);
+  /// All but --voxel_m, for maps that have their own.
+  void add_without_voxel_to(CLI::App& verb);
   [[nodiscard]] MapFrame map_frame() const;
   /// The time that the flags say, if any. Throws Error when they say two, or no frame of these.
   [[nodiscard]] std::optional<double> time_in(const Recording& recording) const;

@@ -19,6 +19,7 @@ void add_segment(CLI::App& program);
 void add_objects(CLI::App& program);
 void add_truth(CLI::App& program);
 void add_score(CLI::App& program);
+void add_resolutions(CLI::App& program);
 void add_table(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_figures(CLI::App& program);

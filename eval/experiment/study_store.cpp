@@ -109,4 +109,11 @@ ClassTable detected_table(const Study& study, ClassTable table) {
   return table;
 }
 
+ClassTable detected_table(const std::vector<std::string>& classes, ClassTable table) {
+  Study study;
+  study.detect = DetectedSet{classes == std::vector<std::string>{"all"}, classes};
+  if (study.detect->all) study.detect->classes.clear();
+  return detected_table(study, std::move(table));
+}
+
 }  // namespace mapscore::eval

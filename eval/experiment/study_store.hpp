@@ -31,5 +31,7 @@ void write_study(ResultStore& store, const StudyRecord& record,
 /// detected, or naming a class that stands for all in tables ("pooled", "macro", "all") or is not
 /// there.
 [[nodiscard]] ClassTable detected_table(const Study& study, ClassTable table);
+/// The same for the names of a flag `--detect`; {"all"}: every class.
+[[nodiscard]] ClassTable detected_table(const std::vector<std::string>& classes, ClassTable table);
 
 }  // namespace mapscore::eval

@@ -46,6 +46,8 @@ class LabelledFolder {
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
   /// Classes; the instances of a frame come with it.
   [[nodiscard]] const ClassTable& table() const { return classes_.table; }
+  /// Detects what `classes` do, which must be the table's own but for that.
+  void detect_as(const std::vector<SemanticClass>& classes) { classes_.table.classes = classes; }
   [[nodiscard]] double stamp_s(int index) const { return at(index).depth.stamp_s; }
 
   /// A frame with label and depth (in 1/5000 m); instances of the frame go to `table`. Throws Error

@@ -5,7 +5,8 @@
 # records.
 set(folder ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end)
 file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
-set(suites BadFlags BadStudy BadRecording BadOutput ScoreMap MapFolder MapObjects TinySweep)
+set(suites BadFlags BadStudy BadRecording BadOutput ScoreMap MapFolder MapObjects MapResolutions SegmentFrame
+    FrameByFrame TinySweep)
 if(MAPSCORE_SIMULATOR)
   file(GLOB rendered CONFIGURE_DEPENDS ${folder}/rendered/*.cpp)
   list(APPEND suites ObjectScene BadScene BadDrive DemoGrowing Gate)
