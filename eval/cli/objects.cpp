@@ -44,7 +44,8 @@ Study study_of_recording(const fs::path& folder, const std::vector<std::string>&
   study.recording = fs::absolute(folder).string();
   study.methods = {{"direct", DirectSettings{}, {}},
                    {"erosion", ErosionSettings{}, {}},
-                   {"region_growing", RegionGrowingSettings{}, {}}};
+                   {"region_growing", RegionGrowingSettings{}, {}},
+                   {"edge_aligned", EdgeAlignedSettings{}, {}}};
   study.map_origin_m = {0, 0, 0};
   set_leaves(study, overrides);
   check(study);
@@ -58,17 +59,15 @@ Study study_of(const ObjectFlags& flags) {
   return study;
 }
 
-/// The trial of one method and repetition, at the study's own doses.
-Task task_of(const Study& study, const ObjectFlags& flags, const Recording& recording) {
+/// One method and repetition, at the study's own doses.
+TrialSpec spec_of(const Study& study, const ObjectFlags& flags) {
   if (flags.seed >= study.seeds)
     throw Error(fmt::format("--seed {}: no such repetition; they are 0 to {}", flags.seed,
                             study.seeds - 1));
   const std::string method = flags.method.empty() ? study.methods.front().name : flags.method;
   std::string names;
   for (const MethodSettings& each : study.methods) {
-    if (each.name == method)
-      return task_of(study, TrialSpec{0, method, {}, flags.seed}, Labels::detected,
-                     recording.content_hash());
+    if (each.name == method) return {0, method, {}, flags.seed};
     names += ' ' + each.name;
   }
   throw Error(fmt::format("--method {}: no such method; there are:{}", method, names));
@@ -114,10 +113,11 @@ void print_score(const ObjectRun& run, const ClassTable& table, const ObjectFlag
 
 void map_objects(const ObjectFlags& flags) {
   const Study study = study_of(flags);
+  const TrialSpec spec = spec_of(study, flags);
   ShownRecording shown(flags.quiet);
   const Recording recording = recording_of(study, flags.output, flags.jobs, shown.progress());
   const ClassTable table = detected_table(study, recording.info().table);
-  const Task task = task_of(study, flags, recording);
+  const Task task = task_of(study, spec, Labels::detected, recording.content_hash());
   PoseSources poses(recording);
   ObjectRun run(task, recording, table, poses, options_of(flags));
   if (flags.start) run.start_from(read_objects(*flags.start, table));
@@ -139,8 +139,8 @@ void add_objects(CLI::App& program) {
                    "Folder for objects.yaml, objects.xml (MJCF) and objects.ply")
       ->required();
   verb->add_option("--method", flags->method,
-                   "Of the study, default its first; of a recording direct, erosion or "
-                   "region_growing");
+                   "Of the study, default its first; of a recording direct, erosion, "
+                   "region_growing or edge_aligned");
   verb->add_option("--seed", flags->seed, "Repetition of the study, from 0")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
