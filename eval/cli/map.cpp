@@ -10,6 +10,7 @@
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/study_store.hpp"
 #include "eval/experiment/trial_fusion.hpp"
+#include "eval/map_files/voxel_ply.hpp"
 #include "eval/recording/frame_selection.hpp"
 
 #include <fmt/format.h>
@@ -24,11 +25,11 @@ namespace mapscore::eval {
 namespace {
 
 struct MapVerbFlags {
-  std::string folder, file, color_file;
+  std::string folder, file, color_file, ply_file;
   LabelledFolderOptions reading;
   std::vector<double> range_m;
   std::string study, method, segmentation, frames, masks;
-  std::vector<std::string> detect;
+  std::vector<std::string> detect, overrides;
   std::optional<double> voxel_m, K, threshold;
   std::optional<int> radius_px;
   std::optional<double> radius_factor;
@@ -51,9 +52,11 @@ void take_from_study(const MapVerbFlags& flags, const ClassTable& table, FolderM
   if (flags.study.empty()) {
     if (!flags.method.empty())
       throw Error("--method: names a method of a study; give --study, or --segmentation");
+    if (!flags.overrides.empty())
+      throw Error("--set: changes a key of a study; give --study, or the flags of this verb");
     return;
   }
-  const Study study = load_study(flags.study, {});
+  const Study study = load_study(flags.study, flags.overrides);
   const MethodSettings& method = method_of(study, flags.method);
   mapping.segmentation = segmentation_params(method.segmentation);
   mapping.place_voxels = place_of(study, method) == Place::voxels;
@@ -112,6 +115,8 @@ std::string class_lines(const SemanticMap& map, const ClassTable& table, double 
 }
 
 void map_recording(const MapVerbFlags& flags) {
+  if (!flags.ply_file.empty() && !flags.ply_file.ends_with(".ply"))
+    throw Error(flags.ply_file + ": voxels are written as .ply; give the file this ending");
   LabelledFolderOptions reading = flags.reading;
   if (flags.masks == "classes") reading.masks = ClassMasks::classes;
   if (!flags.range_m.empty()) reading.range_m = std::pair(flags.range_m.at(0), flags.range_m.at(1));
@@ -128,9 +133,11 @@ void map_recording(const MapVerbFlags& flags) {
   const double threshold = flags.threshold.value_or(first_full_hit(mapping.fusion) / 2);
   map.save(flags.file);
   if (!flags.color_file.empty()) map.export_color(flags.color_file, folder.table(), threshold);
+  if (!flags.ply_file.empty()) write_voxel_ply(flags.ply_file, map, folder.table(), threshold);
   std::cout << folder_text(folder, counts) << class_lines(map, folder.table(), threshold)
             << flags.file << '\n';
-  if (!flags.color_file.empty()) std::cout << flags.color_file << '\n';
+  for (const std::string& file : {flags.color_file, flags.ply_file})
+    if (!file.empty()) std::cout << file << '\n';
 }
 
 void add_reading_flags(CLI::App& verb, MapVerbFlags& flags) {
@@ -165,6 +172,8 @@ void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
     return verb.add_option(name, value, text)->group("Mapping");
   };
   add("--study", flags.study, "Takes voxel size, segmentation, place and fusion of this study");
+  add("--set", flags.overrides, "A key of the study, path=value; may be repeated")
+      ->allow_extra_args(false);
   add("--method", flags.method, "Name of its method [the first]");
   add("--segmentation", flags.segmentation,
       "direct, erosion, region_growing or edge_aligned [region_growing]")
@@ -180,7 +189,8 @@ void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
       ->expected(3)
       ->check(finite_within(-1e6, 1e6));
   add("--yaw_deg", flags.yaw_deg, "Heading of the map there [0]")->check(finite_within(-360, 360));
-  add("--threshold", flags.threshold, "Least probability of a voxel in --color [(1 - K) / 2]")
+  add("--threshold", flags.threshold,
+      "Least probability of a voxel in --color and --ply [(1 - K) / 2]")
       ->check(finite_within(0, 1));
 }
 
@@ -196,6 +206,8 @@ void add_map(CLI::App& program) {
   verb->add_option("-o,--output", flags->file, "Map to write (.ot)")->required();
   verb->add_option("--color", flags->color_file,
                    "Also a ColorOcTree (.ot) in the class colours, for octovis and ROS");
+  verb->add_option("--ply", flags->ply_file,
+                   "Also the voxels' centres with colour, class and probability (.ply)");
   add_reading_flags(*verb, *flags);
   add_mapping_flags(*verb, *flags);
   verb->add_flag("-q,--quiet", flags->quiet, "No progress on standard error");

@@ -137,6 +137,28 @@ TEST_F(MapFolder, ClassLabelsOfAnotherNumberingAndMillimetres) {
   EXPECT_GT(bytes_of(path("colour.ot")).size(), 100u);
 }
 
+TEST_F(MapFolder, PlyScoresAsTheMapDoes) {
+  expect_done(map("ours", "map.ot", {"--ply", path("map.ply")}));
+  const auto score = [&](const std::string& file) {
+    const Outcome outcome = mapscore({"score", path(file), "--truth", path("ours"), "--tidy"});
+    expect_done(outcome);
+    return outcome.out;
+  };
+  EXPECT_EQ(score("map.ply"), score("map.ot"));
+  expect_refused(map("ours", "other.ot", {"--ply", path("map.pcd")}), {"map.pcd", ".ply"});
+  EXPECT_FALSE(fs::exists(path("other.ot")));
+}
+
+TEST_F(MapFolder, KeysOfTheStudyCanBeChanged) {
+  write_text(path("study.yaml"),
+             "recording: ours\nmethods: {direct: {segmentation: {direct: {}}}}\n");
+  const std::vector<std::string> study{"--study", path("study.yaml"), "--set", "voxel_m=0.1"};
+  expect_done(map("ours", "study.ot", study));
+  expect_done(map("ours", "flags.ot", {"--segmentation", "direct", "--voxel_m", "0.1"}));
+  EXPECT_EQ(bytes_of(path("study.ot")), bytes_of(path("flags.ot")));
+  expect_refused(map("ours", "no.ot", {"--set", "voxel_m=0.1"}), {"--set", "--study"});
+}
+
 TEST_F(MapFolder, WhatIsMissingIsSaid) {
   strip();
   expect_refused(map("theirs", "map.ot"), {"recording.yaml", "--intrinsics"});
