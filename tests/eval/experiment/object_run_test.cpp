@@ -97,6 +97,21 @@ TEST_F(TinyObjects, SimulatedPerceptionSeesTheCrate) {
   EXPECT_EQ(scores().falsely(), 0);
 }
 
+TEST_F(TinyObjects, KnownObjectsEnterTheKeyByTheirContentNotTheirPath) {
+  const auto key = [&](const std::string& name, double x_m) {
+    ObjectFile file;
+    file.objects = {crate_at({x_m, 0.9, 0.5})};
+    file.objects.front().id = 1;
+    const std::string path = (folder() / name).string();
+    write_objects(path, file, table());
+    return plan(study_of("perception: {simulated: {objects: " + path + "}}\n")).tasks.at(0).key;
+  };
+  const std::string first = key("a.yaml", 3.0);
+  EXPECT_EQ(key("b.yaml", 3.0), first);
+  EXPECT_NE(key("a.yaml", 2.9), first);
+  EXPECT_NE(plan(study_of("perception: {simulated: {}}\n")).tasks.at(0).key, first);
+}
+
 TEST_F(TinyObjects, SimulatedPerceptionOfAFileSeesItsObjects) {
   ObjectFile file;
   file.objects = {crate_at({3.0, 0.9, 0.5})};  // a piece of the wall
