@@ -4,19 +4,16 @@
 #include "eval/map_files/cloud_file.hpp"
 
 #include "core/error.hpp"
+#include "eval/recording/little_endian.hpp"
 #include "eval/recording/whole_file.hpp"
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cstdint>
 #include <string>
 
 namespace mapscore::eval {
 namespace {
-
-static_assert(std::endian::native == std::endian::little,
-              "the file is written as it lies in memory");
 
 std::string ply_header(std::size_t count) {
   return fmt::format(
@@ -34,11 +31,6 @@ std::string pcd_header(std::size_t count) {
       count);
 }
 
-template <class T>
-void append(std::string& bytes, const T& value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
-}
-
 }  // namespace
 
 void write_cloud(const std::filesystem::path& file, std::span<const Eigen::Vector3d> points,
@@ -49,9 +41,9 @@ void write_cloud(const std::filesystem::path& file, std::span<const Eigen::Vecto
                 ": clouds are written as .ply or .pcd; give the file one of these endings");
   std::string bytes = ply ? ply_header(points.size()) : pcd_header(points.size());
   for (const Eigen::Vector3d& p : points) {
-    for (const double x : p) append(bytes, static_cast<float>(x));
-    append(bytes, std::uint32_t{class_id});
-    append(bytes, std::uint32_t{instance});
+    for (const double x : p) append_little_endian(bytes, static_cast<float>(x));
+    append_little_endian(bytes, std::uint32_t{class_id});
+    append_little_endian(bytes, std::uint32_t{instance});
   }
   write_whole_file(file, bytes);
 }

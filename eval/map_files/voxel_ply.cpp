@@ -4,27 +4,15 @@
 #include "eval/map_files/voxel_ply.hpp"
 
 #include "core/error.hpp"
+#include "eval/recording/little_endian.hpp"
 #include "eval/recording/whole_file.hpp"
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cstdint>
 #include <vector>
 
 namespace mapscore::eval {
-namespace {
-
-static_assert(std::endian::native == std::endian::little,
-              "the file is written as it lies in memory");
-
-template <class T>
-void append(std::string& bytes, const T& value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
-}
-
-}  // namespace
-
 std::string voxel_ply_bytes(const SemanticMap& map, const ClassTable& table, double threshold) {
   std::vector<MapVoxel> voxels = map.voxels();
   std::erase_if(voxels, [&](const MapVoxel& voxel) {
@@ -39,11 +27,13 @@ std::string voxel_ply_bytes(const SemanticMap& map, const ClassTable& table, dou
   for (const MapVoxel& voxel : voxels) {
     if (voxel.best_class >= table.classes.size())
       throw Error(fmt::format("map: class {} is not in the class table", voxel.best_class));
-    for (const double x : centre_of(voxel.key, map.edge_m())) append(bytes, static_cast<float>(x));
+    for (const double x : centre_of(voxel.key, map.edge_m()))
+      append_little_endian(bytes, static_cast<float>(x));
     const Colour colour = table.classes[voxel.best_class].colour;
-    for (const std::uint8_t channel : {colour.r, colour.g, colour.b}) append(bytes, channel);
-    append(bytes, std::uint32_t{voxel.best_class});
-    append(bytes, static_cast<float>(voxel.probability));
+    for (const std::uint8_t channel : {colour.r, colour.g, colour.b})
+      append_little_endian(bytes, channel);
+    append_little_endian(bytes, std::uint32_t{voxel.best_class});
+    append_little_endian(bytes, static_cast<float>(voxel.probability));
   }
   return bytes;
 }

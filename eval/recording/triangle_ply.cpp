@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/recording/file_bytes.hpp"
+#include "eval/recording/little_endian.hpp"
 #include "eval/recording/pose_text.hpp"
 
 #include <fmt/format.h>
@@ -27,11 +28,6 @@ constexpr const char* kFace =
 constexpr std::size_t kVertexBytes = 3 * sizeof(double);
 constexpr std::size_t kFaceBytes =
     1 + 3 * sizeof(std::int32_t) + sizeof(InstanceId) + sizeof(std::int32_t);
-
-template <class T>
-void append(std::string& bytes, const T& value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
-}
 
 template <class T>
 T take(const char*& from) {
@@ -147,14 +143,14 @@ std::string triangle_ply_bytes(const std::vector<Shape>& shapes) {
     if (shape.kind != ShapeKind::mesh) continue;
     check(shape);
     for (const Triangle& triangle : shape.triangles) {
-      append(faces, std::uint8_t{3});
+      append_little_endian(faces, std::uint8_t{3});
       for (const Eigen::Vector3d& p_shape : triangle) {
         const Eigen::Vector3d p_world = shape.T_world_shape * p_shape;
-        for (int axis = 0; axis < 3; ++axis) append(vertices, p_world[axis]);
-        append(faces, vertex++);
+        for (int axis = 0; axis < 3; ++axis) append_little_endian(vertices, p_world[axis]);
+        append_little_endian(faces, vertex++);
       }
-      append(faces, shape.instance);
-      append(faces, static_cast<std::int32_t>(names.size()));
+      append_little_endian(faces, shape.instance);
+      append_little_endian(faces, static_cast<std::int32_t>(names.size()));
     }
     names.push_back(shape.name);
   }

@@ -4,17 +4,14 @@
 #include "eval/report/error_ply.hpp"
 
 #include "core/error.hpp"
+#include "eval/recording/little_endian.hpp"
 #include "eval/recording/whole_file.hpp"
 
-#include <bit>
 #include <cstdint>
 #include <cstring>
 
 namespace mapscore::eval {
 namespace {
-
-static_assert(std::endian::native == std::endian::little,
-              "the file is written as it lies in memory");
 
 constexpr const char* kProperties =
     "property float x\nproperty float y\nproperty float z\n"
@@ -31,22 +28,19 @@ std::string header_of(const JudgedMap& map) {
   return header + "\nelement vertex " + std::to_string(map.voxels.size()) + '\n' + kProperties;
 }
 
-template <class T>
-void append(std::string& bytes, const T& value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
-}
-
 }  // namespace
 
 std::string error_ply_bytes(const JudgedMap& map) {
   std::string bytes = header_of(map);
   bytes.reserve(bytes.size() + map.voxels.size() * kVertexBytes);
   for (const JudgedVoxel& voxel : map.voxels) {
-    for (const double x : centre_of(voxel.key, map.edge_m)) append(bytes, static_cast<float>(x));
+    for (const double x : centre_of(voxel.key, map.edge_m))
+      append_little_endian(bytes, static_cast<float>(x));
     const Colour colour = colour_of(voxel.verdict);
-    for (const std::uint8_t channel : {colour.r, colour.g, colour.b}) append(bytes, channel);
-    append(bytes, voxel.class_id);
-    append(bytes, static_cast<std::uint8_t>(voxel.verdict));
+    for (const std::uint8_t channel : {colour.r, colour.g, colour.b})
+      append_little_endian(bytes, channel);
+    append_little_endian(bytes, voxel.class_id);
+    append_little_endian(bytes, static_cast<std::uint8_t>(voxel.verdict));
   }
   return bytes;
 }
