@@ -5,6 +5,7 @@
 
 #include "core/mapping/pose_belief.hpp"
 #include "core/random_stream.hpp"
+#include "tests/core/mapping/counted_draws.hpp"
 #include "tests/core/mapping/plain_draws.hpp"
 
 #include <gtest/gtest.h>
@@ -65,6 +66,7 @@ TEST_P(ManyDraws, AreThePlainPassesBitForBit) {
         random_draws(stream, 4 + round % 9, GetParam().sigma_m, GetParam().sigma_rad);
     const auto hits = place(observation, draws, edge_m);
     ASSERT_EQ(hits, testing::plain_place(observation, draws, edge_m)) << "round " << round;
+    ASSERT_EQ(hits, testing::counted_place(observation, draws, edge_m)) << "round " << round;
     ASSERT_FALSE(hits.empty());
   }
 }
