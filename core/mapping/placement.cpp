@@ -112,10 +112,8 @@ std::optional<std::vector<VoxelHit>> place_by_cells(const Observation& observati
   if (!box) return {};
   HitGrid grid(*box, cells->groups());
   CellPlacer placer(*cells, edge_m, grid);
-  for (const Pose& pose : T_map_sensor) {
-    placer.place(pose);
-    grid.end_draw();
-  }
+  for (std::size_t n = 0; n < T_map_sensor.size(); n += DrawSet::kMost)
+    placer.place(T_map_sensor.subspan(n, std::min(DrawSet::kMost, T_map_sensor.size() - n)));
   return grid.hits();
 }
 

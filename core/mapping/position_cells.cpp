@@ -4,7 +4,7 @@
 #include "core/mapping/position_cells.hpp"
 
 #include "core/geometry/voxel.hpp"
-#include "core/mapping/cell_cut.hpp"
+#include "core/mapping/draw_set.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -55,14 +55,6 @@ class CellTable {
   std::size_t used_ = 0;
 };
 
-constexpr SliceExtents kEmptySlice = [] {
-  SliceExtents slice{};
-  slice.low.fill(100.0f);
-  slice.high.fill(-100.0f);
-  return slice;
-}();
-constexpr std::array<SliceExtents, 3> kEmptySlices{kEmptySlice, kEmptySlice, kEmptySlice};
-
 /// Index of a cell from -4096 to 4095 on each axis, and of a group.
 std::uint64_t key_of(int x, int y, int z, std::uint64_t group) {
   constexpr int kOffset = 1 << 13;
@@ -97,8 +89,8 @@ std::uint16_t group_of(const ObservedObject& object, const std::vector<ScoredCla
 /// Where one position lies.
 struct Sorted {
   std::uint32_t cell;
-  std::uint16_t part;      ///< 64 z + 8 y + x
-  Eigen::Vector3f offset;  ///< from the cell's low corner, in voxels
+  std::uint16_t part;                  ///< 64 z + 8 y + x
+  std::array<std::uint8_t, 3> levels;  ///< by axis
 };
 
 /// Floor for numbers well within the range of int.
@@ -124,15 +116,19 @@ class CellFinder {
       last_key_ = key;
       last_cell_ = table_.number_of(key, static_cast<std::uint32_t>(cells_.size()));
       if (last_cell_ == cells_.size())
-        cells_.push_back({Eigen::Vector3d(x, y, z), {}, kEmptySlices, {}, group, false});
+        cells_.push_back({.low = Eigen::Vector3d(x, y, z), .group = group});
     }
-    const auto eighth = [](double offset) {
-      return std::min(7u, static_cast<unsigned>(8.0 * offset));
+    const auto level = [](double offset) {
+      return std::min(kCellLevels - 1, static_cast<unsigned>(kCellLevels * offset));
     };
-    const unsigned row = 8 * eighth(q.y() - y) + eighth(q.x() - x), layer = eighth(q.z() - z);
+    const unsigned at[3] = {level(q.x() - x), level(q.y() - y), level(q.z() - z)};
+    const unsigned row = 8 * (at[1] / kPartLevels) + at[0] / kPartLevels;
+    const unsigned layer = at[2] / kPartLevels;
     cells_[last_cell_].layers[layer] |= std::uint64_t{1} << row;
-    sorted = {last_cell_, static_cast<std::uint16_t>(64 * layer + row),
-              (q - Eigen::Vector3d(x, y, z)).cast<float>()};
+    sorted = {last_cell_,
+              static_cast<std::uint16_t>(64 * layer + row),
+              {static_cast<std::uint8_t>(at[0]), static_cast<std::uint8_t>(at[1]),
+               static_cast<std::uint8_t>(at[2])}};
     return true;
   }
 
@@ -182,14 +178,13 @@ std::optional<PositionCells> PositionCells::sort(const Observation& observation,
   sorted.boxes_.resize(parts);
   std::vector<std::uint32_t> part_of(positions);
   for (n = 0; n < positions; ++n) {
-    const auto& [cell, part, offset] = places[n];
+    const auto& [cell, part, levels] = places[n];
     const std::uint64_t below = (std::uint64_t{1} << part % 64) - 1;
     part_of[n] = sorted.cells_[cell].first_part[part / 64] +
                  count_bits(sorted.cells_[cell].layers[part / 64] & below);
     ++sorted.part_begin_[part_of[n] + 2];
-    PartBox& box = sorted.boxes_[part_of[n]];
-    box.low = box.low.cwiseMin(offset);
-    box.high = box.high.cwiseMax(offset);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      sorted.boxes_[part_of[n]][axis].extend(levels[axis]);
   }
   for (std::size_t part = 2; part < sorted.part_begin_.size(); ++part)
     sorted.part_begin_[part] += sorted.part_begin_[part - 1];
@@ -204,19 +199,16 @@ std::optional<PositionCells> PositionCells::sort(const Observation& observation,
 }
 
 void PositionCells::measure_slices() {
-  constexpr float kParts = 8.0f;
   for (PositionCell& cell : cells_)
-    for (unsigned z = 0; z < 8; ++z) {
+    for (unsigned z = 0; z < kCellParts; ++z) {
       std::uint32_t part = cell.first_part[z];
       for (std::uint64_t left = cell.layers[z]; left != 0; left &= left - 1, ++part) {
         const auto bit = static_cast<unsigned>(std::countr_zero(left));
         const std::array<unsigned, 3> slice{bit % 8, bit / 8, z};
-        for (int axis = 0; axis < 3; ++axis) {
-          SliceExtents& extents = cell.slices[static_cast<std::size_t>(axis)];
-          float& low = extents.low[slice[static_cast<std::size_t>(axis)]];
-          float& high = extents.high[slice[static_cast<std::size_t>(axis)]];
-          low = std::min(low, kParts * boxes_[part].low[axis]);
-          high = std::max(high, kParts * boxes_[part].high[axis]);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          LevelRange& range = cell.slices[axis][slice[axis]];
+          range.extend(boxes_[part][axis].low);
+          range.extend(boxes_[part][axis].high);
         }
       }
     }
