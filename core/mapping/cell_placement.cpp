@@ -3,6 +3,7 @@
 
 #include "core/mapping/cell_placement.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace mapscore {
@@ -17,6 +18,19 @@ void for_parts(const PositionCell& cell, auto&& act) {
       act(part, bit % 8, bit / 8, z);
     }
   }
+}
+
+/// Voxels that any draw may hit.
+VoxelBox reach_of(const CellCut& cut) {
+  VoxelBox box{cut.bases.front().voxel, cut.bases.front().voxel};
+  for (const auto& [voxel, draws] : cut.bases) {
+    box.low = {std::min(box.low.i, voxel.i), std::min(box.low.j, voxel.j),
+               std::min(box.low.k, voxel.k)};
+    box.high = {std::max(box.high.i, voxel.i), std::max(box.high.j, voxel.j),
+                std::max(box.high.k, voxel.k)};
+  }
+  return {{box.low.i - 1, box.low.j - 1, box.low.k - 1},
+          {box.high.i + 2, box.high.j + 2, box.high.k + 2}};
 }
 
 DrawSet any_of(const std::array<DrawSet, 8>& sets) {
@@ -104,6 +118,7 @@ void CellPlacer::mark_across(const PositionCell& cell, const CutCell& at) {
 }
 
 void CellPlacer::count(const PositionCell& cell, const CutCell& at) {
+  if (!grid_.contested_within(reach_of(at.cut))) return;
   ByOctant wanted;
   for (unsigned octant = 0; octant < 8; ++octant)
     for (const CutBase& base : at.cut.bases)
@@ -145,8 +160,7 @@ void CellPlacer::place(std::span<const Pose> T_map_sensor) {
     if (cut_cells_[n].across.any()) mark_across(cells[n], cut_cells_[n]);
   for (std::size_t n = 0; n < cells.size(); ++n) mark_open(cells[n], cut_cells_[n]);
   grid_.find_contested();
-  for (std::size_t n = 0; n < cells.size(); ++n)
-    if (cells[n].contested) count(cells[n], cut_cells_[n]);
+  for (std::size_t n = 0; n < cells.size(); ++n) count(cells[n], cut_cells_[n]);
   grid_.end_batch();
 }
 

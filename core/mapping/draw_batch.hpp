@@ -16,7 +16,7 @@
 namespace mapscore {
 
 /// What levels of a DrawLevels begin with, so that boundaries a little outside a cell have one.
-inline constexpr unsigned kLevelOffset = 48;
+inline constexpr unsigned kLevelOffset = 64;
 
 /// Draws that put the same voxel below the boundaries that cut a cell.
 struct CutBase {

@@ -65,6 +65,7 @@ struct alignas(16) DrawLevels {
 /// Draws whose level is at least `least`.
 [[nodiscard]] inline DrawSet at_least(const DrawLevels& levels, unsigned least) {
   DrawSet set;
+  if (least > 255) return set;
 #ifdef __SSE2__
   const __m128i bound = _mm_set1_epi8(static_cast<char>(least));
   for (std::size_t n = 0; n < DrawSet::kMost; n += 16) {

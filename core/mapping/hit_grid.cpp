@@ -65,6 +65,8 @@ void HitGrid::find_contested() {
         if (class_of(rows_[a]) != class_of(rows_[b]))
           slot.contested |= rows_[a].draws & rows_[b].draws;
     if (!slot.contested.any()) continue;
+    contested_blocks_.resize(blocks_.size());
+    contested_blocks_[block_of(unpack(slot.voxel))] = true;
     for (std::uint32_t a = slot.rows; a != kNone; a = rows_[a].next) {
       if (rows_[a].counts != kNone) continue;
       for (std::uint32_t b = a; b != kNone; b = rows_[b].next)
@@ -73,6 +75,19 @@ void HitGrid::find_contested() {
       counts_.resize(counts_.size() + DrawSet::kMost, 0);
     }
   }
+}
+
+bool HitGrid::contested_within(const VoxelBox& box) const {
+  if (contested_blocks_.empty()) return false;
+  const std::size_t first = block_of(box.low), last = block_of(box.high);
+  const std::size_t x0 = first / blocks_z_ / blocks_y_, x1 = last / blocks_z_ / blocks_y_;
+  const std::size_t y0 = first / blocks_z_ % blocks_y_, y1 = last / blocks_z_ % blocks_y_;
+  const std::size_t z0 = first % blocks_z_, z1 = last % blocks_z_;
+  for (std::size_t x = x0; x <= x1; ++x)
+    for (std::size_t y = y0; y <= y1; ++y)
+      for (std::size_t z = z0; z <= z1; ++z)
+        if (contested_blocks_[(x * blocks_y_ + y) * blocks_z_ + z]) return true;
+  return false;
 }
 
 /// The class with most positions wins, ties to the lower id.
@@ -127,6 +142,7 @@ void HitGrid::end_batch() {
     slot.rows = kNone;
     slot.contested = {};
   }
+  contested_blocks_.clear();
   touched_.clear();
   rows_.clear();
   counts_.clear();

@@ -46,6 +46,8 @@ class HitGrid {
     const std::uint32_t slot = find(key);
     return slot == kNone ? DrawSet{} : slots_[slot].contested;
   }
+  /// Whether there may be such voxels in a box.
+  [[nodiscard]] bool contested_within(const VoxelBox& box) const;
   /// Adds to a group's positions in a marked voxel, in a draw in which it is contested; needed for
   /// all of them.
   void count(const VoxelKey& key, std::uint16_t group, std::size_t draw, int positions) {
@@ -120,6 +122,7 @@ class HitGrid {
   std::size_t blocks_y_, blocks_z_;
   std::span<const ScoredClass> groups_;
   std::vector<std::uint32_t> blocks_, in_blocks_;
+  std::vector<bool> contested_blocks_;  ///< as blocks_; empty where there are none
   std::vector<Slot> slots_;
   std::vector<Row> rows_;
   std::vector<Wins> wins_;

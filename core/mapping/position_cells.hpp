@@ -25,7 +25,7 @@ struct ScoredClass {
 
 /// Parts of a cell on each axis, and levels that its coordinates are told apart by.
 inline constexpr unsigned kCellParts = 8;
-inline constexpr unsigned kPartLevels = 12;
+inline constexpr unsigned kPartLevels = 16;
 inline constexpr unsigned kCellLevels = kCellParts * kPartLevels;
 
 /// Lowest and highest level with positions, of kCellLevels from a cell's low side.
@@ -38,9 +38,6 @@ struct LevelRange {
   }
 };
 
-/// Tight box around positions, by axis.
-using LevelBox = std::array<LevelRange, 3>;
-
 /// A cube of one voxel's edge, cut into 8 x 8 x 8 parts, and which of them hold positions of one
 /// group.
 struct PositionCell {
@@ -49,7 +46,6 @@ struct PositionCell {
   std::array<std::array<LevelRange, kCellParts>, 3> slices{};  ///< by axis, across it
   std::array<std::uint32_t, kCellParts> first_part{};  ///< of each layer; parts follow by y, x
   std::uint16_t group = 0;
-  bool contested = false;  ///< positions of another class may share a voxel with it
 };
 
 /// The positions of an observation, sorted into cells of a lattice that turns with the sensor:
@@ -72,20 +68,25 @@ class PositionCells {
     return std::span(positions_)
         .subspan(part_begin_[index], part_begin_[index + 1] - part_begin_[index]);
   }
-  [[nodiscard]] const LevelBox& box(std::uint32_t index) const { return boxes_[index]; }
   [[nodiscard]] const Eigen::Matrix3d& R() const { return R_; }
   [[nodiscard]] const Eigen::Vector3d& offset() const { return offset_; }
 
  private:
-  void measure_slices();
-  void mark_contested();
+  /// Where one position lies.
+  struct Place {
+    std::uint32_t cell;
+    std::uint16_t part;  ///< 64 z + 8 y + x
+  };
+
+  [[nodiscard]] bool find_cells(const Observation& observation, double edge_m,
+                                std::vector<Place>& places);
+  void sort_parts(const Observation& observation, const std::vector<Place>& places);
 
   Eigen::Matrix3d R_;
   Eigen::Vector3d offset_;
   std::vector<ScoredClass> groups_;  ///< ascending by class, then score
   std::vector<PositionCell> cells_;
   std::vector<std::uint32_t> part_begin_;
-  std::vector<LevelBox> boxes_;
   std::vector<Eigen::Vector3d> positions_;
 };
 

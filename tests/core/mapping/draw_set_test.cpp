@@ -18,7 +18,7 @@ TEST(DrawSet, HoldsTheDrawsWhoseLevelIsAtLeastABound) {
   for (std::uint8_t& level : levels.of) level = static_cast<std::uint8_t>(stream.bits());
   levels.of[0] = 0;
   levels.of[127] = 255;
-  for (unsigned least = 0; least < 256; ++least) {
+  for (unsigned least = 0; least < 258; ++least) {
     const DrawSet set = at_least(levels, least);
     std::vector<std::size_t> expected, found;
     for (std::size_t n = 0; n < DrawSet::kMost; ++n) {
