@@ -36,25 +36,29 @@ class CellPlacer {
  private:
   /// A cell and what the batch does to it.
   struct CutCell {
-    CellCut cut;
+    CutBases bases;
+    CellSides sides;
     OctantSets octants;
-    DrawSet across;
   };
   using ByOctant = std::array<DrawSet, 8>;
 
+  void mark(const ByOctant& sets, const CutBases& bases, std::uint16_t group);
   void mark_sure(const PositionCell& cell, CutCell& at);
   void mark_open(const PositionCell& cell, const CutCell& at);
   void mark_across(const PositionCell& cell, const CutCell& at);
   /// Takes the draws out of `wanted` in which positions of a part lie, given those in which they
   /// may.
-  void prove(std::uint32_t part, const CellCut& cut, const ByOctant& may, ByOctant& wanted) const;
+  void prove(std::uint32_t part, const CutBases& bases, const ByOctant& may,
+             ByOctant& wanted) const;
   void count(const PositionCell& cell, const CutCell& at);
+  void count_across(const PositionCell& cell, const CutCell& at);
+  /// Counts one by one those positions of a part that lie in contested voxels.
+  void count_positions(std::uint32_t part, std::uint16_t group, const DrawSet& draws);
 
   const PositionCells& cells_;
   double edge_m_;
   HitGrid& grid_;
   std::optional<DrawBatch> batch_;
-  CellSides sides_;
   std::vector<CutCell> cut_cells_;
 };
 

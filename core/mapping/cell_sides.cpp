@@ -7,31 +7,43 @@
 
 namespace mapscore {
 
-void find_sides(const PositionCell& cell, const CellCut& cut, const DrawSet& all,
-                CellSides& sides) {
-  sides.any_across = {};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const DrawLevels &under = cut.under[axis], &over = cut.over[axis];
-    const auto& ranges = cell.slices[axis];
-    LevelRange whole;
+namespace {
+
+bool filled(const LevelRange& range) {
+  return range.low <= range.high;
+}
+
+void find_across(const PositionCell& cell, const std::array<AxisCut, 3>& axes, const DrawSet& all,
+                 CellSides& sides) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t slice = 0; slice < kCellParts; ++slice) {
-      const LevelRange& range = ranges[slice];
-      if (range.low > range.high) continue;
-      whole.extend(range.low);
-      whole.extend(range.high);
-      sides.slices[axis][slice] = sides_of(range, under, over);
-    }
-    const DrawSet twice = across(whole, under, over) & all;
-    sides.any_across |= twice;
-    for (std::size_t slice = 0; slice < kCellParts; ++slice) {
+      const LevelRange& range = cell.slices[axis][slice];
       sides.across[axis][slice] = {};
-      if (!twice.any() || ranges[slice].low > ranges[slice].high) continue;
-      const DrawSet open = across(ranges[slice], under, over) & all;
+      if (!filled(range)) continue;
+      const DrawSet open = across(range, axes[axis]) & all;
       sides.across[axis][slice] = open;
       sides.slices[axis][slice].below &= ~open;
       sides.slices[axis][slice].above &= ~open;
     }
+}
+
+}  // namespace
+
+void find_sides(const PositionCell& cell, const std::array<AxisCut, 3>& axes, const DrawSet& all,
+                CellSides& sides) {
+  sides.any_across = {};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    LevelRange whole;
+    for (std::size_t slice = 0; slice < kCellParts; ++slice) {
+      const LevelRange& range = cell.slices[axis][slice];
+      if (!filled(range)) continue;
+      whole.extend(range.low);
+      whole.extend(range.high);
+      sides.slices[axis][slice] = sides_of(range, axes[axis]);
+    }
+    sides.any_across |= across(whole, axes[axis]) & all;
   }
+  if (sides.any_across.any()) find_across(cell, axes, all, sides);
 }
 
 /// Slices ascend, so what reaches below a boundary does so in the first of a row, and what reaches

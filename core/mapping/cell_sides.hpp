@@ -29,29 +29,32 @@ struct Sides {
 }
 
 /// Sides of all positions within a range of levels.
-[[nodiscard]] inline Sides sides_of(const LevelRange& range, const DrawLevels& under,
-                                    const DrawLevels& over) {
-  return {over_level(range.high, under), under_level(range.low, over)};
+[[nodiscard]] inline Sides sides_of(const LevelRange& range, const AxisCut& cut) {
+  return {over_level(range.high, cut.under), under_level(range.low, cut.over)};
 }
 
 /// Draws in which positions within a range may lie across yet another boundary, a voxel away.
-[[nodiscard]] inline DrawSet across(const LevelRange& range, const DrawLevels& under,
-                                    const DrawLevels& over) {
+[[nodiscard]] inline DrawSet across(const LevelRange& range, const AxisCut& cut) {
   const DrawSet up =
-      at_least(under, std::max(kLevelOffset + range.high + 1, kCellLevels) - kCellLevels);
-  return ~(under_level(range.low + kCellLevels, over) & up);
+      at_least(cut.under, std::max(kLevelOffset + range.high + 1, kCellLevels) - kCellLevels);
+  return ~(under_level(range.low + kCellLevels, cut.over) & up);
 }
 
 /// The filled slices of a cell across each axis.
 struct CellSides {
   std::array<std::array<Sides, kCellParts>, 3> slices;
-  std::array<std::array<DrawSet, kCellParts>, 3> across;  ///< on neither side; set where any is
-  DrawSet any_across;
+  std::array<std::array<DrawSet, kCellParts>, 3> across;  ///< on neither side
+  DrawSet any_across;                                     ///< none: `across` is not filled in
+
+  [[nodiscard]] DrawSet across_part(std::size_t x, std::size_t y, std::size_t z) const {
+    return across[0][x] | across[1][y] | across[2][z];
+  }
 };
 
 /// Sides of a cell's slices in the draws of `all`; those that may reach across yet another boundary
 /// are on neither.
-void find_sides(const PositionCell& cell, const CellCut& cut, const DrawSet& all, CellSides& sides);
+void find_sides(const PositionCell& cell, const std::array<AxisCut, 3>& axes, const DrawSet& all,
+                CellSides& sides);
 
 /// By octant, draws in which positions surely lie in it and draws in which some may.
 struct OctantSets {

@@ -35,7 +35,7 @@ DrawBatch::DrawBatch(const PositionCells& cells, std::span<const Pose> T_map_sen
   }
 }
 
-void DrawBatch::cut_axis(std::size_t axis, const Eigen::Vector3d& centre, CellCut& cut,
+void DrawBatch::cut_axis(std::size_t axis, const Eigen::Vector3d& centre, AxisCut& cut,
                          Voxels& voxels) const {
   constexpr int kPositive = 1 << 21;  // truncates as floor does; what it rounds, the margin covers
   const auto& [x, y, z] = turn_[axis];
@@ -51,30 +51,30 @@ void DrawBatch::cut_axis(std::size_t axis, const Eigen::Vector3d& centre, CellCu
     over[n] = static_cast<int>(boundary + margin[n]) + 1;
   }
   for (std::size_t n = 0; n < padded_; ++n) {
-    cut.under[axis].of[n] = static_cast<std::uint8_t>(under[n]);
-    cut.over[axis].of[n] = static_cast<std::uint8_t>(over[n]);
+    cut.under.of[n] = static_cast<std::uint8_t>(under[n]);
+    cut.over.of[n] = static_cast<std::uint8_t>(over[n]);
   }
 }
 
-void DrawBatch::cut(const PositionCell& cell, CellCut& cut) const {
+void DrawBatch::cut(const PositionCell& cell, std::array<AxisCut, 3>& axes, CutBases& at) const {
   const Eigen::Vector3d centre = cell.low.array() + 0.5;
   std::array<Voxels, 3> voxels;
-  for (std::size_t axis = 0; axis < 3; ++axis) cut_axis(axis, centre, cut, voxels[axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis) cut_axis(axis, centre, axes[axis], voxels[axis]);
   constexpr std::uint8_t kNone = 255;
   std::array<std::uint8_t, 256> table;  // open addressing
   table.fill(kNone);
-  cut.bases.clear();
+  at.bases.clear();
   for (std::size_t n = 0; n < size_; ++n) {
     const VoxelKey voxel{voxels[0][n], voxels[1][n], voxels[2][n]};
     unsigned place = static_cast<unsigned>(voxel.i + 8 * voxel.j + 64 * voxel.k) & 255;
-    while (table[place] != kNone && cut.bases[table[place]].voxel != voxel)
+    while (table[place] != kNone && at.bases[table[place]].voxel != voxel)
       place = (place + 1) & 255;
     if (table[place] == kNone) {
-      table[place] = static_cast<std::uint8_t>(cut.bases.size());
-      cut.bases.push_back({voxel, {}});
+      table[place] = static_cast<std::uint8_t>(at.bases.size());
+      at.bases.push_back({voxel, {}});
     }
-    cut.base_of[n] = table[place];
-    cut.bases[table[place]].draws.words[n / 64] |= std::uint64_t{1} << n % 64;
+    at.of[n] = table[place];
+    at.bases[table[place]].draws.words[n / 64] |= std::uint64_t{1} << n % 64;
   }
 }
 

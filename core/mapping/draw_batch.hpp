@@ -31,13 +31,19 @@ struct CutBase {
   }
 };
 
-/// Where the draws of a batch cut one cell: on each axis by one boundary between voxels, less and
+/// Where the draws of a batch cut one cell across one axis: at a boundary between voxels, less and
 /// plus what the draw's turn against the lattice may do to a position, in levels from kLevelOffset
 /// below the cell's low side, rounded outwards.
-struct CellCut {
-  std::array<DrawLevels, 3> under, over;
-  std::array<std::uint8_t, DrawSet::kMost> base_of;  ///< by draw, into bases
+struct AxisCut {
+  DrawLevels under, over;
+};
+
+/// The draws of a batch by the voxels that their boundaries across one cell meet at.
+struct CutBases {
+  std::array<std::uint8_t, DrawSet::kMost> of;  ///< by draw, into bases
   std::vector<CutBase> bases;
+
+  [[nodiscard]] const CutBase& base(std::size_t draw) const { return bases[of[draw]]; }
 };
 
 /// At most DrawSet::kMost draws of one frame against the lattice of its cells.
@@ -46,7 +52,8 @@ class DrawBatch {
   DrawBatch(const PositionCells& cells, std::span<const Pose> T_map_sensor, double edge_m);
 
   [[nodiscard]] const DrawSet& all() const { return all_; }
-  void cut(const PositionCell& cell, CellCut& cut) const;
+  /// How the draws cut one cell, on each axis by one boundary.
+  void cut(const PositionCell& cell, std::array<AxisCut, 3>& axes, CutBases& at) const;
   /// A position of the sensor frame in the map, as the plain form has it, so that the bits agree.
   [[nodiscard]] Eigen::Vector3d placed(const Eigen::Vector3d& p_sensor, std::size_t draw) const {
     return R_[draw] * p_sensor + t_[draw];
@@ -68,7 +75,7 @@ class DrawBatch {
   using ByDraw = std::array<double, DrawSet::kMost>;
   using Voxels = std::array<std::int32_t, DrawSet::kMost>;
 
-  void cut_axis(std::size_t axis, const Eigen::Vector3d& centre, CellCut& cut,
+  void cut_axis(std::size_t axis, const Eigen::Vector3d& centre, AxisCut& cut,
                 Voxels& voxels) const;
 
   double edge_m_;
