@@ -3,198 +3,196 @@
 
 #include "core/mapping/cell_placement.hpp"
 
-#include <array>
+#include <algorithm>
+#include <bit>
 
 namespace mapscore {
 namespace {
 
-/// In parts of a cell; far above the rounding of coordinates within a million voxels, far below
-/// what costs time.
-constexpr double kRounding = 4e-6;
+/// Calls act(part, x, y, z) for the filled parts of a cell, in their order.
+void for_parts(const PositionCell& cell, auto&& act) {
+  for (std::size_t z = 0; z < kCellParts; ++z) {
+    std::uint32_t part = cell.first_part[z];
+    for (std::uint64_t left = cell.layers[z]; left != 0; left &= left - 1, ++part) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(left));
+      act(part, bit % 8, bit / 8, z);
+    }
+  }
+}
 
-/// Voxels from a cut's on, of a coordinate in parts of the cell.
-int voxels_on(const AxisCut& cut, double parts) {
-  return (parts >= cut.boundary ? 1 : 0) + (parts >= cut.boundary + kCellParts ? 1 : 0) -
-         (parts < cut.boundary - kCellParts ? 1 : 0);
+/// Calls act(part, x, y, z) for the filled parts of a cell that may lie in one of the octants in a
+/// draw wanted there.
+void for_parts_in(const std::array<DrawSet, 8>& wanted, const PositionCell& cell,
+                  const CellSides& sides, auto&& act) {
+  const auto& [on_x, on_y, on_z] = sides.slices;
+  for (std::size_t z = 0; z < kCellParts; ++z) {
+    if (cell.layers[z] == 0) continue;
+    std::uint32_t part = cell.first_part[z];
+    std::array<DrawSet, 4> layer;
+    for (std::size_t side = 0; side < 4; ++side)
+      layer[side] = (wanted[side] & ~on_z[z].above) | (wanted[side + 4] & ~on_z[z].below);
+    for (std::size_t y = 0; y < kCellParts; ++y) {
+      auto row = static_cast<unsigned>(cell.layers[z] >> 8 * y & 0xff);
+      if (row == 0) continue;
+      const DrawSet below = (layer[0] & ~on_y[y].above) | (layer[2] & ~on_y[y].below);
+      const DrawSet above = (layer[1] & ~on_y[y].above) | (layer[3] & ~on_y[y].below);
+      if (!(below | above).any()) {
+        part += count_bits(row);
+        continue;
+      }
+      for (; row != 0; row &= row - 1, ++part) {
+        const auto x = static_cast<std::size_t>(std::countr_zero(row));
+        if (((below & ~on_x[x].above) | (above & ~on_x[x].below)).any()) act(part, x, y, z);
+      }
+    }
+  }
+}
+
+/// Voxels that any draw may hit.
+VoxelBox reach_of(const CutBases& cut) {
+  VoxelBox box{cut.bases.front().voxel, cut.bases.front().voxel};
+  for (const auto& [voxel, draws] : cut.bases) {
+    box.low = {std::min(box.low.i, voxel.i), std::min(box.low.j, voxel.j),
+               std::min(box.low.k, voxel.k)};
+    box.high = {std::max(box.high.i, voxel.i), std::max(box.high.j, voxel.j),
+                std::max(box.high.k, voxel.k)};
+  }
+  return {{box.low.i - 1, box.low.j - 1, box.low.k - 1},
+          {box.high.i + 2, box.high.j + 2, box.high.k + 2}};
+}
+
+DrawSet any_of(const std::array<DrawSet, 8>& sets) {
+  DrawSet any;
+  for (const DrawSet& set : sets) any |= set;
+  return any;
 }
 
 }  // namespace
 
-CellCut CellPlacer::cut_of(const PositionCell& cell) const {
-  const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5);
-  const Eigen::Vector3d low = turn_ * (cell.low + half) + origin_ - half;
-  return {cut_at(low.x(), margin_.x(), cell.slices[0]),
-          cut_at(low.y(), margin_.y(), cell.slices[1]),
-          cut_at(low.z(), margin_.z(), cell.slices[2])};
+void CellPlacer::mark_sure(const PositionCell& cell, CutCell& at) {
+  std::array<AxisCut, 3> axes;
+  batch_->cut(cell, axes, at.bases);
+  find_sides(cell, axes, batch_->all(), at.sides);
+  at.octants = octants_of(cell, at.sides);
+  mark(at.octants.sure, at.bases, cell.group);
 }
 
-/// As the plain form has it, so that the bits agree.
-Eigen::Vector3d CellPlacer::placed(const Eigen::Vector3d& p_sensor) const {
-  return R_ * p_sensor + t_;
-}
-
-std::uint32_t CellPlacer::octant_of(const Eigen::Vector3d& p_sensor, std::uint32_t octants,
-                                    const CellCut& cut) const {
-  const Eigen::Vector3d p_map = placed(p_sensor);
-  // floor(p / edge) > voxel where p / edge >= voxel + 1; asked on open axes alone.
-  const auto on = [&](const AxisCut& axis, double p, std::uint32_t lower) {
-    if ((octants & lower) == 0 || (octants & ~lower) == 0) return 0xffu;
-    return p / edge_m_ >= axis.voxel + 1 ? ~lower : lower;
-  };
-  return octants & on(cut.x, p_map.x(), 0x55u) & on(cut.y, p_map.y(), 0x33u) &
-         on(cut.z, p_map.z(), 0x0fu);
-}
-
-void CellPlacer::mark_sure(const PositionCell& cell) {
-  const CellCut cut = cut_of(cell);
-  std::uint64_t side[2] = {0, 0}, open = 0;
-  for (unsigned z = 0; z < 8; ++z) {
-    const std::uint64_t below = 0 - std::uint64_t{cut.z.below >> z & 1};
-    const std::uint64_t above = 0 - std::uint64_t{cut.z.above >> z & 1};
-    side[0] |= cell.layers[z] & below;
-    side[1] |= cell.layers[z] & above;
-    open |= cell.layers[z] & ~(below | above);
-  }
-  const std::uint64_t columns[2] = {columns_of(cut.x.below), columns_of(cut.x.above)};
-  const std::uint64_t rows[2] = {rows_of(cut.y.below), rows_of(cut.y.above)};
-  const std::uint64_t open_columns = ~(columns[0] | columns[1]);
-  const std::uint64_t open_rows = ~(rows[0] | rows[1]);
-  std::uint32_t sure = 0, maybe = 0;
+void CellPlacer::mark(const ByOctant& sets, const CutBases& bases, std::uint16_t group) {
   for (unsigned octant = 0; octant < 8; ++octant) {
-    const std::uint64_t column = columns[octant & 1], row = rows[octant >> 1 & 1];
-    const std::uint64_t layer = side[octant >> 2];
-    const std::uint64_t reached = (layer | open) & (column | open_columns) & (row | open_rows);
-    sure |= std::uint32_t{(layer & column & row) != 0} << octant;
-    maybe |= std::uint32_t{reached != 0} << octant;
+    if (!sets[octant].any()) continue;
+    for (const CutBase& base : bases.bases)
+      if (const DrawSet draws = sets[octant] & base.draws; draws.any())
+        grid_.mark(base.octant(octant), group, draws);
   }
-  for (std::uint32_t left = sure; left != 0; left &= left - 1)
-    grid_.mark(cut.voxel(std::countr_zero(left)), cell.group);
-  const std::uint64_t sure_parts = ~open_columns & ~open_rows;
-  const bool across =
-      cut.twice() && (open | ((side[0] | side[1]) & ~sure_parts)) != 0;  // some part is open
-  if (across || (maybe & ~sure) != 0) open_.push_back({&cell, cut, across ? 0xffu : maybe & ~sure});
-  if (cell.contested) contested_.push_back({&cell, cut, maybe});
 }
 
-std::pair<std::uint32_t, std::uint32_t> CellPlacer::narrowed(std::uint32_t part,
-                                                             std::uint32_t possible,
-                                                             const CellCut& cut) const {
-  const PartBox& box = cells_.box(part);
-  int spans = 0;
-  std::uint32_t surely = 0;
-  const auto narrow = [&](const AxisCut& axis, int a, std::uint32_t lower) {
-    if ((possible & lower) == 0 || (possible & ~lower) == 0) return;
-    const double low = kCellParts * double{box.low[a]}, high = kCellParts * double{box.high[a]};
-    if (high + margin_[a] < axis.boundary) {
-      possible &= lower;
-    } else if (low - margin_[a] >= axis.boundary) {
-      possible &= ~lower;
-    } else {  // the box is tight: it has positions at both ends
-      ++spans;
-      if (low + margin_[a] < axis.boundary) surely |= lower;
-      if (high - margin_[a] >= axis.boundary) surely |= ~lower;
-    }
-  };
-  narrow(cut.x, 0, 0x55u);
-  narrow(cut.y, 1, 0x33u);
-  narrow(cut.z, 2, 0x0fu);
-  if (spans == 0) return {possible, possible};
-  return {possible, spans == 1 ? possible & surely : 0};
+/// Draws in which an octant is marked already need no proof.
+void CellPlacer::mark_open(const PositionCell& cell, const CutCell& at) {
+  ByOctant wanted;
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    const DrawSet open = at.octants.may[octant] & ~at.octants.sure[octant];
+    if (!open.any()) continue;
+    for (const CutBase& base : at.bases.bases)
+      if (const DrawSet draws = open & base.draws; draws.any())
+        wanted[octant] |= draws & ~grid_.marked(base.octant(octant), cell.group);
+  }
+  if (!any_of(wanted).any()) return;
+  const ByOctant before = wanted;
+  for_parts_in(before, cell, at.sides, [&](auto part, auto x, auto y, auto z) {
+    const auto& [on_x, on_y, on_z] = at.sides.slices;
+    ByOctant may = may_reach(on_x[x], on_y[y], on_z[z]);
+    for (std::size_t octant = 0; octant < 8; ++octant) may[octant] &= wanted[octant];
+    if (!any_of(may).any()) return;
+    if (at.sides.any_across.any())
+      for (DrawSet& set : may) set &= ~at.sides.across_part(x, y, z);
+    prove(part, at.bases, may, wanted);
+  });
+  ByOctant found;
+  for (std::size_t octant = 0; octant < 8; ++octant)
+    found[octant] = before[octant] & ~wanted[octant];
+  mark(found, at.bases, cell.group);
 }
 
-/// Octants that are marked already need no proof.
-void CellPlacer::mark_open(const Pending& pending) {
-  const auto& [cell, cut, octants] = pending;
-  if (cut.twice()) return mark_across(pending);
-  std::uint32_t wanted = octants;
-  for (std::uint32_t left = octants; left != 0; left &= left - 1)
-    if (grid_.marked(cut.voxel(std::countr_zero(left)), cell->group)) wanted &= ~(left & -left);
-  if (wanted == 0) return;
-  const auto found = [&, group = cell->group, &at = cut](std::uint32_t found_octants) {
-    for (std::uint32_t left = found_octants & wanted; left != 0; left &= left - 1)
-      grid_.mark(at.voxel(std::countr_zero(left)), group);
-    wanted &= ~found_octants;
-  };
-  for_parts(*cell, cut, wanted, true, [&, &cut = cut](std::uint32_t part, std::uint32_t possible) {
-    if ((possible & wanted) == 0) return true;
-    const auto [reached, surely] = narrowed(part, possible, cut);
-    found(surely);
-    if ((reached & ~surely & wanted) == 0) return wanted != 0;
+void CellPlacer::prove(std::uint32_t part, const CutBases& bases, const ByOctant& may,
+                       ByOctant& wanted) const {
+  for_each_draw(any_of(may), [&](std::size_t draw) {
+    const VoxelKey& base = bases.base(draw).voxel;
+    unsigned open = 0;
+    for (unsigned octant = 0; octant < 8; ++octant)
+      open |= static_cast<unsigned>(may[octant].has(draw)) << octant;
     for (const Eigen::Vector3d& p : cells_.part(part)) {
-      found(octant_of(p, reached, cut));
-      if ((reached & wanted) == 0) break;
+      const unsigned octant = batch_->octant(p, draw, base);
+      if ((open >> octant & 1) == 0) continue;
+      wanted[octant] &= ~DrawSet::of(draw);
+      open &= ~(1u << octant);
+      if (open == 0) break;
     }
-    return wanted != 0;
   });
 }
 
-/// Cells that two boundaries of one axis may cut: open parts by their boxes, then by position.
-void CellPlacer::mark_across(const Pending& pending) {
-  const CellCut& cut = pending.cut;
-  const std::uint16_t group = pending.cell->group;
-  for_parts(*pending.cell, cut, 0xffu, true, [&](std::uint32_t part, std::uint32_t) {
-    const PartBox& box = cells_.box(part);
-    const Eigen::Vector3d low = kCellParts * box.low.cast<double>() - margin_;
-    const Eigen::Vector3d high = kCellParts * box.high.cast<double>() + margin_;
-    const int x = voxels_on(cut.x, low.x()), y = voxels_on(cut.y, low.y()),
-              z = voxels_on(cut.z, low.z());
-    if (x == voxels_on(cut.x, high.x()) && y == voxels_on(cut.y, high.y()) &&
-        z == voxels_on(cut.z, high.z())) {
-      grid_.mark({cut.x.voxel + x, cut.y.voxel + y, cut.z.voxel + z}, group);
-      return true;
-    }
-    for (const Eigen::Vector3d& p : cells_.part(part))
-      grid_.mark(voxel_of(placed(p), edge_m_), group);
-    return true;
+/// Where a turn carries positions across a second boundary of one axis, position by position.
+void CellPlacer::mark_across(const PositionCell& cell, const CutCell& at) {
+  for_parts(cell, [&](auto part, auto x, auto y, auto z) {
+    for_each_draw(at.sides.across_part(x, y, z), [&](std::size_t draw) {
+      for (const Eigen::Vector3d& p : cells_.part(part))
+        grid_.mark(batch_->voxel(p, draw), cell.group, DrawSet::of(draw));
+    });
   });
 }
 
-/// Counts a cell's positions in voxels where classes meet.
-void CellPlacer::count(const Pending& pending) {
-  const PositionCell& cell = *pending.cell;
-  const CellCut& cut = pending.cut;
-  const bool twice = cut.twice();
-  std::uint32_t wanted = twice ? 0xffu : 0u;
-  for (std::uint32_t left = twice ? 0 : pending.octants; left != 0; left &= left - 1)
-    if (grid_.contested(cut.voxel(std::countr_zero(left)))) wanted |= left & -left;
-  if (wanted == 0) return;
-  std::array<int, 8> counts{};
-  const auto add = [&](std::uint32_t octant, std::size_t positions) {
-    counts[static_cast<std::size_t>(std::countr_zero(octant))] += static_cast<int>(positions);
-  };
-  for_parts(cell, cut, wanted, false, [&](std::uint32_t part, std::uint32_t possible) {
+void CellPlacer::count(const PositionCell& cell, const CutCell& at) {
+  if (!grid_.contested_within(reach_of(at.bases))) return;
+  ByOctant wanted;
+  for (unsigned octant = 0; octant < 8; ++octant)
+    for (const CutBase& base : at.bases.bases)
+      if (const DrawSet draws = at.octants.may[octant] & base.draws; draws.any())
+        wanted[octant] |= draws & grid_.contested(base.octant(octant));
+  if (at.sides.any_across.any()) count_across(cell, at);
+  for_parts_in(wanted, cell, at.sides, [&](auto part, auto x, auto y, auto z) {
+    const auto& [on_x, on_y, on_z] = at.sides.slices;
     const std::span<const Eigen::Vector3d> positions = cells_.part(part);
-    if (!std::has_single_bit(possible) && !twice) possible = narrowed(part, possible, cut).first;
-    if (std::has_single_bit(possible)) {
-      add(possible, positions.size());
-      return true;
+    const DrawSet sure = (on_x[x].below | on_x[x].above) & (on_y[y].below | on_y[y].above) &
+                         (on_z[z].below | on_z[z].above);
+    const ByOctant may = may_reach(on_x[x], on_y[y], on_z[z]);
+    DrawSet open;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      const DrawSet here = may[octant] & wanted[octant];
+      open |= here & ~sure;
+      for_each_draw(here & sure, [&](std::size_t draw) {
+        grid_.count(at.bases.base(draw).octant(octant), cell.group, draw,
+                    static_cast<int>(positions.size()));
+      });
     }
-    for (const Eigen::Vector3d& p : positions) {
-      if (twice)
-        grid_.count(voxel_of(placed(p), edge_m_), cell.group, 1);
-      else
-        add(octant_of(p, possible, cut), 1);
-    }
-    return true;
+    if (at.sides.any_across.any()) open &= ~at.sides.across_part(x, y, z);
+    count_positions(part, cell.group, open);
   });
-  for (int octant = 0; octant < 8; ++octant)
-    if (const int positions = counts[static_cast<std::size_t>(octant)];
-        positions > 0 && (wanted >> octant & 1) != 0)
-      grid_.count(cut.voxel(octant), cell.group, positions);
 }
 
-void CellPlacer::place(const Pose& T_map_sensor) {
-  R_ = T_map_sensor.linear();
-  t_ = T_map_sensor.translation();
-  turn_ = R_ * cells_.R().transpose();
-  origin_ = t_ / edge_m_ - turn_ * cells_.offset();
-  const Eigen::Matrix3d off = (turn_ - Eigen::Matrix3d::Identity()).cwiseAbs();
-  margin_ = (0.5 * kCellParts * off.rowwise().sum()).array() + kRounding;
-  open_.clear();
-  contested_.clear();
-  for (const PositionCell& cell : cells_.cells()) mark_sure(cell);
-  for (const Pending& pending : open_) mark_open(pending);
-  for (const Pending& pending : contested_) count(pending);
+void CellPlacer::count_across(const PositionCell& cell, const CutCell& at) {
+  for_parts(cell, [&](auto part, auto x, auto y, auto z) {
+    count_positions(part, cell.group, at.sides.across_part(x, y, z));
+  });
+}
+
+void CellPlacer::count_positions(std::uint32_t part, std::uint16_t group, const DrawSet& draws) {
+  for_each_draw(draws, [&](std::size_t draw) {
+    for (const Eigen::Vector3d& p : cells_.part(part))
+      if (const VoxelKey voxel = batch_->voxel(p, draw); grid_.contested(voxel).has(draw))
+        grid_.count(voxel, group, draw, 1);
+  });
+}
+
+void CellPlacer::place(std::span<const Pose> T_map_sensor) {
+  batch_.emplace(cells_, T_map_sensor, edge_m_);
+  const std::vector<PositionCell>& cells = cells_.cells();
+  cut_cells_.resize(cells.size());
+  for (std::size_t n = 0; n < cells.size(); ++n) mark_sure(cells[n], cut_cells_[n]);
+  for (std::size_t n = 0; n < cells.size(); ++n)
+    if (cut_cells_[n].sides.any_across.any()) mark_across(cells[n], cut_cells_[n]);
+  for (std::size_t n = 0; n < cells.size(); ++n) mark_open(cells[n], cut_cells_[n]);
+  grid_.find_contested();
+  for (std::size_t n = 0; n < cells.size(); ++n) count(cells[n], cut_cells_[n]);
+  grid_.end_batch();
 }
 
 std::optional<VoxelBox> reach_of(const PositionCells& cells, std::span<const Pose> T_map_sensor,

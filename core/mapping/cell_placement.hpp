@@ -4,13 +4,14 @@
 #pragma once
 
 #include "core/geometry/pose.hpp"
-#include "core/mapping/cell_cut.hpp"
+#include "core/mapping/cell_sides.hpp"
+#include "core/mapping/draw_batch.hpp"
 #include "core/mapping/hit_grid.hpp"
 #include "core/mapping/position_cells.hpp"
 
+#include <array>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace mapscore {
@@ -20,49 +21,45 @@ namespace mapscore {
 [[nodiscard]] std::optional<VoxelBox> reach_of(const PositionCells& cells,
                                                std::span<const Pose> T_map_sensor, double edge_m);
 
-/// Places whole cells of positions at once (docs/fusion.md, Many draws): parts of a cell that lie
-/// wholly in one voxel need no look at their positions, nor do open ones whose voxels are known to
-/// be hit. `cells` and `grid` must outlive it.
+/// Places whole cells of positions in all draws of a batch at once (docs/fusion.md, Many draws):
+/// parts of a cell that lie wholly in one voxel need no look at their positions, nor do open ones
+/// whose voxels are known to be hit. `cells` and `grid` must outlive it.
 class CellPlacer {
  public:
   CellPlacer(const PositionCells& cells, double edge_m, HitGrid& grid)
       : cells_(cells), edge_m_(edge_m), grid_(grid) {}
 
-  /// Adds one draw to the grid: exactly the voxels that hold R p + t for some position p, and the
-  /// counts where classes meet.
-  void place(const Pose& T_map_sensor);
+  /// Adds one batch of draws to the grid: exactly the voxels that hold R p + t for some position p,
+  /// and the counts where classes meet.
+  void place(std::span<const Pose> T_map_sensor);
 
  private:
-  /// A cell that must be looked at again once all sure voxels are marked, and the octants of it
-  /// that may hold positions.
-  struct Pending {
-    const PositionCell* cell;
-    CellCut cut;
-    std::uint32_t octants;
+  /// A cell and what the batch does to it.
+  struct CutCell {
+    CutBases bases;
+    CellSides sides;
+    OctantSets octants;
   };
+  using ByOctant = std::array<DrawSet, 8>;
 
-  [[nodiscard]] CellCut cut_of(const PositionCell& cell) const;
-  void mark_sure(const PositionCell& cell);
-  void mark_open(const Pending& pending);
-  void count(const Pending& pending);
-  /// Octants of those possible that a part may really reach by its box, and those that it surely
-  /// does; for cells that are cut but once.
-  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> narrowed(std::uint32_t part,
-                                                                 std::uint32_t possible,
-                                                                 const CellCut& cut) const;
-  void mark_across(const Pending& pending);
-  [[nodiscard]] Eigen::Vector3d placed(const Eigen::Vector3d& p_sensor) const;
-  /// Octant of a position in a part that may reach `octants`; for cells that are cut but once.
-  [[nodiscard]] std::uint32_t octant_of(const Eigen::Vector3d& p_sensor, std::uint32_t octants,
-                                        const CellCut& cut) const;
+  void mark(const ByOctant& sets, const CutBases& bases, std::uint16_t group);
+  void mark_sure(const PositionCell& cell, CutCell& at);
+  void mark_open(const PositionCell& cell, const CutCell& at);
+  void mark_across(const PositionCell& cell, const CutCell& at);
+  /// Takes the draws out of `wanted` in which positions of a part lie, given those in which they
+  /// may.
+  void prove(std::uint32_t part, const CutBases& bases, const ByOctant& may,
+             ByOctant& wanted) const;
+  void count(const PositionCell& cell, const CutCell& at);
+  void count_across(const PositionCell& cell, const CutCell& at);
+  /// Counts one by one those positions of a part that lie in contested voxels.
+  void count_positions(std::uint32_t part, std::uint16_t group, const DrawSet& draws);
 
   const PositionCells& cells_;
   double edge_m_;
   HitGrid& grid_;
-  Eigen::Matrix3d R_, turn_;  ///< T_map_sensor's, and from the cells' lattice to the map
-  Eigen::Vector3d t_, margin_;
-  Eigen::Vector3d origin_;  ///< of the cells' lattice, in voxels of the map
-  std::vector<Pending> open_, contested_;
+  std::optional<DrawBatch> batch_;
+  std::vector<CutCell> cut_cells_;
 };
 
 }  // namespace mapscore

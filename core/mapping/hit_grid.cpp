@@ -4,7 +4,6 @@
 #include "core/mapping/hit_grid.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace mapscore {
 namespace {
@@ -31,15 +30,16 @@ HitGrid::HitGrid(const VoxelBox& box, std::span<const ScoredClass> groups)
       blocks_y_(blocks_between(box.low.j, box.high.j)),
       blocks_z_(blocks_between(box.low.k, box.high.k)),
       groups_(groups),
-      blocks_(blocks_between(box.low.i, box.high.i) * blocks_y_ * blocks_z_, kNone) {
-  for (std::size_t group = 0; group < groups.size(); ++group) {
-    if (class_of_rank_.empty() || class_of_rank_.back() != groups[group].class_id) {
-      class_of_rank_.push_back(groups[group].class_id);
-      groups_of_rank_.push_back(0);
-    }
-    groups_of_rank_.back() |= std::uint64_t{1} << group;
-    rank_of_group_.push_back(static_cast<std::uint16_t>(class_of_rank_.size() - 1));
-  }
+      blocks_(blocks_between(box.low.i, box.high.i) * blocks_y_ * blocks_z_, kNone) {}
+
+std::uint32_t HitGrid::make_row(const VoxelKey& key, std::uint16_t group) {
+  const std::uint32_t found = find(key);
+  const std::uint32_t slot = found == kNone ? make_slot(key) : found;
+  const auto row = static_cast<std::uint32_t>(rows_.size());
+  if (slots_[slot].rows == kNone) touched_.push_back(slot);
+  rows_.push_back({{}, group, slots_[slot].rows, kNone});
+  slots_[slot].rows = row;
+  return row;
 }
 
 std::uint32_t HitGrid::make_slot(const VoxelKey& key) {
@@ -55,65 +55,97 @@ std::uint32_t HitGrid::make_slot(const VoxelKey& key) {
   return slot;
 }
 
-void HitGrid::touch(std::uint32_t slot) {
-  slots_[slot].draw = draw_;
-  slots_[slot].present = 0;
-  slots_[slot].counts = kNone;
-  touched_.push_back(slot);
-}
-
-bool HitGrid::contested(const VoxelKey& key) const {
-  const std::uint32_t slot = find(key);
-  if (slot == kNone || slots_[slot].draw != draw_) return false;
-  const std::uint64_t present = slots_[slot].present;
-  const auto first = static_cast<std::size_t>(std::countr_zero(present));
-  return (present & ~groups_of_rank_[rank_of_group_[first]]) != 0;
-}
-
-void HitGrid::count(const VoxelKey& key, std::uint16_t group, int positions) {
-  Slot& slot = slot_in_draw(key);
-  if (slot.counts == kNone) {
-    slot.counts = static_cast<std::uint32_t>(counts_.size());
-    counts_.resize(counts_.size() + class_of_rank_.size(), 0);
+void HitGrid::find_contested() {
+  for (const std::uint32_t touched : touched_) {
+    Slot& slot = slots_[touched];
+    const Row& first = rows_[slot.rows];
+    if (first.next == kNone) continue;
+    for (std::uint32_t a = slot.rows; a != kNone; a = rows_[a].next)
+      for (std::uint32_t b = rows_[a].next; b != kNone; b = rows_[b].next)
+        if (class_of(rows_[a]) != class_of(rows_[b]))
+          slot.contested |= rows_[a].draws & rows_[b].draws;
+    if (!slot.contested.any()) continue;
+    contested_blocks_.resize(blocks_.size());
+    contested_blocks_[block_of(unpack(slot.voxel))] = true;
+    for (std::uint32_t a = slot.rows; a != kNone; a = rows_[a].next) {
+      if (rows_[a].counts != kNone) continue;
+      for (std::uint32_t b = a; b != kNone; b = rows_[b].next)
+        if (class_of(rows_[a]) == class_of(rows_[b]))
+          rows_[b].counts = static_cast<std::uint32_t>(counts_.size());
+      counts_.resize(counts_.size() + DrawSet::kMost, 0);
+    }
   }
-  counts_[slot.counts + rank_of_group_[group]] += positions;
 }
 
-/// Rank of the class with most positions, ties to the lower id; the only one present needs no
-/// counts.
-ClassId HitGrid::winner_of(const Slot& slot) const {
-  const std::uint16_t first =
-      rank_of_group_[static_cast<std::size_t>(std::countr_zero(slot.present))];
-  if ((slot.present & ~groups_of_rank_[first]) == 0) return first;
-  const auto row = counts_.begin() + slot.counts;
-  const auto end = row + static_cast<std::ptrdiff_t>(class_of_rank_.size());
-  return static_cast<ClassId>(std::max_element(row, end) - row);
+bool HitGrid::contested_within(const VoxelBox& box) const {
+  if (contested_blocks_.empty()) return false;
+  const std::size_t first = block_of(box.low), last = block_of(box.high);
+  const std::size_t x0 = first / blocks_z_ / blocks_y_, x1 = last / blocks_z_ / blocks_y_;
+  const std::size_t y0 = first / blocks_z_ % blocks_y_, y1 = last / blocks_z_ % blocks_y_;
+  const std::size_t z0 = first % blocks_z_, z1 = last % blocks_z_;
+  for (std::size_t x = x0; x <= x1; ++x)
+    for (std::size_t y = y0; y <= y1; ++y)
+      for (std::size_t z = z0; z <= z1; ++z)
+        if (contested_blocks_[(x * blocks_y_ + y) * blocks_z_ + z]) return true;
+  return false;
 }
 
-void HitGrid::win(Slot& slot, ClassId class_id, double score) {
+/// The class with most positions wins, ties to the lower id.
+void HitGrid::decide(const Slot& slot) {
+  for_each_draw(slot.contested, [&](std::size_t draw) {
+    int most = 0;
+    ClassId winner = kBackground;
+    for (std::uint32_t row = slot.rows; row != kNone; row = rows_[row].next) {
+      if (!rows_[row].draws.has(draw)) continue;
+      const int positions = counts_[rows_[row].counts + draw];
+      const ClassId class_id = class_of(rows_[row]);
+      if (positions < most || (positions == most && class_id >= winner)) continue;
+      most = positions;
+      winner = class_id;
+    }
+    for (std::uint32_t row = slot.rows; row != kNone; row = rows_[row].next)
+      if (class_of(rows_[row]) != winner) rows_[row].draws &= ~DrawSet::of(draw);
+  });
+}
+
+/// Takes the draws of the class of a row, and ends the class's rows.
+void HitGrid::win(Slot& slot, std::uint32_t first_row) {
+  const ClassId class_id = class_of(rows_[first_row]);
+  DrawSet draws;
+  for (std::uint32_t row = first_row; row != kNone; row = rows_[row].next)
+    if (class_of(rows_[row]) == class_id) draws |= rows_[row].draws;
+  if (!draws.any()) return;
   std::uint32_t* link = &slot.wins;
   while (*link != kNone && wins_[*link].class_id != class_id) link = &wins_[*link].next;
   if (*link == kNone) {
     *link = static_cast<std::uint32_t>(wins_.size());
-    wins_.push_back({class_id, 1, score, kNone});
-    return;
+    wins_.push_back({class_id, 0, 0.0, kNone});
   }
-  ++wins_[*link].draws;
-  wins_[*link].score_sum += score;
+  Wins& wins = wins_[*link];
+  wins.draws += static_cast<int>(draws.count());
+  for_each_draw(draws, [&](std::size_t draw) {
+    double best = 0.0;
+    for (std::uint32_t row = first_row; row != kNone; row = rows_[row].next)
+      if (class_of(rows_[row]) == class_id && rows_[row].draws.has(draw))
+        best = std::max(best, groups_[rows_[row].group].score);
+    wins.score_sum += best;
+  });
+  for (std::uint32_t row = first_row; row != kNone; row = rows_[row].next)
+    if (class_of(rows_[row]) == class_id) rows_[row].draws = {};
 }
 
-void HitGrid::end_draw() {
+void HitGrid::end_batch() {
   for (const std::uint32_t touched : touched_) {
     Slot& slot = slots_[touched];
-    const ClassId rank = winner_of(slot);
-    const std::uint64_t present = slot.present & groups_of_rank_[rank];
-    // A class's groups ascend by score, so the last is the best.
-    const auto best = static_cast<std::size_t>(63 - std::countl_zero(present));
-    win(slot, class_of_rank_[rank], groups_[best].score);
+    decide(slot);
+    for (std::uint32_t row = slot.rows; row != kNone; row = rows_[row].next) win(slot, row);
+    slot.rows = kNone;
+    slot.contested = {};
   }
+  contested_blocks_.clear();
   touched_.clear();
+  rows_.clear();
   counts_.clear();
-  ++draw_;
 }
 
 std::vector<VoxelHit> HitGrid::hits() const {

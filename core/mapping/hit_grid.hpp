@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/geometry/voxel.hpp"
+#include "core/mapping/draw_set.hpp"
 #include "core/mapping/position_cells.hpp"
 #include "core/mapping/voxel_hit.hpp"
 
@@ -19,9 +20,9 @@ struct VoxelBox {
   VoxelKey low, high;
 };
 
-/// Gathers the hits of one frame, draw by draw: which groups are present in a voxel, how many
-/// positions the classes have in contested ones, and what each class won so far. A grid of blocks
-/// of 8 x 8 x 8 voxels that come into being where something is hit.
+/// Gathers the hits of one frame, batch of draws by batch: in which draws groups are present in a
+/// voxel, how many positions the classes have in contested ones, and what each class won so far. A
+/// grid of blocks of 8 x 8 x 8 voxels that come into being where something is hit.
 class HitGrid {
  public:
   /// Most blocks that the box may span.
@@ -31,22 +32,30 @@ class HitGrid {
   /// For hits within a box that `holds` allows. `groups` must outlive it.
   HitGrid(const VoxelBox& box, std::span<const ScoredClass> groups);
 
-  /// Says that a group has positions in the voxel, in the draw under way.
-  void mark(const VoxelKey& key, std::uint16_t group) {
-    slot_in_draw(key).present |= std::uint64_t{1} << group;
+  /// Says that a group has positions in the voxel in these draws.
+  void mark(const VoxelKey& key, std::uint16_t group, const DrawSet& draws) {
+    rows_[row_of(key, group)].draws |= draws;
   }
-  [[nodiscard]] bool marked(const VoxelKey& key, std::uint16_t group) const {
+  [[nodiscard]] DrawSet marked(const VoxelKey& key, std::uint16_t group) const {
+    const std::uint32_t row = find_row(key, group);
+    return row == kNone ? DrawSet{} : rows_[row].draws;
+  }
+  /// Once all is marked, finds where positions of several classes are in one voxel.
+  void find_contested();
+  [[nodiscard]] DrawSet contested(const VoxelKey& key) const {
     const std::uint32_t slot = find(key);
-    return slot != kNone && slots_[slot].draw == draw_ && (slots_[slot].present >> group & 1) != 0;
+    return slot == kNone ? DrawSet{} : slots_[slot].contested;
   }
-  /// Whether positions of several classes are marked in the voxel.
-  [[nodiscard]] bool contested(const VoxelKey& key) const;
-  /// Adds to a group's positions in a marked voxel; needed for all of them where classes meet, of
-  /// no effect elsewhere.
-  void count(const VoxelKey& key, std::uint16_t group, int positions);
+  /// Whether there may be such voxels in a box.
+  [[nodiscard]] bool contested_within(const VoxelBox& box) const;
+  /// Adds to a group's positions in a marked voxel, in a draw in which it is contested; needed for
+  /// all of them.
+  void count(const VoxelKey& key, std::uint16_t group, std::size_t draw, int positions) {
+    counts_[rows_[find_row(key, group)].counts + draw] += positions;
+  }
 
-  /// Decides the winners of the draw under way and begins the next.
-  void end_draw();
+  /// Decides the winners of the draws of this batch and begins the next.
+  void end_batch();
 
   /// All hits, ascending by voxel, then class.
   [[nodiscard]] std::vector<VoxelHit> hits() const;
@@ -55,11 +64,17 @@ class HitGrid {
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   struct Slot {
-    std::uint64_t voxel = 0;    ///< packed key
-    std::uint64_t present = 0;  ///< bit by group, in draw `draw`
-    std::uint32_t draw = 0;
-    std::uint32_t counts = kNone;  ///< row of counts_ in draw `draw`
-    std::uint32_t wins = kNone;    ///< first of its wins
+    std::uint64_t voxel = 0;     ///< packed key
+    std::uint32_t rows = kNone;  ///< first of this batch
+    std::uint32_t wins = kNone;  ///< first of its wins
+    DrawSet contested;
+  };
+  /// One group in one voxel in the draws of the batch.
+  struct Row {
+    DrawSet draws;
+    std::uint16_t group = 0;
+    std::uint32_t next = kNone;    ///< of the same voxel
+    std::uint32_t counts = kNone;  ///< of its class, a number by draw
   };
   /// What one class won in a voxel so far.
   struct Wins {
@@ -83,29 +98,36 @@ class HitGrid {
     const std::uint32_t block = blocks_[block_of(key)];
     return block == kNone ? kNone : in_blocks_[512 * std::size_t{block} + within_block(key)];
   }
-  Slot& slot_in_draw(const VoxelKey& key) {
-    const std::uint32_t found = find(key);
-    const std::uint32_t slot = found == kNone ? make_slot(key) : found;
-    if (slots_[slot].draw != draw_) touch(slot);
-    return slots_[slot];
+  [[nodiscard]] std::uint32_t row_in(std::uint32_t slot, std::uint16_t group) const {
+    std::uint32_t row = slots_[slot].rows;
+    while (row != kNone && rows_[row].group != group) row = rows_[row].next;
+    return row;
   }
+  [[nodiscard]] std::uint32_t find_row(const VoxelKey& key, std::uint16_t group) const {
+    const std::uint32_t slot = find(key);
+    return slot == kNone ? kNone : row_in(slot, group);
+  }
+  std::uint32_t row_of(const VoxelKey& key, std::uint16_t group) {
+    const std::uint32_t row = find_row(key, group);
+    return row == kNone ? make_row(key, group) : row;
+  }
+  std::uint32_t make_row(const VoxelKey& key, std::uint16_t group);
   std::uint32_t make_slot(const VoxelKey& key);
-  void touch(std::uint32_t slot);
-  [[nodiscard]] ClassId winner_of(const Slot& slot) const;
-  void win(Slot& slot, ClassId class_id, double score);
+  [[nodiscard]] ClassId class_of(const Row& row) const { return groups_[row.group].class_id; }
+  /// Leaves each contested draw to the class that won it.
+  void decide(const Slot& slot);
+  void win(Slot& slot, std::uint32_t first_row);
 
   VoxelKey low_;
   std::size_t blocks_y_, blocks_z_;
   std::span<const ScoredClass> groups_;
-  std::vector<std::uint16_t> rank_of_group_;  ///< which of the classes that occur it belongs to
-  std::vector<ClassId> class_of_rank_;
-  std::vector<std::uint64_t> groups_of_rank_;  ///< bits
   std::vector<std::uint32_t> blocks_, in_blocks_;
+  std::vector<bool> contested_blocks_;  ///< as blocks_; empty where there are none
   std::vector<Slot> slots_;
+  std::vector<Row> rows_;
   std::vector<Wins> wins_;
-  std::vector<std::uint32_t> touched_;
-  std::vector<int> counts_;  ///< rows, a number by rank of class
-  std::uint32_t draw_ = 1;
+  std::vector<std::uint32_t> touched_;  ///< slots with rows
+  std::vector<int> counts_;
 };
 
 }  // namespace mapscore

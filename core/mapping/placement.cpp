@@ -102,20 +102,29 @@ std::vector<VoxelHit> place_positions(const Observation& observation,
   return collect(wins, T_map_sensor.size() == 1);
 }
 
+/// The draw whose rotation is nearest to the mean of all: the others turn least against it.
+const Pose& central(std::span<const Pose> T_map_sensor) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Pose& pose : T_map_sensor) sum += pose.linear();
+  const Eigen::Matrix3d mean = sum / static_cast<double>(T_map_sensor.size());
+  return *std::min_element(
+      T_map_sensor.begin(), T_map_sensor.end(), [&](const Pose& a, const Pose& b) {
+        return (a.linear() - mean).squaredNorm() < (b.linear() - mean).squaredNorm();
+      });
+}
+
 /// The same by whole cells; empty where observation or draws do not suit.
 std::optional<std::vector<VoxelHit>> place_by_cells(const Observation& observation,
                                                     std::span<const Pose> T_map_sensor,
                                                     double edge_m) {
-  const auto cells = PositionCells::sort(observation, T_map_sensor.front(), edge_m);
+  const auto cells = PositionCells::sort(observation, central(T_map_sensor), edge_m);
   if (!cells) return {};
   const auto box = reach_of(*cells, T_map_sensor, edge_m);
   if (!box) return {};
   HitGrid grid(*box, cells->groups());
   CellPlacer placer(*cells, edge_m, grid);
-  for (const Pose& pose : T_map_sensor) {
-    placer.place(pose);
-    grid.end_draw();
-  }
+  for (std::size_t n = 0; n < T_map_sensor.size(); n += DrawSet::kMost)
+    placer.place(T_map_sensor.subspan(n, std::min(DrawSet::kMost, T_map_sensor.size() - n)));
   return grid.hits();
 }
 

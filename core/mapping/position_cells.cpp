@@ -4,7 +4,7 @@
 #include "core/mapping/position_cells.hpp"
 
 #include "core/geometry/voxel.hpp"
-#include "core/mapping/cell_cut.hpp"
+#include "core/mapping/draw_set.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -14,7 +14,8 @@
 namespace mapscore {
 namespace {
 
-constexpr double kReach = 4096.0;  ///< farthest cell index, so that keys pack into 64 bits
+constexpr int kReach =
+    4096;  ///< cells from the origin of the lattice, so that keys pack into 64 bits
 constexpr std::uint32_t kNone = 0xffffffff;
 
 /// Numbers by key: open addressing, linear probing, at most half full.
@@ -27,9 +28,6 @@ class CellTable {
     place = {key, next};
     if (2 * ++used_ > places_.size()) grow();
     return next;
-  }
-  [[nodiscard]] std::uint32_t find(std::uint64_t key) const {
-    return places_[place_of(key)].number;
   }
 
  private:
@@ -55,21 +53,6 @@ class CellTable {
   std::size_t used_ = 0;
 };
 
-constexpr SliceExtents kEmptySlice = [] {
-  SliceExtents slice{};
-  slice.low.fill(100.0f);
-  slice.high.fill(-100.0f);
-  return slice;
-}();
-constexpr std::array<SliceExtents, 3> kEmptySlices{kEmptySlice, kEmptySlice, kEmptySlice};
-
-/// Index of a cell from -4096 to 4095 on each axis, and of a group.
-std::uint64_t key_of(int x, int y, int z, std::uint64_t group) {
-  constexpr int kOffset = 1 << 13;
-  return group << 48 | static_cast<std::uint64_t>(x + kOffset) << 32 |
-         static_cast<std::uint64_t>(y + kOffset) << 16 | static_cast<std::uint64_t>(z + kOffset);
-}
-
 std::vector<ScoredClass> groups_of(const Observation& observation) {
   std::vector<ScoredClass> groups;
   for (const ObservedObject& object : observation)
@@ -94,50 +77,42 @@ std::uint16_t group_of(const ObservedObject& object, const std::vector<ScoredCla
                                     groups.begin());
 }
 
-/// Where one position lies.
-struct Sorted {
-  std::uint32_t cell;
-  std::uint16_t part;      ///< 64 z + 8 y + x
-  Eigen::Vector3f offset;  ///< from the cell's low corner, in voxels
-};
-
-/// Floor for numbers well within the range of int.
-int floor_of(double x) {
-  const int truncated = static_cast<int>(x);
-  return truncated - (x < truncated ? 1 : 0);
-}
-
 /// Finds each position's cell, in the order of the observation; makes cells as they turn up.
 class CellFinder {
  public:
-  CellFinder(const Eigen::Matrix3d& R, const Eigen::Vector3d& offset,
+  /// The lattice: q = R p / edge + offset.
+  CellFinder(const Eigen::Matrix3d& R, const Eigen::Vector3d& offset, double edge_m,
              std::vector<PositionCell>& cells)
-      : R_(R), offset_(offset), cells_(cells) {}
+      : R_(R * (kCellLevels / edge_m)),
+        offset_((offset.array() + kReach) * kCellLevels),
+        cells_(cells) {}
 
-  /// False when the position is not finite or too far.
-  [[nodiscard]] bool find(const Eigen::Vector3d& p, std::uint16_t group, Sorted& sorted) {
-    const Eigen::Vector3d q = R_ * p + offset_;
-    if (!(q.cwiseAbs().maxCoeff() < kReach)) return false;
-    const int x = floor_of(q.x()), y = floor_of(q.y()), z = floor_of(q.z());
-    const std::uint64_t key = key_of(x, y, z, group);
-    if (key != last_key_) {
-      last_key_ = key;
-      last_cell_ = table_.number_of(key, static_cast<std::uint32_t>(cells_.size()));
-      if (last_cell_ == cells_.size())
-        cells_.push_back({Eigen::Vector3d(x, y, z), {}, kEmptySlices, {}, group, false});
-    }
-    const auto eighth = [](double offset) {
-      return std::min(7u, static_cast<unsigned>(8.0 * offset));
-    };
-    const unsigned row = 8 * eighth(q.y() - y) + eighth(q.x() - x), layer = eighth(q.z() - z);
-    cells_[last_cell_].layers[layer] |= std::uint64_t{1} << row;
-    sorted = {last_cell_, static_cast<std::uint16_t>(64 * layer + row),
-              (q - Eigen::Vector3d(x, y, z)).cast<float>()};
-    return true;
+  /// Levels of a position from the lattice's far corner; none where it is not finite or too far.
+  [[nodiscard]] std::optional<std::array<unsigned, 3>> levels(const Eigen::Vector3d& p) const {
+    constexpr double kMost = 2.0 * kReach * kCellLevels;
+    const Eigen::Vector3d level = R_ * p + offset_;
+    const auto within = [](double x) { return x >= 0.0 && x < kMost; };
+    if (!within(level.x()) || !within(level.y()) || !within(level.z())) return {};
+    return std::array{static_cast<unsigned>(level.x()), static_cast<unsigned>(level.y()),
+                      static_cast<unsigned>(level.z())};
+  }
+  /// Number of the cell that holds these levels.
+  [[nodiscard]] std::uint32_t cell_of(const std::array<unsigned, 3>& levels, std::uint16_t group) {
+    const unsigned x = levels[0] / kCellLevels, y = levels[1] / kCellLevels,
+                   z = levels[2] / kCellLevels;
+    constexpr int kBits = 13;
+    static_assert(2 * kReach == 1 << kBits);
+    const std::uint64_t key = ((std::uint64_t{group} << kBits | x) << kBits | y) << kBits | z;
+    if (key == last_key_) return last_cell_;
+    last_key_ = key;
+    last_cell_ = table_.number_of(key, static_cast<std::uint32_t>(cells_.size()));
+    if (last_cell_ == cells_.size())
+      cells_.push_back({.low = Eigen::Vector3d(x, y, z).array() - double{kReach}, .group = group});
+    return last_cell_;
   }
 
  private:
-  Eigen::Matrix3d R_;  ///< over the edge
+  Eigen::Matrix3d R_;  ///< to levels
   Eigen::Vector3d offset_;
   std::vector<PositionCell>& cells_;
   CellTable table_;
@@ -149,7 +124,7 @@ class CellFinder {
 std::uint32_t number_parts(std::vector<PositionCell>& cells) {
   std::uint32_t parts = 0;
   for (PositionCell& cell : cells)
-    for (std::size_t z = 0; z < 8; ++z) {
+    for (std::size_t z = 0; z < kCellParts; ++z) {
       cell.first_part[z] = parts;
       parts += count_bits(cell.layers[z]);
     }
@@ -158,10 +133,54 @@ std::uint32_t number_parts(std::vector<PositionCell>& cells) {
 
 }  // namespace
 
+bool PositionCells::find_cells(const Observation& observation, double edge_m,
+                               std::vector<Place>& places) {
+  CellFinder finder(R_, offset_, edge_m, cells_);
+  for (const ObservedObject& object : observation) {
+    const std::uint16_t group = group_of(object, groups_);
+    for (const Eigen::Vector3d& p : object.positions) {
+      const auto levels = finder.levels(p);
+      if (!levels) return false;
+      const std::uint32_t number = finder.cell_of(*levels, group);
+      PositionCell& cell = cells_[number];
+      std::array<unsigned, 3> slice;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const unsigned level = (*levels)[axis] % kCellLevels;
+        slice[axis] = level / kPartLevels;
+        cell.slices[axis][slice[axis]].extend(static_cast<std::uint8_t>(level));
+      }
+      cell.layers[slice[2]] |= std::uint64_t{1} << (8 * slice[1] + slice[0]);
+      places.push_back(
+          {number, static_cast<std::uint16_t>(64 * slice[2] + 8 * slice[1] + slice[0])});
+    }
+  }
+  return true;
+}
+
+void PositionCells::sort_parts(const Observation& observation, const std::vector<Place>& places) {
+  const std::uint32_t parts = number_parts(cells_);
+  part_begin_.assign(parts + 2, 0);
+  std::vector<std::uint32_t> part_of(places.size());
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const auto& [number, part] = places[n];
+    const PositionCell& cell = cells_[number];
+    const std::uint64_t before = (std::uint64_t{1} << part % 64) - 1;
+    part_of[n] = cell.first_part[part / 64] + count_bits(cell.layers[part / 64] & before);
+    ++part_begin_[part_of[n] + 2];
+  }
+  for (std::size_t part = 2; part < part_begin_.size(); ++part)
+    part_begin_[part] += part_begin_[part - 1];
+  positions_.resize(places.size());
+  std::size_t n = 0;
+  for (const ObservedObject& object : observation)
+    for (const Eigen::Vector3d& p : object.positions)
+      positions_[part_begin_[part_of[n++] + 1]++] = p;
+}
+
 std::optional<PositionCells> PositionCells::sort(const Observation& observation,
                                                  const Pose& T_map_sensor, double edge_m) {
   PositionCells sorted;
-  constexpr double kAmidPart = 3.5 / 8.0;
+  constexpr double kAmidPart = 3.5 / kCellParts;
   const Eigen::Vector3d t = T_map_sensor.translation() / edge_m;
   sorted.R_ = T_map_sensor.linear();
   sorted.offset_ = (t - Eigen::Vector3d(t.array().floor())).array() + kAmidPart;
@@ -169,88 +188,11 @@ std::optional<PositionCells> PositionCells::sort(const Observation& observation,
   if (sorted.groups_.size() > kMostGroups) return {};
   std::size_t positions = 0;
   for (const ObservedObject& object : observation) positions += object.positions.size();
-  std::vector<Sorted> places(positions);
-  CellFinder finder(sorted.R_ / edge_m, sorted.offset_, sorted.cells_);
-  std::size_t n = 0;
-  for (const ObservedObject& object : observation) {
-    const std::uint16_t group = group_of(object, sorted.groups_);
-    for (const Eigen::Vector3d& p : object.positions)
-      if (!finder.find(p, group, places[n++])) return {};
-  }
-  const std::uint32_t parts = number_parts(sorted.cells_);
-  sorted.part_begin_.assign(parts + 2, 0);
-  sorted.boxes_.resize(parts);
-  std::vector<std::uint32_t> part_of(positions);
-  for (n = 0; n < positions; ++n) {
-    const auto& [cell, part, offset] = places[n];
-    const std::uint64_t below = (std::uint64_t{1} << part % 64) - 1;
-    part_of[n] = sorted.cells_[cell].first_part[part / 64] +
-                 count_bits(sorted.cells_[cell].layers[part / 64] & below);
-    ++sorted.part_begin_[part_of[n] + 2];
-    PartBox& box = sorted.boxes_[part_of[n]];
-    box.low = box.low.cwiseMin(offset);
-    box.high = box.high.cwiseMax(offset);
-  }
-  for (std::size_t part = 2; part < sorted.part_begin_.size(); ++part)
-    sorted.part_begin_[part] += sorted.part_begin_[part - 1];
-  sorted.positions_.resize(positions);
-  n = 0;
-  for (const ObservedObject& object : observation)
-    for (const Eigen::Vector3d& p : object.positions)
-      sorted.positions_[sorted.part_begin_[part_of[n++] + 1]++] = p;
-  sorted.measure_slices();
-  sorted.mark_contested();
+  std::vector<Place> places;
+  places.reserve(positions);
+  if (!sorted.find_cells(observation, edge_m, places)) return {};
+  sorted.sort_parts(observation, places);
   return sorted;
-}
-
-void PositionCells::measure_slices() {
-  constexpr float kParts = 8.0f;
-  for (PositionCell& cell : cells_)
-    for (unsigned z = 0; z < 8; ++z) {
-      std::uint32_t part = cell.first_part[z];
-      for (std::uint64_t left = cell.layers[z]; left != 0; left &= left - 1, ++part) {
-        const auto bit = static_cast<unsigned>(std::countr_zero(left));
-        const std::array<unsigned, 3> slice{bit % 8, bit / 8, z};
-        for (int axis = 0; axis < 3; ++axis) {
-          SliceExtents& extents = cell.slices[static_cast<std::size_t>(axis)];
-          float& low = extents.low[slice[static_cast<std::size_t>(axis)]];
-          float& high = extents.high[slice[static_cast<std::size_t>(axis)]];
-          low = std::min(low, kParts * boxes_[part].low[axis]);
-          high = std::max(high, kParts * boxes_[part].high[axis]);
-        }
-      }
-    }
-}
-
-/// Positions in one voxel lie at most two cells apart on each axis as long as the draw's rotation
-/// differs from R by less than 0.9 in the sum of a row.
-void PositionCells::mark_contested() {
-  constexpr int kApart = 2;
-  if (groups_.empty() || groups_.front().class_id == groups_.back().class_id) return;
-  // Cells of any class by place: 0 none yet, class + 1, or kMany.
-  constexpr std::uint32_t kMany = 0x20000;
-  std::vector<std::uint32_t> class_at;
-  std::vector<std::array<int, 3>> place(cells_.size());
-  CellTable table;
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    for (int axis = 0; axis < 3; ++axis) place[c][axis] = static_cast<int>(cells_[c].low[axis]);
-    const std::uint32_t number = table.number_of(key_of(place[c][0], place[c][1], place[c][2], 0),
-                                                 static_cast<std::uint32_t>(class_at.size()));
-    if (number == class_at.size()) class_at.push_back(0);
-    const std::uint32_t own = groups_[cells_[c].group].class_id + 1u;
-    std::uint32_t& held = class_at[number];
-    held = held == 0 || held == own ? own : kMany;
-  }
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const std::uint32_t own = groups_[cells_[c].group].class_id + 1u;
-    const auto [x, y, z] = place[c];
-    for (int dx = -kApart; dx <= kApart && !cells_[c].contested; ++dx)
-      for (int dy = -kApart; dy <= kApart && !cells_[c].contested; ++dy)
-        for (int dz = -kApart; dz <= kApart && !cells_[c].contested; ++dz) {
-          const std::uint32_t number = table.find(key_of(x + dx, y + dy, z + dz, 0));
-          cells_[c].contested = number != kNone && class_at[number] != own;
-        }
-  }
 }
 
 }  // namespace mapscore

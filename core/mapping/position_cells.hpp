@@ -8,6 +8,7 @@
 #include "core/mapping/observation.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -22,26 +23,29 @@ struct ScoredClass {
   double score = 0.0;
 };
 
-/// Least and greatest coordinate of the positions in each of a cell's slices across one axis, in
-/// parts from the cell's low side; far apart the wrong way where a slice is empty.
-struct SliceExtents {
-  std::array<float, 8> low, high;
+/// Parts of a cell on each axis, and levels that its coordinates are told apart by.
+inline constexpr unsigned kCellParts = 8;
+inline constexpr unsigned kPartLevels = 16;
+inline constexpr unsigned kCellLevels = kCellParts * kPartLevels;
+
+/// Lowest and highest level with positions, of kCellLevels from a cell's low side.
+struct LevelRange {
+  std::uint8_t low = 255, high = 0;
+
+  void extend(std::uint8_t level) {
+    low = std::min(low, level);
+    high = std::max(high, level);
+  }
 };
 
 /// A cube of one voxel's edge, cut into 8 x 8 x 8 parts, and which of them hold positions of one
 /// group.
 struct PositionCell {
-  Eigen::Vector3d low;                  ///< low corner, in voxels, in the turned sensor frame
-  std::array<std::uint64_t, 8> layers;  ///< by z: bit 8 y + x is set where a part holds positions
-  std::array<SliceExtents, 3> slices;   ///< by axis
-  std::array<std::uint32_t, 8> first_part;  ///< filled ones of each layer, which follow by y, x
+  Eigen::Vector3d low;  ///< low corner, in voxels, in the turned sensor frame
+  std::array<std::uint64_t, kCellParts> layers{};  ///< by z: bit 8 y + x is set on filled parts
+  std::array<std::array<LevelRange, kCellParts>, 3> slices{};  ///< by axis, across it
+  std::array<std::uint32_t, kCellParts> first_part{};  ///< of each layer; parts follow by y, x
   std::uint16_t group = 0;
-  bool contested = false;  ///< positions of another class may share a voxel with it
-};
-
-/// Tight box around the positions of one filled part, in voxels from the low corner of its cell.
-struct PartBox {
-  Eigen::Vector3f low = Eigen::Vector3f::Constant(2.0f), high = Eigen::Vector3f::Constant(-1.0f);
 };
 
 /// The positions of an observation, sorted into cells of a lattice that turns with the sensor:
@@ -64,20 +68,25 @@ class PositionCells {
     return std::span(positions_)
         .subspan(part_begin_[index], part_begin_[index + 1] - part_begin_[index]);
   }
-  [[nodiscard]] const PartBox& box(std::uint32_t index) const { return boxes_[index]; }
   [[nodiscard]] const Eigen::Matrix3d& R() const { return R_; }
   [[nodiscard]] const Eigen::Vector3d& offset() const { return offset_; }
 
  private:
-  void measure_slices();
-  void mark_contested();
+  /// Where one position lies.
+  struct Place {
+    std::uint32_t cell;
+    std::uint16_t part;  ///< 64 z + 8 y + x
+  };
+
+  [[nodiscard]] bool find_cells(const Observation& observation, double edge_m,
+                                std::vector<Place>& places);
+  void sort_parts(const Observation& observation, const std::vector<Place>& places);
 
   Eigen::Matrix3d R_;
   Eigen::Vector3d offset_;
   std::vector<ScoredClass> groups_;  ///< ascending by class, then score
   std::vector<PositionCell> cells_;
   std::vector<std::uint32_t> part_begin_;
-  std::vector<PartBox> boxes_;
   std::vector<Eigen::Vector3d> positions_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/mapping/pose_belief.hpp"
 #include "core/random_stream.hpp"
+#include "tests/core/mapping/counted_draws.hpp"
 #include "tests/core/mapping/plain_draws.hpp"
 
 #include <gtest/gtest.h>
@@ -65,6 +66,7 @@ TEST_P(ManyDraws, AreThePlainPassesBitForBit) {
         random_draws(stream, 4 + round % 9, GetParam().sigma_m, GetParam().sigma_rad);
     const auto hits = place(observation, draws, edge_m);
     ASSERT_EQ(hits, testing::plain_place(observation, draws, edge_m)) << "round " << round;
+    ASSERT_EQ(hits, testing::counted_place(observation, draws, edge_m)) << "round " << round;
     ASSERT_FALSE(hits.empty());
   }
 }
@@ -84,6 +86,31 @@ TEST(ManyDraws, PositionsOnBoundariesFallAsInThePlainPasses) {
   std::vector<Pose> draws(9, Pose::Identity());
   for (int n = 0; n < 9; ++n) draws[n].translation() << 0.0125 * n, -0.05 * n, 0.00625 * n;
   EXPECT_EQ(place(observation, draws, 0.05), testing::plain_place(observation, draws, 0.05));
+}
+
+/// Draws are taken in batches of 128; sums of scores go on from batch to batch.
+TEST(ManyDraws, AreThePlainPassesWhereverBatchesEnd) {
+  RandomStream stream(12, "batches");
+  for (const int draws : {15, 16, 17, 63, 64, 65, 127, 128, 129, 300}) {
+    const Observation observation = random_patches(stream, 6, true);
+    const auto poses = random_draws(stream, draws, 0.03, 0.02);
+    EXPECT_EQ(place(observation, poses, 0.05), testing::plain_place(observation, poses, 0.05))
+        << draws << " draws";
+  }
+}
+
+TEST(ManyDraws, ClassesThatMeetEverywhereAreCountedAsInThePlainPasses) {
+  RandomStream stream(13, "confetti");
+  Observation observation;
+  for (int n = 0; n < 12; ++n)
+    observation.push_back({static_cast<ClassId>(n % 5), 0.3 + 0.05 * (n % 7), {}});
+  for (int n = 0; n < 6000; ++n)
+    observation[stream.bits() % 12].positions.push_back(
+        {0.6 * stream.uniform() - 0.3, 0.6 * stream.uniform() - 0.3, 1.0 + 0.4 * stream.uniform()});
+  for (const double sigma : {0.0, 0.02, 0.2}) {
+    const auto draws = random_draws(stream, 20, sigma, sigma);
+    EXPECT_EQ(place(observation, draws, 0.05), testing::plain_place(observation, draws, 0.05));
+  }
 }
 
 TEST(ManyDraws, MoreScoresThanGroupsAndFarPositionsAreCountedToo) {

@@ -8,81 +8,80 @@
 #include "core/mapping/semantic_octree.hpp"
 #include "core/mapping/voxel_hit.hpp"
 
+#include <octomap/OcTreeNode.h>
+#include <octomap/OccupancyOcTreeBase.h>
+
 #include <algorithm>
+#include <map>
 #include <span>
-#include <utility>
+#include <string>
 #include <vector>
 
 namespace mapscore::testing {
 
-/// Winners of one draw, plainly: every position is moved into its voxel; runs of positions in one
-/// voxel are counted, sorted and added up.
-inline std::vector<VoxelHit> plain_draw(const Observation& observation, const Pose& T_map_sensor,
-                                        double edge_m) {
-  struct Run {
-    std::uint64_t voxel;
-    ClassId class_id;
-    int count;
-    double score;
-  };
-  std::vector<Run> runs;
-  const Eigen::Matrix3d R = T_map_sensor.linear();
-  const Eigen::Vector3d t = T_map_sensor.translation();
-  for (const ObservedObject& object : observation) {
-    const std::size_t first = runs.size();
-    for (const Eigen::Vector3d& p_sensor : object.positions) {
-      const Eigen::Vector3d p_map = R * p_sensor + t;
-      const std::uint64_t voxel = pack(voxel_of(p_map, edge_m));
-      if (runs.size() > first && runs.back().voxel == voxel)
-        ++runs.back().count;
-      else
-        runs.push_back({voxel, object.class_id, 1, object.score});
-    }
+/// What one class has in one voxel: positions and best score in the draw under way, and what it won
+/// in the draws before.
+struct Votes {
+  int positions = 0;
+  double best_score = 0.0;
+  int draws = 0;
+  double score_sum = 0.0;
+};
+
+class VoteNode : public octomap::OcTreeNode {
+ public:
+  std::map<ClassId, Votes> votes;
+  int draw = -1;  ///< that saw it last
+};
+
+class VoteTree : public octomap::OccupancyOcTreeBase<VoteNode> {
+ public:
+  using OccupancyOcTreeBase<VoteNode>::OccupancyOcTreeBase;
+  VoteTree* create() const override { return new VoteTree(resolution); }
+  std::string getTreeType() const override { return "VoteTree"; }
+};
+
+/// The class with most positions, ties to the lower id, wins the voxel; the votes begin anew.
+inline void end_draw(VoteNode& voxel) {
+  auto winner = voxel.votes.begin();
+  for (auto votes = voxel.votes.begin(); votes != voxel.votes.end(); ++votes)
+    if (votes->second.positions > winner->second.positions) winner = votes;
+  ++winner->second.draws;
+  winner->second.score_sum += winner->second.best_score;
+  for (auto& [class_id, votes] : voxel.votes) {
+    votes.positions = 0;
+    votes.best_score = 0.0;
   }
-  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) {
-    return a.voxel != b.voxel ? a.voxel < b.voxel : a.class_id < b.class_id;
-  });
-  std::vector<VoxelHit> winners;
-  for (auto run = runs.begin(); run != runs.end();) {
-    VoxelHit winner{unpack(run->voxel), kBackground, 1, 0.0};
-    int most = 0;
-    for (const std::uint64_t voxel = run->voxel; run != runs.end() && run->voxel == voxel;) {
-      const ClassId class_id = run->class_id;
-      int count = 0;
-      double best = 0.0;
-      for (; run != runs.end() && run->voxel == voxel && run->class_id == class_id; ++run) {
-        count += run->count;
-        best = std::max(best, run->score);
-      }
-      if (count <= most) continue;
-      most = count;
-      winner.class_id = class_id;
-      winner.score_sum = best;
-    }
-    winners.push_back(winner);
-  }
-  return winners;
 }
 
-/// N passes over an octree, a draw each, and what stands in it then. The octree's beliefs hold the
-/// draws of class c under 2 c and their scores under 2 c + 1.
+/// N passes over an octree, plainly: in each draw every position is looked up in the octree and
+/// votes in its voxel.
 inline std::vector<VoxelHit> plain_place(const Observation& observation,
                                          std::span<const Pose> T_map_sensor, double edge_m) {
-  SemanticOcTree tally(edge_m);
-  for (const Pose& pose : T_map_sensor)
-    for (const VoxelHit& hit : plain_draw(observation, pose, edge_m)) {
-      constexpr bool kLazy = true;
-      ClassBeliefs& beliefs = tally.updateNode(octree_key(hit.key), true, kLazy)->mutable_beliefs();
-      beliefs.weight_of(static_cast<ClassId>(2 * hit.class_id)) += 1.0;
-      beliefs.weight_of(static_cast<ClassId>(2 * hit.class_id + 1)) += hit.score_sum;
-    }
-  std::vector<VoxelHit> hits;
-  for (auto leaf = tally.begin_leafs(), end = tally.end_leafs(); leaf != end; ++leaf) {
-    const std::span<const ClassProbability> entries = leaf->beliefs().entries();
-    for (std::size_t n = 0; n + 1 < entries.size(); n += 2)
-      hits.push_back({voxel_key(leaf.getIndexKey()), static_cast<ClassId>(entries[n].class_id / 2),
-                      static_cast<int>(entries[n].probability), entries[n + 1].probability});
+  VoteTree tree(edge_m);
+  std::vector<VoteNode*> seen;
+  for (int draw = 0; draw < static_cast<int>(T_map_sensor.size()); ++draw) {
+    const Eigen::Matrix3d R = T_map_sensor[static_cast<std::size_t>(draw)].linear();
+    const Eigen::Vector3d t = T_map_sensor[static_cast<std::size_t>(draw)].translation();
+    seen.clear();
+    for (const ObservedObject& object : observation)
+      for (const Eigen::Vector3d& p_sensor : object.positions) {
+        const Eigen::Vector3d p_map = R * p_sensor + t;
+        constexpr bool kLazy = true;
+        VoteNode* voxel = tree.updateNode(octree_key(voxel_of(p_map, edge_m)), true, kLazy);
+        if (voxel->draw != draw) seen.push_back(voxel);
+        voxel->draw = draw;
+        Votes& votes = voxel->votes[object.class_id];
+        ++votes.positions;
+        votes.best_score = std::max(votes.best_score, object.score);
+      }
+    for (VoteNode* voxel : seen) end_draw(*voxel);
   }
+  std::vector<VoxelHit> hits;
+  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
+    for (const auto& [class_id, votes] : leaf->votes)
+      if (votes.draws > 0)
+        hits.push_back({voxel_key(leaf.getIndexKey()), class_id, votes.draws, votes.score_sum});
   std::sort(hits.begin(), hits.end(), [](const VoxelHit& a, const VoxelHit& b) {
     return a.key != b.key ? a.key < b.key : a.class_id < b.class_id;
   });
