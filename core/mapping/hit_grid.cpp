@@ -115,13 +115,14 @@ void HitGrid::win(Slot& slot, std::uint32_t first_row) {
   for (std::uint32_t row = first_row; row != kNone; row = rows_[row].next)
     if (class_of(rows_[row]) == class_id) draws |= rows_[row].draws;
   if (!draws.any()) return;
-  std::uint32_t* link = &slot.wins;
-  while (*link != kNone && wins_[*link].class_id != class_id) link = &wins_[*link].next;
-  if (*link == kNone) {
-    *link = static_cast<std::uint32_t>(wins_.size());
-    wins_.push_back({class_id, 0, 0.0, kNone});
+  std::uint32_t at = slot.wins;
+  while (at != kNone && wins_[at].class_id != class_id) at = wins_[at].next;
+  if (at == kNone) {
+    at = static_cast<std::uint32_t>(wins_.size());
+    wins_.push_back({class_id, 0, 0.0, slot.wins});
+    slot.wins = at;
   }
-  Wins& wins = wins_[*link];
+  Wins& wins = wins_[at];
   wins.draws += static_cast<int>(draws.count());
   for_each_draw(draws, [&](std::size_t draw) {
     double best = 0.0;

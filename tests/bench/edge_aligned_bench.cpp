@@ -43,6 +43,12 @@ void edge_aligned_edges(benchmark::State& state) {
 }
 BENCHMARK(edge_aligned_edges)->Unit(benchmark::kMillisecond);
 
+void edge_aligned_field(benchmark::State& state) {
+  const std::vector<Detection> detections = detections_of(person().label, person().table);
+  for (auto _ : state) benchmark::DoNotOptimize(outline_field(detections, 640, 480, 68));
+}
+BENCHMARK(edge_aligned_field)->Unit(benchmark::kMillisecond);
+
 void edge_aligned_alignment(benchmark::State& state) {
   const Calibration believed = misregistered();
   const std::vector<Detection> detections = detections_of(person().label, person().table);

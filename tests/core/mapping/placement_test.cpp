@@ -74,7 +74,7 @@ TEST_P(ManyDraws, AreThePlainPassesBitForBit) {
 INSTANTIATE_TEST_SUITE_P(Spreads, ManyDraws,
                          ::testing::Values(Spread{0.0, 0.0}, Spread{0.01, 0.002},
                                            Spread{0.03, 0.03}, Spread{0.1, 0.15},
-                                           Spread{0.5, 1.0}));
+                                           Spread{0.02, 0.25}, Spread{0.5, 1.0}));
 
 TEST(ManyDraws, PositionsOnBoundariesFallAsInThePlainPasses) {
   Observation observation(2);
