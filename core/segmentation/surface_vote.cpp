@@ -14,6 +14,7 @@ namespace mapscore {
 namespace {
 
 constexpr float kHidden = 0.015F;   // share of inverse depth by which a hidden pixel lies behind
+constexpr float kSlopes = 2.0F;     // pixels that a surface may rise by itself
 constexpr float kSureAt_px = 3.0F;  // from the outline a pixel's vote has full weight
 constexpr float kLeastVote = 0.05F;
 constexpr int kRounds = 3;
@@ -138,7 +139,7 @@ class Voting {
         if (c < 0 || r < 0 || c >= owners.cols || r >= owners.rows) continue;
         owner[u] = owners(r, c);
         depth_in[u] = alignment_.offset_px - field_.distance(r, c);
-        if (in[u] < nearest_(r, c) * (1.0F - kHidden)) continue;
+        if (in[u] + kSlopes * slope_at(v, u) < nearest_(r, c) * (1.0F - kHidden)) continue;
         weight[u] = std::clamp(std::abs(depth_in[u]) / kSureAt_px, kLeastVote, 1.0F);
       }
     }
@@ -146,6 +147,23 @@ class Voting {
   }
 
  private:
+  /// How much the inverse depth of the surface of a pixel rises to the next, along its row or its
+  /// column; of two neighbours on the surface the nearer in depth counts.
+  [[nodiscard]] float slope_at(int v, int u) const {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    const float here = w(v, u);
+    const auto least = [&](bool before, float w_before, bool after, float w_after) {
+      const float back = before ? std::abs(here - w_before) : 1.0F;
+      const float on = after ? std::abs(w_after - here) : 1.0F;
+      return before || after ? std::min(back, on) : 0.0F;
+    };
+    const auto next = [](float continuity) { return continuity >= 1.0F; };
+    const bool left = u > 0 && next(edges_.right(v, u - 1)), right = next(edges_.right(v, u));
+    const bool up = v > 0 && next(edges_.down(v - 1, u)), down = next(edges_.down(v, u));
+    return std::max(least(left, left ? w(v, u - 1) : 0, right, right ? w(v, u + 1) : 0),
+                    least(up, up ? w(v - 1, u) : 0, down, down ? w(v + 1, u) : 0));
+  }
+
   const DepthEdges& edges_;
   const OutlineField& field_;
   const OutlineAlignment& alignment_;
