@@ -17,6 +17,7 @@ constexpr float kHidden = 0.015F;   // share of inverse depth by which a hidden 
 constexpr float kSlopes = 2.0F;     // pixels that a surface may rise by itself
 constexpr float kSureAt_px = 3.0F;  // from the outline a pixel's vote has full weight
 constexpr float kLeastVote = 0.05F;
+constexpr float kHiddenVote = 0.06F;  // against every object
 constexpr int kRounds = 3;
 constexpr int kWideHole_px = 9;
 constexpr float kShare = 0.9F;       // of the votes; only where a surface goes on does it trim
@@ -26,7 +27,7 @@ constexpr float kLeastSteps = 0.1F;  // share of an object's rim that must be de
 struct Votes {
   cv::Mat1w owner;     ///< 1 + detection whose mask is nearest
   cv::Mat1f depth_in;  ///< pixels inside its object, negative outside
-  cv::Mat1f weight;    ///< 0 where the colour camera does not see the surface
+  cv::Mat1f weight;    ///< little where the colour camera does not see the surface
 };
 
 class Voting {
@@ -122,6 +123,16 @@ class Voting {
     cv::dilate(hit, nearest_, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
   }
 
+  /// Between the two images, of the nearest and the farthest point. A mask that is wider than that
+  /// cannot have its whole object behind something that the colour camera looks past.
+  [[nodiscard]] float largest_parallax_px() const {
+    const Eigen::Vector3f t =
+        alignment_.rotation * believed_.T_color_depth.translation().cast<float>() +
+        alignment_.translation;
+    return static_cast<float>(believed_.color.fx_px) * t.head<2>().norm() /
+           static_cast<float>(believed_.range_min_m);
+  }
+
   Votes collect() {
     const cv::Mat1f& w = edges_.inverse_depth;
     const int beyond_px = static_cast<int>(std::ceil(1.5F * alignment_.offset_px));
@@ -139,7 +150,10 @@ class Voting {
         if (c < 0 || r < 0 || c >= owners.cols || r >= owners.rows) continue;
         owner[u] = owners(r, c);
         depth_in[u] = alignment_.offset_px - field_.distance(r, c);
-        if (in[u] + kSlopes * slope_at(v, u) < nearest_(r, c) * (1.0F - kHidden)) continue;
+        if (in[u] + kSlopes * slope_at(v, u) < nearest_(r, c) * (1.0F - kHidden)) {
+          depth_in[u] = -1.0F, weight[u] = kHiddenVote;
+          continue;
+        }
         weight[u] = std::clamp(std::abs(depth_in[u]) / kSureAt_px, kLeastVote, 1.0F);
       }
     }
@@ -233,10 +247,13 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
   const cv::Size size = votes.owner.size();
   cv::Mat1w labels(size, std::uint16_t{0});
   std::vector<cv::Rect> boxes(detections + 1);
+  std::vector<float> deepest(detections + 1, 0.0F);
+  const float parallax_px = voting.largest_parallax_px();
   const int margin = static_cast<int>(std::ceil(2.0 * reach_px)) + 2;
   for (int v = 0; v < size.height; ++v)
     for (int u = 0; u < size.width; ++u)
       if (votes.depth_in(v, u) > 0 && votes.owner(v, u) != 0) {
+        deepest[votes.owner(v, u)] = std::max(deepest[votes.owner(v, u)], votes.depth_in(v, u));
         cv::Rect& box = boxes[votes.owner(v, u)];
         box = box.empty() ? cv::Rect(u, v, 1, 1) : box | cv::Rect(u, v, 1, 1);
       }
@@ -259,7 +276,7 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
         if (sums(v, u)[0] > kShare * sums(v, u)[1] && sums(v, u)[1] > 1e-4F &&
             edges.inverse_depth(v + box.y, u + box.x) > 0)
           labels(v + box.y, u + box.x) = static_cast<std::uint16_t>(n);
-    if (lacks_steps(labels, static_cast<std::uint16_t>(n), box, edges))
+    if (deepest[n] < parallax_px && lacks_steps(labels, static_cast<std::uint16_t>(n), box, edges))
       labels(box).setTo(0, labels(box) == static_cast<double>(n));
   }
   return labels;
