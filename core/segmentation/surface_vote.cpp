@@ -15,12 +15,13 @@ namespace {
 
 constexpr float kHidden = 0.015F;   // share of inverse depth by which a hidden pixel lies behind
 constexpr float kSlopes = 2.0F;     // pixels that a surface may rise by itself
+constexpr float kNoise = 4.0F;      // sigmas that it may be off
 constexpr float kSureAt_px = 3.0F;  // from the outline a pixel's vote has full weight
 constexpr float kLeastVote = 0.05F;
-constexpr float kHiddenVote = 0.06F;  // against every object
+constexpr float kHiddenVote = 0.2F;  // against every object
 constexpr int kRounds = 3;
 constexpr int kWideHole_px = 9;
-constexpr float kShare = 0.9F;       // of the votes; only where a surface goes on does it trim
+constexpr float kShare = 0.8F;       // of the votes; only where a surface goes on does it trim
 constexpr float kLeastSteps = 0.1F;  // share of an object's rim that must be depth steps
 
 /// What the masks say of each depth pixel.
@@ -150,7 +151,8 @@ class Voting {
         if (c < 0 || r < 0 || c >= owners.cols || r >= owners.rows) continue;
         owner[u] = owners(r, c);
         depth_in[u] = alignment_.offset_px - field_.distance(r, c);
-        if (in[u] + kSlopes * slope_at(v, u) < nearest_(r, c) * (1.0F - kHidden)) {
+        if (in[u] + kSlopes * slope_at(v, u) + kNoise * edges_.noise <
+            nearest_(r, c) * (1.0F - kHidden)) {
           depth_in[u] = -1.0F, weight[u] = kHiddenVote;
           continue;
         }
