@@ -8,16 +8,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib> //DBG
 
 namespace mapscore {
 namespace {
 
-const int kReach_px = getenv("SR") ? atoi(getenv("SR")) : 3;
-const float kSigmas = getenv("SS") ? atof(getenv("SS")) : 4.0F;
+constexpr int kReach_px = 4;
+constexpr float kSigmas = 4.0F;
 constexpr float kNoisy = 0.0005F;  // 1/m: 4 sigma reach the least step
 constexpr int kLeast = 4;
-const float kLeastShare = getenv("SH") ? atof(getenv("SH")) : 1.0F / 3.0F;
+constexpr float kLeastShare = 0.5F;
 
 /// Sums of a plane's fit, about the pixel itself.
 struct PlaneSums {
@@ -67,7 +66,9 @@ PlaneSums sums_about(const cv::Mat1f& inverse, const cv::Mat1w& labels, int v, i
 
 }  // namespace
 
-bool is_noisy(const DepthEdges& edges) { return edges.noise > kNoisy; }
+bool is_noisy(const DepthEdges& edges) {
+  return edges.noise > kNoisy;
+}
 
 cv::Mat1f settle_on_surfaces(const DepthEdges& edges, cv::Mat1w& labels) {
   const cv::Mat1f& inverse = edges.inverse_depth;
