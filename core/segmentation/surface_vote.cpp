@@ -151,8 +151,8 @@ class Voting {
         if (c < 0 || r < 0 || c >= owners.cols || r >= owners.rows) continue;
         owner[u] = owners(r, c);
         depth_in[u] = alignment_.offset_px - field_.distance(r, c);
-        if (in[u] + kSlopes * slope_at(v, u) + kNoise * edges_.noise <
-            nearest_(r, c) * (1.0F - kHidden)) {
+        const float behind = nearest_(r, c) * (1.0F - kHidden) - kNoise * edges_.noise - in[u];
+        if (behind > 0 && behind > kSlopes * slope_at(v, u)) {
           depth_in[u] = -1.0F, weight[u] = kHiddenVote;
           continue;
         }
