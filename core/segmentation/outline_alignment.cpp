@@ -240,7 +240,7 @@ class Aligner {
       Parameters prior;
       prior << 1 / square(20.0F), 1 / square(20.0F), 1 / square(0.03F), 1 / square(0.03F),
           1 / square(4.0F);
-      prior *= kPrior * static_cast<float>(field_.length_px);
+      prior *= kPrior * (static_cast<float>(field_.length_px) + kShort_px);
       H.diagonal() += prior;
       b -= prior.cwiseProduct(now);
       H = free.asDiagonal() * H * free.asDiagonal();
