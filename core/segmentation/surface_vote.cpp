@@ -3,6 +3,8 @@
 
 #include "core/segmentation/surface_vote.hpp"
 
+#include "core/segmentation/filled_slits.hpp"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -19,6 +21,7 @@ constexpr float kNoise = 4.0F;      // sigmas that it may be off
 constexpr float kSureAt_px = 3.0F;  // from the outline a pixel's vote has full weight
 constexpr float kLeastVote = 0.05F;
 constexpr float kHiddenVote = 0.2F;  // against every object
+constexpr float kGrown_px = 0.5F;    // from here on masks may have filled slits
 constexpr int kRounds = 3;
 constexpr int kWideHole_px = 9;
 constexpr float kShare = 0.8F;       // of the votes; only where a surface goes on does it trim
@@ -159,10 +162,20 @@ class Voting {
         weight[u] = std::clamp(std::abs(depth_in[u]) / kSureAt_px, kLeastVote, 1.0F);
       }
     }
+    close_slits(votes);
     return votes;
   }
 
  private:
+  /// Where masks have been grown over slits of their objects, what lies behind is not the object.
+  void close_slits(Votes& votes) const {
+    if (alignment_.offset_px > -kGrown_px) return;
+    const int widest_px = static_cast<int>(std::ceil(-2 * alignment_.offset_px));
+    const cv::Mat1b slits = filled_slits(edges_, votes.owner, widest_px);
+    votes.depth_in.setTo(-1.0F, slits);
+    votes.weight.setTo(1.0F, slits);
+  }
+
   /// How much the inverse depth of the surface of a pixel rises to the next, along its row or its
   /// column; of two neighbours on the surface the nearer in depth counts.
   [[nodiscard]] float slope_at(int v, int u) const {

@@ -217,6 +217,16 @@ TEST(EdgeAligned, ThinPartsStay) {
   expect_recovered(scene, scene.truth(), scene.detections());
 }
 
+/// Slats with slits that the grown masks have filled.
+TEST(EdgeAligned, SlitsThatMasksFilledOpenAgain) {
+  const Scene scene({{-0.3, 0.3, -0.3, -0.1, 1.5, 1},
+                     {-0.3, 0.3, -0.078, 0.05, 1.5, 1},
+                     {-0.3, 0.3, 0.072, 0.3, 1.5, 1}});
+  cv::Mat1w label = scene.label();
+  cv::dilate(label, label, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
+  expect_recovered(scene, scene.truth(), scene.detections(label));
+}
+
 TEST(EdgeAligned, TouchingInstancesKeepTheirOwn) {
   const Scene scene({{-0.4, 0.0, -0.3, 0.3, 1.5, 1}, {0.0, 0.4, -0.2, 0.35, 1.4, 2}});
   expect_recovered(scene, scene.misregistered({0, 0.02, 0}, {0, 0, 0}), scene.detections());
