@@ -64,7 +64,8 @@ class EdgeFinder {
   EdgeFinder(const cv::Mat1w& depth, const Calibration& believed)
       : camera_(believed.depth), rays_(believed.depth) {
     edges_.inverse_depth = inverse_of(depth, believed);
-    tau_ = std::max(kLeastStep, kStepSigmas * noise_of(edges_.inverse_depth));
+    edges_.noise = noise_of(edges_.inverse_depth);
+    tau_ = std::max(kLeastStep, kStepSigmas * edges_.noise);
     edges_.right = cv::Mat1f(depth.rows, depth.cols, 0.0F);
     edges_.down = cv::Mat1f(depth.rows, depth.cols, 0.0F);
     last_row_.assign(static_cast<std::size_t>(depth.cols), -1);

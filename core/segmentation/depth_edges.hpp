@@ -26,6 +26,7 @@ struct DepthEdge {
 /// Steps of a depth image, and what hangs together in it.
 struct DepthEdges {
   cv::Mat1f inverse_depth;       ///< 1 / z in 1/m; 0 where there is no usable depth
+  float noise = 0;               ///< standard deviation of inverse_depth, 1/m
   cv::Mat1f right, down;         ///< continuity to the next pixel of the row, of the column: 0 to 1
   std::vector<DepthEdge> steps;  ///< row-major, rows before columns of a pixel
 };

@@ -10,14 +10,15 @@
 #include "core/segmentation/outline_alignment.hpp"
 #include "core/segmentation/outline_field.hpp"
 #include "core/segmentation/outline_shifts.hpp"
+#include "core/segmentation/settled_depth.hpp"
 #include "core/segmentation/surface_vote.hpp"
 
 #include <cmath>
 
 namespace mapscore {
 
-cv::Mat1w label_depth(const std::vector<Detection>& detections, const cv::Mat1w& depth,
-                      const Calibration& believed, const EdgeAlignedParams& params) {
+LabelledDepth label_surfaces(const std::vector<Detection>& detections, const cv::Mat1w& depth,
+                             const Calibration& believed, const EdgeAlignedParams& params) {
   if (depth.cols != believed.depth.width_px || depth.rows != believed.depth.height_px)
     throw Error(
         "depth image: not of the depth camera's size; give the intrinsics it was taken with");
@@ -31,8 +32,16 @@ cv::Mat1w label_depth(const std::vector<Detection>& detections, const cv::Mat1w&
       outline_field(detections, believed.color.width_px, believed.color.height_px, reach_px);
   const OutlineAlignment alignment = align_outlines(edges, field, believed, params.search_px);
   const OutlineShifts shifts = find_outline_shifts(edges, field, alignment, believed);
-  return vote_on_surfaces(edges, field, alignment, shifts, believed, detections.size(),
-                          params.reach_px);
+  LabelledDepth labelled;
+  labelled.labels = vote_on_surfaces(edges, field, alignment, shifts, believed, detections.size(),
+                                     params.reach_px);
+  if (is_noisy(edges)) labelled.inverse_depth = settle_on_surfaces(edges, labelled.labels);
+  return labelled;
+}
+
+cv::Mat1w label_depth(const std::vector<Detection>& detections, const cv::Mat1w& depth,
+                      const Calibration& believed, const EdgeAlignedParams& params) {
+  return label_surfaces(detections, depth, believed, params).labels;
 }
 
 std::vector<Segment> segment_edge_aligned(const std::vector<Detection>& detections,
@@ -41,7 +50,11 @@ std::vector<Segment> segment_edge_aligned(const std::vector<Detection>& detectio
                                           bool with_voxels) {
   if (!(voxel_m > 0.0) || !std::isfinite(voxel_m))
     throw Error("voxel_m: must be a positive length in metres");
-  const cv::Mat1w labels = label_depth(detections, depth, believed, params);
+  const auto [labels, inverse_depth] = label_surfaces(detections, depth, believed, params);
+  const auto z_m = [&](int v, int u) {
+    return inverse_depth.empty() ? depth(v, u) / kDepthUnitsPerMetre
+                                 : 1.0 / static_cast<double>(inverse_depth(v, u));
+  };
   std::vector<Segment> segments;
   segments.reserve(detections.size());
   for (const Detection& detection : detections) {
@@ -54,8 +67,7 @@ std::vector<Segment> segment_edge_aligned(const std::vector<Detection>& detectio
   for (int v = 0; v < depth.rows; ++v)
     for (int u = 0; u < depth.cols; ++u)
       if (labels(v, u) != 0)
-        segments[labels(v, u) - std::size_t{1}].points.push_back(
-            rays.point(u, v, depth(v, u) / kDepthUnitsPerMetre));
+        segments[labels(v, u) - std::size_t{1}].points.push_back(rays.point(u, v, z_m(v, u)));
   for (Segment& segment : segments) {
     for (const Eigen::Vector3d& point : segment.points) segment.box.extend(point);
     if (segment.points.empty()) segment.skipped = SkipReason::no_points;

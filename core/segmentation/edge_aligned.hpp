@@ -12,7 +12,20 @@
 
 namespace mapscore {
 
-/// 1 + index of the detection that each depth pixel belongs to; 0 for none.
+/// Depth pixels with the detections they belong to.
+struct LabelledDepth {
+  cv::Mat1w labels;         ///< 1 + index of the detection; 0 for none
+  cv::Mat1f inverse_depth;  ///< of the surface at labelled pixels, 1/m; empty: as measured
+};
+
+/// Labels a frame's depth pixels; of a noisy depth image settles them on their surfaces too
+/// (settled_depth.hpp). Throws Error on a depth image of another size than its camera's and on bad
+/// parameters.
+[[nodiscard]] LabelledDepth label_surfaces(const std::vector<Detection>& detections,
+                                           const cv::Mat1w& depth, const Calibration& believed,
+                                           const EdgeAlignedParams& params);
+
+/// The labels alone.
 [[nodiscard]] cv::Mat1w label_depth(const std::vector<Detection>& detections,
                                     const cv::Mat1w& depth, const Calibration& believed,
                                     const EdgeAlignedParams& params);

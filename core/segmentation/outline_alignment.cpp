@@ -26,6 +26,8 @@ constexpr float kNearest_m = 0.05F;   // from the colour camera
 constexpr float kLeastScore = 0.15F;  // below, the edges show nothing of the masks
 constexpr float kLabelOffset_px = 3.5F;
 constexpr float kPrior = 0.2F;
+constexpr float kCost = 0.03F;       // share of the outline that 20 px, or an offset of 4 px, cost
+constexpr float kShort_px = 150.0F;  // and as much of an outline of this length again
 
 using Parameters = Eigen::Matrix<float, 5, 1>;  // rx ry (px at the image's middle) tx ty (m) offset
 
@@ -60,8 +62,10 @@ class Aligner {
     OutlineAlignment best;
     float most = -1e9F;
     for (Candidate candidate : candidates()) {
-      refine(candidate, 5.0F, 4, kCoarseEdges, free_of(candidate.family, 0));
-      refine(candidate, 3.0F, 3, kCoarseEdges, free_of(candidate.family, 1));
+      if (candidate.family != Family::none) {
+        refine(candidate, 5.0F, 4, kCoarseEdges, free_of(candidate.family, 0));
+        refine(candidate, 3.0F, 3, kCoarseEdges, free_of(candidate.family, 1));
+      }
       refine(candidate, 2.0F, 4, kCoarseEdges, Parameters::Ones());
       candidate.score = fine_score(candidate, 1.5F);
       const float value = candidate.score - penalty(candidate);
@@ -102,12 +106,14 @@ class Aligner {
     return sum * static_cast<float>(stride) / (255.0F * static_cast<float>(field_.length_px));
   }
 
-  /// What large corrections cost: they need evidence.
+  /// What large corrections cost: they need evidence, and a short outline holds little, since it
+  /// fits somewhere by chance.
   [[nodiscard]] float penalty(const OutlineAlignment& a) const {
     const Eigen::Vector2f turn(project_.fx * a.rotation(0, 2), project_.fy * a.rotation(1, 2));
     const Eigen::Vector2f shift = a.translation.head<2>() * project_.fx / 2.0F;
-    return 0.03F * ((turn.squaredNorm() + shift.squaredNorm()) / (20.0F * 20.0F) +
-                    a.offset_px * a.offset_px / (4.0F * 4.0F));
+    return kCost * (1.0F + kShort_px / static_cast<float>(field_.length_px)) *
+           ((turn.squaredNorm() + shift.squaredNorm()) / (20.0F * 20.0F) +
+            a.offset_px * a.offset_px / (4.0F * 4.0F));
   }
 
   enum class Family { none, turn, shift };
@@ -131,11 +137,13 @@ class Aligner {
     return a;
   }
 
-  /// The alignments that the fine fit starts from: none, the best turns, the best shifts.
+  /// The alignments that the fine fit starts from: none, which is believed unless something better
+  /// is found; none from farther away, with offsets; the best turns; the best shifts.
   [[nodiscard]] std::vector<Candidate> candidates() const {
-    std::vector<Candidate> starts{Candidate{}, Candidate{}, Candidate{}};
-    starts[1].offset_px = kLabelOffset_px;
-    starts[2].offset_px = -kLabelOffset_px;
+    std::vector<Candidate> starts(4);
+    starts[1].family = starts[2].family = starts[3].family = Family::turn;
+    starts[2].offset_px = kLabelOffset_px;
+    starts[3].offset_px = -kLabelOffset_px;
     std::vector<Candidate> tried;
     for (float dv = -search_px_; dv <= search_px_; dv += kStepPx)
       for (float du = -search_px_; du <= search_px_; du += kStepPx)
@@ -232,7 +240,7 @@ class Aligner {
       Parameters prior;
       prior << 1 / square(20.0F), 1 / square(20.0F), 1 / square(0.03F), 1 / square(0.03F),
           1 / square(4.0F);
-      prior *= kPrior * static_cast<float>(field_.length_px);
+      prior *= kPrior * (static_cast<float>(field_.length_px) + kShort_px);
       H.diagonal() += prior;
       b -= prior.cwiseProduct(now);
       H = free.asDiagonal() * H * free.asDiagonal();

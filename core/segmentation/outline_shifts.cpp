@@ -15,7 +15,7 @@ namespace mapscore {
 namespace {
 
 constexpr int kPitch = OutlineShifts::kPitch_px;
-constexpr float kSharp = 0.92F;  // an alignment as sharp as this leaves nothing to shift
+constexpr float kSharp = 0.85F;  // an alignment as sharp as this leaves nothing to shift
 constexpr float kSupport_px = 1.5F * kPitch;
 constexpr float kFine_px = 1.5F, kWide_px = 3.0F;  // sigmas of the matches
 constexpr float kGood = 0.6F;                      // share of an outline that shows a good fit

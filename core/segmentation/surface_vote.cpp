@@ -3,6 +3,8 @@
 
 #include "core/segmentation/surface_vote.hpp"
 
+#include "core/segmentation/filled_slits.hpp"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -14,18 +16,22 @@ namespace mapscore {
 namespace {
 
 constexpr float kHidden = 0.015F;   // share of inverse depth by which a hidden pixel lies behind
+constexpr float kSlopes = 2.0F;     // pixels that a surface may rise by itself
+constexpr float kNoise = 4.0F;      // sigmas that it may be off
 constexpr float kSureAt_px = 3.0F;  // from the outline a pixel's vote has full weight
 constexpr float kLeastVote = 0.05F;
+constexpr float kHiddenVote = 0.2F;  // against every object
+constexpr float kGrown_px = 0.5F;    // from here on masks may have filled slits
 constexpr int kRounds = 3;
 constexpr int kWideHole_px = 9;
-constexpr float kShare = 0.9F;       // of the votes; only where a surface goes on does it trim
+constexpr float kShare = 0.8F;       // of the votes; only where a surface goes on does it trim
 constexpr float kLeastSteps = 0.1F;  // share of an object's rim that must be depth steps
 
 /// What the masks say of each depth pixel.
 struct Votes {
   cv::Mat1w owner;     ///< 1 + detection whose mask is nearest
   cv::Mat1f depth_in;  ///< pixels inside its object, negative outside
-  cv::Mat1f weight;    ///< 0 where the colour camera does not see the surface
+  cv::Mat1f weight;    ///< little where the colour camera does not see the surface
 };
 
 class Voting {
@@ -121,6 +127,16 @@ class Voting {
     cv::dilate(hit, nearest_, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
   }
 
+  /// Between the two images, of the nearest and the farthest point. A mask that is wider than that
+  /// cannot have its whole object behind something that the colour camera looks past.
+  [[nodiscard]] float largest_parallax_px() const {
+    const Eigen::Vector3f t =
+        alignment_.rotation * believed_.T_color_depth.translation().cast<float>() +
+        alignment_.translation;
+    return static_cast<float>(believed_.color.fx_px) * t.head<2>().norm() /
+           static_cast<float>(believed_.range_min_m);
+  }
+
   Votes collect() {
     const cv::Mat1f& w = edges_.inverse_depth;
     const int beyond_px = static_cast<int>(std::ceil(1.5F * alignment_.offset_px));
@@ -138,14 +154,45 @@ class Voting {
         if (c < 0 || r < 0 || c >= owners.cols || r >= owners.rows) continue;
         owner[u] = owners(r, c);
         depth_in[u] = alignment_.offset_px - field_.distance(r, c);
-        if (in[u] < nearest_(r, c) * (1.0F - kHidden)) continue;
+        const float behind = nearest_(r, c) * (1.0F - kHidden) - kNoise * edges_.noise - in[u];
+        if (behind > 0 && behind > kSlopes * slope_at(v, u)) {
+          depth_in[u] = -1.0F, weight[u] = kHiddenVote;
+          continue;
+        }
         weight[u] = std::clamp(std::abs(depth_in[u]) / kSureAt_px, kLeastVote, 1.0F);
       }
     }
+    close_slits(votes);
     return votes;
   }
 
  private:
+  /// Where masks have been grown over slits of their objects, what lies behind is not the object.
+  void close_slits(Votes& votes) const {
+    if (alignment_.offset_px > -kGrown_px) return;
+    const int widest_px = static_cast<int>(std::ceil(-2 * alignment_.offset_px));
+    const cv::Mat1b slits = filled_slits(edges_, votes.owner, widest_px);
+    votes.depth_in.setTo(-1.0F, slits);
+    votes.weight.setTo(1.0F, slits);
+  }
+
+  /// How much the inverse depth of the surface of a pixel rises to the next, along its row or its
+  /// column; of two neighbours on the surface the nearer in depth counts.
+  [[nodiscard]] float slope_at(int v, int u) const {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    const float here = w(v, u);
+    const auto least = [&](bool before, float w_before, bool after, float w_after) {
+      const float back = before ? std::abs(here - w_before) : 1.0F;
+      const float on = after ? std::abs(w_after - here) : 1.0F;
+      return before || after ? std::min(back, on) : 0.0F;
+    };
+    const auto next = [](float continuity) { return continuity >= 1.0F; };
+    const bool left = u > 0 && next(edges_.right(v, u - 1)), right = next(edges_.right(v, u));
+    const bool up = v > 0 && next(edges_.down(v - 1, u)), down = next(edges_.down(v, u));
+    return std::max(least(left, left ? w(v, u - 1) : 0, right, right ? w(v, u + 1) : 0),
+                    least(up, up ? w(v - 1, u) : 0, down, down ? w(v + 1, u) : 0));
+  }
+
   const DepthEdges& edges_;
   const OutlineField& field_;
   const OutlineAlignment& alignment_;
@@ -215,10 +262,13 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
   const cv::Size size = votes.owner.size();
   cv::Mat1w labels(size, std::uint16_t{0});
   std::vector<cv::Rect> boxes(detections + 1);
+  std::vector<float> deepest(detections + 1, 0.0F);
+  const float parallax_px = voting.largest_parallax_px();
   const int margin = static_cast<int>(std::ceil(2.0 * reach_px)) + 2;
   for (int v = 0; v < size.height; ++v)
     for (int u = 0; u < size.width; ++u)
       if (votes.depth_in(v, u) > 0 && votes.owner(v, u) != 0) {
+        deepest[votes.owner(v, u)] = std::max(deepest[votes.owner(v, u)], votes.depth_in(v, u));
         cv::Rect& box = boxes[votes.owner(v, u)];
         box = box.empty() ? cv::Rect(u, v, 1, 1) : box | cv::Rect(u, v, 1, 1);
       }
@@ -241,7 +291,7 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
         if (sums(v, u)[0] > kShare * sums(v, u)[1] && sums(v, u)[1] > 1e-4F &&
             edges.inverse_depth(v + box.y, u + box.x) > 0)
           labels(v + box.y, u + box.x) = static_cast<std::uint16_t>(n);
-    if (lacks_steps(labels, static_cast<std::uint16_t>(n), box, edges))
+    if (deepest[n] < parallax_px && lacks_steps(labels, static_cast<std::uint16_t>(n), box, edges))
       labels(box).setTo(0, labels(box) == static_cast<double>(n));
   }
   return labels;

@@ -25,10 +25,13 @@ struct Plate {
   InstanceId instance;
 };
 
-/// Plates before a wall, seen by two cameras side by side.
+constexpr double kWall_m = 3.0;
+
+/// Plates before a wall, perhaps on a floor, seen by two cameras side by side.
 class Scene {
  public:
-  explicit Scene(std::vector<Plate> plates) : plates_(std::move(plates)) {
+  explicit Scene(std::vector<Plate> plates, double floor_y_m = 1e9, double wall_m = kWall_m)
+      : plates_(std::move(plates)), floor_y_m_(floor_y_m), wall_m_(wall_m) {
     truth_.color = CameraModel::from_hfov(320, 240, 60 * std::numbers::pi / 180);
     truth_.depth = CameraModel::from_hfov(320, 240, 58.4 * std::numbers::pi / 180);
     truth_.T_color_depth.translation() = Eigen::Vector3d(-0.025, 0, 0);
@@ -70,7 +73,9 @@ class Scene {
  private:
   [[nodiscard]] std::pair<InstanceId, double> seen(const CameraModel& camera,
                                                    const Eigen::Vector3d& eye, int u, int v) const {
-    std::pair<InstanceId, double> nearest{0, 3.0};
+    const double fall = camera.back_project(u, v, 1.0).y();
+    const double floor_z = fall > 0 ? (floor_y_m_ - eye.y()) / fall : 1e9;
+    std::pair<InstanceId, double> nearest{0, std::min(wall_m_, floor_z)};
     for (const Plate& plate : plates_) {
       const Eigen::Vector3d p = eye + camera.back_project(u, v, plate.z);
       if (plate.z < nearest.second && p.x() >= plate.left && p.x() <= plate.right &&
@@ -87,6 +92,7 @@ class Scene {
   }
 
   std::vector<Plate> plates_;
+  double floor_y_m_, wall_m_;
   Calibration truth_;
   ClassTable table_;
 };
@@ -168,6 +174,57 @@ TEST(EdgeAligned, HoleAtTheCentreStaysOpen) {
                      {-0.15, 0.15, 0.15, 0.3, 1.5, 1}});
   ASSERT_EQ(scene.depth_label()(120, 160), 0);
   expect_recovered(scene, scene.misregistered({0.03, 0, 0}, {0, 0, 0}), scene.detections());
+}
+
+/// The floor recedes by more than one part in fifty from row to row: it is no reason to think that
+/// the colour camera does not see it.
+TEST(EdgeAligned, GrazingFloorDoesNotHideItself) {
+  const Scene scene({{-0.3, -0.1, 0.1, 0.35, 4.0, 1}, {0.0, 0.2, 0.05, 0.35, 4.0, 2}}, 0.35, 6.0);
+  const std::vector<Detection> detections = scene.detections();
+  const cv::Mat1w labels = label_depth(detections, scene.depth(), scene.truth(), {});
+  const Agreement found = agreement(labels, detections, scene.depth_label());
+  EXPECT_GE(found.precision, 0.99);
+  EXPECT_GE(found.recall, 0.85);  // rows at the floor are left out
+}
+
+/// A screen let into the wall, without a step; a post stands before its right end for the colour
+/// camera alone.
+TEST(EdgeAligned, WhatIsHiddenIsNotGuessedFarAcrossASurface) {
+  const Scene scene({{-0.8, 0.3, -0.6, 0.5, kWall_m - 1e-6, 1}, {0.08, 0.5, -2, 2, 0.65, 0}});
+  const std::vector<Detection> detections = scene.detections();
+  const cv::Mat1w labels = label_depth(detections, scene.depth(), scene.truth(), {});
+  const Agreement found = agreement(labels, detections, scene.depth_label());
+  EXPECT_GE(found.precision, 0.99);
+  EXPECT_GE(found.recall, 0.8);
+}
+
+/// Wider than the parallax of anything in range, an object without steps cannot be out of the depth
+/// camera's sight; a narrow one can.
+TEST(EdgeAligned, FlushObjectsAreKeptIfTheyAreWide) {
+  const Scene wide({{-0.5, 0.5, -0.5, 0.5, kWall_m - 1e-6, 1}});
+  const cv::Mat1w kept = label_depth(wide.detections(), wide.depth(), wide.truth(), {});
+  EXPECT_GE(agreement(kept, wide.detections(), wide.depth_label()).recall, 0.85);
+  const Scene narrow({{-0.05, 0.05, -0.5, 0.5, kWall_m - 1e-6, 1}});
+  const cv::Mat1w dropped = label_depth(narrow.detections(), narrow.depth(), narrow.truth(), {});
+  EXPECT_EQ(cv::countNonZero(dropped), 0);
+}
+
+/// Bars of 2 pixels.
+TEST(EdgeAligned, ThinPartsStay) {
+  const Scene scene({{-0.3, -0.286, -0.3, 0.3, 1.8, 1},
+                     {-0.1, -0.086, -0.3, 0.3, 1.8, 2},
+                     {0.1, 0.4, -0.3, 0.3, 1.8, 3}});
+  expect_recovered(scene, scene.truth(), scene.detections());
+}
+
+/// Slats with slits that the grown masks have filled.
+TEST(EdgeAligned, SlitsThatMasksFilledOpenAgain) {
+  const Scene scene({{-0.3, 0.3, -0.3, -0.1, 1.5, 1},
+                     {-0.3, 0.3, -0.078, 0.05, 1.5, 1},
+                     {-0.3, 0.3, 0.072, 0.3, 1.5, 1}});
+  cv::Mat1w label = scene.label();
+  cv::dilate(label, label, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
+  expect_recovered(scene, scene.truth(), scene.detections(label));
 }
 
 TEST(EdgeAligned, TouchingInstancesKeepTheirOwn) {
