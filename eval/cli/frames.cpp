@@ -36,12 +36,15 @@ struct FramesFlags {
   std::string format = "text";
 };
 
-/// The trials of one seed at the first cell of the sweep, a method each.
-std::vector<Task> tasks_of(const Study& study, int seed, const std::string& recording_hash) {
+void check_frames(const Study& study, int seed) {
   if (study.score.unit != ScoreUnit::frame)
     throw Error("score.unit: each frame is scored by itself here; --set score.unit=frame");
   if (seed < 0 || seed >= study.seeds)
     throw Error(fmt::format("no trial of seed {}; seeds: 0 to {}", seed, study.seeds - 1));
+}
+
+/// The trials of one seed at the first cell of the sweep, a method each.
+std::vector<Task> tasks_of(const Study& study, int seed, const std::string& recording_hash) {
   std::vector<Task> tasks;
   std::vector<std::string> seen;
   for (const TrialSpec& spec : trials(study)) {
@@ -83,6 +86,7 @@ std::vector<MethodFrames> walk(const Study& study, const std::vector<Task>& task
 
 void compare_frames(const FramesFlags& flags) {
   const Study study = flags.study.load();
+  check_frames(study, flags.seed);
   const fs::path results = flags.study.results_folder(study);
   ShownRecording shown(flags.work.quiet);
   const Recording recording = recording_of(study, results, flags.work.jobs, shown.progress());

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "eval/cli/options.hpp"
+#include "eval/cli/output_check.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/doses.hpp"
@@ -48,24 +49,43 @@ const MethodSettings& method_of(const Study& study, const std::string& name) {
   throw Error(fmt::format("--method: no method '{}' in the study; methods:{}", name, names));
 }
 
-void take_from_study(const MapVerbFlags& flags, const ClassTable& table, FolderMapping& mapping) {
-  if (flags.study.empty()) {
-    if (!flags.method.empty())
-      throw Error("--method: names a method of a study; give --study, or --segmentation");
-    if (!flags.overrides.empty())
-      throw Error("--set: changes a key of a study; give --study, or the flags of this verb");
-    return;
-  }
-  const Study study = load_study(flags.study, flags.overrides);
+/// The study that the flags name, if they do.
+std::optional<Study> study_of(const MapVerbFlags& flags) {
+  if (!flags.study.empty()) return load_study(flags.study, flags.overrides);
+  if (!flags.method.empty())
+    throw Error("--method: names a method of a study; give --study, or --segmentation");
+  if (!flags.overrides.empty())
+    throw Error("--set: changes a key of a study; give --study, or the flags of this verb");
+  return std::nullopt;
+}
+
+/// What a folder cannot do as a trial does it.
+void check_mappable(const Study& study, const MethodSettings& method) {
+  if (!std::holds_alternative<LabelPerceptionSettings>(study.perception))
+    throw Error("perception: `map` takes the folder's labels; leave the key out, or use `run`");
+  const auto refinement = trial_refinement(method.refinement);
+  if (refinement && refinement->reads_colour())
+    throw Error(
+        fmt::format("methods.{0}.refinement.crf.appearance_weight: `map` reads no colours; --set "
+                    "methods.{0}.refinement.crf.appearance_weight=0, or use `run`",
+                    method.name));
+}
+
+void take_from_study(const Study& study, const MapVerbFlags& flags, const ClassTable& table,
+                     FolderMapping& mapping) {
   const MethodSettings& method = method_of(study, flags.method);
+  check_mappable(study, method);
   mapping.segmentation = segmentation_params(method.segmentation);
   mapping.place_voxels = place_of(study, method) == Place::voxels;
   mapping.voxel_m = study.voxel_m;
   mapping.fusion = trial_fusion(fusion_of(study.fusion, method.fusion), table).rule;
+  mapping.occupancy = study.occupancy;
+  mapping.refinement = trial_refinement(method.refinement);
 }
 
 void take_segmentation(const MapVerbFlags& flags, FolderMapping& mapping) {
-  const std::string& kind = flags.segmentation;
+  const bool own_default = flags.segmentation.empty() && flags.study.empty();
+  const std::string kind = own_default ? "region_growing" : flags.segmentation;
   if (flags.radius_px && kind != "erosion")
     throw Error("--radius_px: is erosion's; give --segmentation erosion, or leave it out");
   if (flags.radius_factor && kind != "region_growing")
@@ -80,12 +100,18 @@ void take_segmentation(const MapVerbFlags& flags, FolderMapping& mapping) {
     mapping.segmentation = RegionGrowingParams{.radius_factor = flags.radius_factor.value_or(0.5)};
 }
 
-FolderMapping mapping_of(const MapVerbFlags& flags, const ClassTable& table) {
+FolderMapping mapping_of(const std::optional<Study>& study, const MapVerbFlags& flags,
+                         const ClassTable& table) {
   FolderMapping mapping;
-  take_from_study(flags, table, mapping);
+  if (study) take_from_study(*study, flags, table, mapping);
   take_segmentation(flags, mapping);
   if (flags.voxel_m) mapping.voxel_m = *flags.voxel_m;
-  if (flags.K) mapping.fusion = BlendRule{*flags.K};
+  if (flags.K) {
+    auto* blend = std::get_if<BlendRule>(&mapping.fusion);
+    if (blend == nullptr)
+      throw Error("--K: is the blend's, and the study fuses by another rule; leave it out");
+    blend->K = *flags.K;
+  }
   mapping.T_map_world =
       map_from_world({flags.origin_m.at(0), flags.origin_m.at(1), flags.origin_m.at(2)},
                      flags.yaw_deg * std::numbers::pi / 180.0);
@@ -99,6 +125,9 @@ std::string folder_text(const LabelledFolder& folder, const MappedCounts& counts
     text += fmt::format("; {} without a depth image near in time", folder.counts().no_depth);
   if (folder.counts().no_pose > 0)
     text += fmt::format("; {} without a pose", folder.counts().no_pose);
+  if (counts.hits_beyond_span > 0)
+    text += fmt::format("; {} hits left out, farther from the map's origin than an octree reaches",
+                        counts.hits_beyond_span);
   return text + fmt::format("\n{} detections, {} of them without points; {} points kept\n",
                             counts.detections, counts.empty, counts.points);
 }
@@ -115,14 +144,19 @@ std::string class_lines(const SemanticMap& map, const ClassTable& table, double 
 }
 
 void map_recording(const MapVerbFlags& flags) {
-  if (!flags.ply_file.empty() && !flags.ply_file.ends_with(".ply"))
-    throw Error(flags.ply_file + ": voxels are written as .ply; give the file this ending");
+  check_outputs({{"-o", flags.file, ".ot"},
+                 {"--color", flags.color_file, ".ot"},
+                 {"--ply", flags.ply_file, ".ply"}});
+  const std::optional<Study> study = study_of(flags);
   LabelledFolderOptions reading = flags.reading;
   if (flags.masks == "classes") reading.masks = ClassMasks::classes;
   if (!flags.range_m.empty()) reading.range_m = std::pair(flags.range_m.at(0), flags.range_m.at(1));
   LabelledFolder folder(flags.folder, reading);
-  if (!flags.detect.empty()) folder.detect_as(detected_table(flags.detect, folder.table()).classes);
-  const FolderMapping mapping = mapping_of(flags, folder.table());
+  if (!flags.detect.empty())
+    folder.detect_as(detected_table(flags.detect, folder.table()).classes);
+  else if (study)
+    folder.detect_as(detected_table(*study, folder.table()).classes);
+  const FolderMapping mapping = mapping_of(study, flags, folder.table());
   const std::vector<int> frames =
       (flags.frames.empty() ? FrameSelection() : FrameSelection(flags.frames))
           .of(folder.frame_count());
@@ -131,6 +165,9 @@ void map_recording(const MapVerbFlags& flags) {
   const SemanticMap map = map_folder(folder, frames, mapping, counts,
                                      [&](int done, int all) { progress.show(done, all); });
   const double threshold = flags.threshold.value_or(first_full_hit(mapping.fusion) / 2);
+  if (map.voxels().empty() && !flags.quiet)
+    std::cerr << "mapscore: note: the map has no voxel; do the classes occur in the labels, and do "
+                 "poses, depth and --origin_m fit?\n";
   map.save(flags.file);
   if (!flags.color_file.empty()) map.export_color(flags.color_file, folder.table(), threshold);
   if (!flags.ply_file.empty()) write_voxel_ply(flags.ply_file, map, folder.table(), threshold);
@@ -171,7 +208,9 @@ void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
   const auto add = [&](const char* name, auto& value, const char* text) {
     return verb.add_option(name, value, text)->group("Mapping");
   };
-  add("--study", flags.study, "Takes voxel size, segmentation, place and fusion of this study");
+  add("--study", flags.study,
+      "Takes voxel size, detected classes, segmentation, place, fusion, occupancy and refinement "
+      "of this study, no faults; a frame is drawn once, at its pose");
   add("--set", flags.overrides, "A key of the study, path=value; may be repeated")
       ->allow_extra_args(false);
   add("--method", flags.method, "Name of its method [the first]");
@@ -184,7 +223,7 @@ void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
       ->check(finite_within(0.01, 10));
   add("--voxel_m", flags.voxel_m, "Voxel edge in metres [0.05]")->check(finite_within(1e-3, 10));
   add("--K", flags.K, "Weight of what the map held before, in the blend [0.5]")
-      ->check(finite_within(0, 1));
+      ->check(finite_within(0, 0.999));
   add("--origin_m", flags.origin_m, "Origin of the map in the frame of the poses: x y z [0 0 0]")
       ->expected(3)
       ->check(finite_within(-1e6, 1e6));

@@ -31,7 +31,8 @@ struct ObjectFlags {
   std::string source, output, method, update = "quantile", against = "surface", format = "text";
   std::optional<std::string> start;
   std::vector<std::string> overrides;
-  double face_share = BoxMerge{}.share, piece_m = ObjectRunOptions{}.piece_m;
+  std::optional<double> face_share;
+  double piece_m = ObjectRunOptions{}.piece_m;
   int seed = 0, max_age = ObjectMapParams{}.max_age, min_points = ObjectRunOptions{}.min_points;
   int jobs = WorkFlags{}.jobs;
   bool quiet = false;
@@ -74,11 +75,13 @@ TrialSpec spec_of(const Study& study, const ObjectFlags& flags) {
 }
 
 ObjectRunOptions options_of(const ObjectFlags& flags) {
+  if (flags.face_share && flags.update != "quantile")
+    throw Error("--face_share: belongs to --update quantile; leave it out");
   ObjectRunOptions options;
   options.map.update.rule = flags.update == "hull"   ? BoxUpdate::hull
                             : flags.update == "mean" ? BoxUpdate::mean
                                                      : BoxUpdate::quantile;
-  options.map.update.share = flags.face_share;
+  options.map.update.share = flags.face_share.value_or(BoxMerge{}.share);
   options.piece_m = flags.piece_m;
   options.map.max_age = flags.max_age;
   options.min_points = flags.min_points;
@@ -114,12 +117,16 @@ void print_score(const ObjectRun& run, const ClassTable& table, const ObjectFlag
 void map_objects(const ObjectFlags& flags) {
   const Study study = study_of(flags);
   const TrialSpec spec = spec_of(study, flags);
+  const ObjectRunOptions options = options_of(flags);
+  for (const char* name : {"objects.yaml", "objects.xml", "objects.ply"})
+    if (fs::is_directory(fs::path(flags.output) / name))
+      throw Error((fs::path(flags.output) / name).string() + ": is a folder; remove it");
   ShownRecording shown(flags.quiet);
   const Recording recording = recording_of(study, flags.output, flags.jobs, shown.progress());
   const ClassTable table = detected_table(study, recording.info().table);
   const Task task = task_of(study, spec, Labels::detected, recording.content_hash());
   PoseSources poses(recording);
-  ObjectRun run(task, recording, table, poses, options_of(flags));
+  ObjectRun run(task, recording, table, poses, options);
   if (flags.start) run.start_from(read_objects(*flags.start, table));
   drive_through(recording, flags.quiet, run);
   write_files(run, table, flags.output);
@@ -150,9 +157,10 @@ void add_objects(CLI::App& program) {
       ->check(CLI::IsMember({"hull", "mean", "quantile"}))
       ->capture_default_str();
   verb->add_option("--face_share", flags->face_share,
-                   "Of quantile: share of the views that see each face no farther out")
-      ->check(CLI::Range(0.01, 1.0))
-      ->capture_default_str();
+                   fmt::format("Of quantile: share of the views that see each face no farther out "
+                               "[{}]",
+                               BoxMerge{}.share))
+      ->check(CLI::Range(0.01, 1.0));
   verb->add_option("--piece_m", flags->piece_m,
                    "Cells in which the points of a detection hang together; the largest piece "
                    "becomes the box")

@@ -5,6 +5,7 @@
 #include "core/mapping/map_resolution.hpp"
 #include "eval/cli/map_score.hpp"
 #include "eval/cli/options.hpp"
+#include "eval/cli/output_check.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/truth_source.hpp"
 #include "eval/cli/verbs.hpp"
@@ -50,10 +51,11 @@ FusionRule rule_of(const std::string& name, const ClassTable& table) {
 
 /// The map with voxels of `times` its size, as a map to score.
 InputMap read_coarse(const ResolutionFlags& flags, const SemanticMap& map, const FusionRule& rule,
-                     int times) {
+                     int times, std::size_t class_count) {
   std::vector<MapVoxel> voxels;
   for (const CoarseVoxel& voxel : read_at(map, rule, times)) {
     const ClassProbability best = voxel.best();
+    check_class(voxel.key, best.class_id, class_count);
     if (best.probability > 1.0)
       throw Error(fmt::format(
           "{}: was not made by --fusion {}, whose voxels cannot add up to a probability of {:.3g}; "
@@ -70,6 +72,8 @@ void check_times(const std::vector<int>& all) {
   for (const int times : all)
     if (times < 1 || times > 1024 || !std::has_single_bit(static_cast<unsigned>(times)))
       throw Error(fmt::format("--times: {} is not 1, 2, 4, 8, ... or 1024", times));
+  if (std::set<int>(all.begin(), all.end()).size() < all.size())
+    throw Error("--times: says a size twice; name each once");
 }
 
 std::filesystem::path numbered(const std::filesystem::path& file, int times) {
@@ -107,7 +111,7 @@ Resolutions score_sizes(const ResolutionFlags& flags, const SemanticMap& map) {
     if (!flags.detect.empty()) source.detect(flags.detect);
     const FusionRule rule = rule_of(flags.rule, source.table());
     const double threshold = flags.threshold.value_or(default_threshold(rule));
-    const InputMap coarse = read_coarse(flags, map, rule, times);
+    const InputMap coarse = read_coarse(flags, map, rule, times, source.table().classes.size());
     const MapScore score = score_input(coarse, flags.map, threshold, source, flags.work.jobs);
     if (!score.note.empty() && !flags.work.quiet)
       std::cerr << "mapscore: note: " << score.note << '\n';
@@ -134,10 +138,13 @@ void draw(const ResolutionFlags& flags, const Resolutions& sizes) {
 }
 
 void read_resolutions(const ResolutionFlags& flags) {
-  if (!flags.picture.empty()) check_picture_name(flags.picture);
+  check_times(flags.times);
+  std::vector<OutputFile> outputs{{"--picture", flags.picture, ".png"}};
+  for (const int times : flags.times)
+    if (!flags.color.empty()) outputs.push_back({"--color", numbered(flags.color, times), ".ot"});
+  check_outputs(outputs);
   if (flags.view.view() && flags.picture.empty())
     throw Error("--view: needs --picture, the file that it is drawn into");
-  check_times(flags.times);
   const SemanticMap map = SemanticMap::load(flags.map.file);
   Resolutions sizes = score_sizes(flags, map);
   if (!flags.picture.empty()) draw(flags, sizes);

@@ -108,12 +108,12 @@ void run(const RunFlags& flags) {
   const std::optional<sim::View> view = flags.view.view();
   const Study study = flags.study.load();
   const std::filesystem::path results = flags.study.results_folder(study);
+  const TrialSpec spec = spec_of(study, flags);
   ShownRecording shown(flags.work.quiet);
   const Recording recording = recording_of(study, results, flags.work.jobs, shown.progress());
   if (const std::string note = note_on_baked(recording.info()); !note.empty())
     std::cerr << "run: " << note << '\n';
   const ClassTable table = detected_table(study, recording.info().table);
-  const TrialSpec spec = spec_of(study, flags);
   const Task task = task_of(study, spec, Labels::detected, recording.content_hash());
   const bool by_frame = task.config.score.unit == ScoreUnit::frame;
 
@@ -133,9 +133,9 @@ void run(const RunFlags& flags) {
       results / "runs" /
       fmt::format("{}-seed{}-{}", spec.method, spec.seed_index, task.key.substr(0, 8));
   std::filesystem::create_directories(folder);
+  const TrialResult result = trial.finish();  // which refines the map
   trial.map().save(folder / "map.ot");
   trial.map().export_color(folder / "map_colour.ot", table, trial.threshold());
-  const TrialResult result = trial.finish();
   std::cout << fmt::format("# {} seed {}{}{}, voxels of {} m, each {} scored, threshold {}\n",
                            spec.method, spec.seed_index, spec.cell.doses.empty() ? "" : " ",
                            text_of(spec.cell), task.config.voxel_m, by_frame ? "frame" : "map",

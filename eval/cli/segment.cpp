@@ -19,6 +19,8 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <tuple>
 
 namespace mapscore::eval {
 namespace {
@@ -26,19 +28,37 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SegmentFlags {
-  std::string recording, output, method = "direct", seed = "box_centre";
-  int frame = 0, radius_px = 5;
-  double voxel_m = 0.05, radius_factor = 1.0;
+  std::string recording, output, method = "direct";
+  std::optional<std::string> seed;
+  int frame = 0;
+  std::optional<int> radius_px;
+  double voxel_m = 0.05;
+  std::optional<double> radius_factor;
   bool released = false;
 };
 
+/// Flags of another method would do nothing.
+void check_method_flags(const SegmentFlags& flags) {
+  const std::tuple<bool, const char*, const char*> owned[] = {
+      {flags.radius_px.has_value(), "--radius_px", "erosion"},
+      {flags.radius_factor.has_value(), "--radius_factor", "region_growing"},
+      {flags.seed.has_value(), "--seed", "region_growing"},
+      {flags.released, "--released", "region_growing"}};
+  for (const auto& [given, flag, method] : owned)
+    if (given && flags.method != method)
+      throw Error(fmt::format("{}: belongs to --method {}; leave it out of {}", flag, method,
+                              flags.method));
+}
+
 SegmentationParams params_of(const SegmentFlags& flags) {
   if (flags.method == "direct") return DirectParams{};
-  if (flags.method == "erosion") return ErosionParams{flags.radius_px};
+  if (flags.method == "erosion") return ErosionParams{flags.radius_px.value_or(5)};
   if (flags.method == "edge_aligned") return EdgeAlignedParams{};
   const auto& names = kNames<SeedRule>;
-  const auto rule = std::find(names.begin(), names.end(), flags.seed) - names.begin();
-  return RegionGrowingParams{flags.radius_factor, flags.released, static_cast<SeedRule>(rule)};
+  const auto rule =
+      std::find(names.begin(), names.end(), flags.seed.value_or("box_centre")) - names.begin();
+  return RegionGrowingParams{flags.radius_factor.value_or(1.0), flags.released,
+                             static_cast<SeedRule>(rule)};
 }
 
 Frame frame_of(const Recording& recording, int frame) {
@@ -98,6 +118,7 @@ void write_segment(const Segment& segment, const fs::path& folder) {
 }
 
 void write_segments(const SegmentFlags& flags) {
+  check_method_flags(flags);
   const SegmentationParams params = params_of(flags);
   const Recording recording = Recording::open(flags.recording);
   const Frame frame = frame_of(recording, flags.frame);
@@ -105,6 +126,10 @@ void write_segments(const SegmentFlags& flags) {
   const ClassTable& table = recording.info().table;
   const std::vector<Detection> detections = detections_of(frame.label, table);
   const fs::path folder = flags.output;
+  if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
+    throw Error(folder.string() +
+                ": is not an empty folder, and files of two frames would lie side by side; give "
+                "another, or remove it");
   fs::create_directories(folder);
   std::string csv = csv_line(columns());
   std::cout << fmt::format("{:<8} {:<16} {:>8} {:>8}  {}\n", "instance", "class", "points",
@@ -129,7 +154,7 @@ void add_segment(CLI::App& program) {
   const auto flags = std::make_shared<SegmentFlags>();
   const auto& rules = kNames<SeedRule>;
   verb->add_option("RECORDING", flags->recording, "Folder of a recording")->required();
-  verb->add_option("-o,--output", flags->output, "Folder for the files")->required();
+  verb->add_option("-o,--output", flags->output, "Folder for the files, new or empty")->required();
   verb->add_option("--frame", flags->frame, "Index of the frame [0]");
   verb->add_option("--method", flags->method, "direct, erosion, region_growing or edge_aligned")
       ->check(CLI::IsMember({"direct", "erosion", "region_growing", "edge_aligned"}))
@@ -137,17 +162,13 @@ void add_segment(CLI::App& program) {
   verb->add_option("--voxel_m", flags->voxel_m, "Edge of a voxel")
       ->check(finite_within(1e-4, 10))
       ->capture_default_str();
-  verb->add_option("--radius_px", flags->radius_px, "Of erosion")
-      ->check(CLI::Range(0, 1000))
-      ->capture_default_str();
+  verb->add_option("--radius_px", flags->radius_px, "Of erosion [5]")->check(CLI::Range(0, 1000));
   verb->add_option("--radius_factor", flags->radius_factor,
-                   "Of region growing: search radius over voxel edge")
-      ->check(finite_within(1e-3, 10))
-      ->capture_default_str();
+                   "Of region growing: search radius over voxel edge [1]")
+      ->check(finite_within(1e-3, 10));
   verb->add_flag("--released", flags->released, "Region growing in single precision");
-  verb->add_option("--seed", flags->seed, "Where region growing starts")
-      ->check(CLI::IsMember(std::vector<std::string>(rules.begin(), rules.end())))
-      ->capture_default_str();
+  verb->add_option("--seed", flags->seed, "Where region growing starts [box_centre]")
+      ->check(CLI::IsMember(std::vector<std::string>(rules.begin(), rules.end())));
   verb->footer(
       "Writes for each instance its points and voxels' centres in depth_optical (.pcd and .ply), "
       "and\nsegments.csv: axis-aligned box in depth_optical, upright box in base_footprint.\n"

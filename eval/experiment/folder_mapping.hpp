@@ -7,10 +7,13 @@
 #include "core/mapping/fusion_rule.hpp"
 #include "core/mapping/semantic_map.hpp"
 #include "core/segmentation/segmentation.hpp"
+#include "eval/experiment/occupancy_settings.hpp"
+#include "eval/experiment/trial_refinement.hpp"
 #include "eval/recording/labelled_folder.hpp"
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace mapscore::eval {
@@ -22,12 +25,15 @@ struct FolderMapping {
   SegmentationParams segmentation = RegionGrowingParams{.radius_factor = 0.5};
   bool place_voxels = false;
   FusionRule fusion = BlendRule{};
+  OccupancySettings occupancy;
+  std::optional<TrialRefinement> refinement;  ///< of the finished map; without colours
 };
 
 /// What came of the frames.
 struct MappedCounts {
   std::int64_t frames = 0, detections = 0, points = 0;
-  std::int64_t empty = 0;  ///< detections that yielded nothing
+  std::int64_t empty = 0;             ///< detections that yielded nothing
+  std::int64_t hits_beyond_span = 0;  ///< left out: the octree does not reach so far
 };
 
 /// Maps these frames of a folder in their order, as a trial at dose zero does. Calls

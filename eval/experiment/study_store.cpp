@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -81,11 +82,13 @@ void refuse_reserved_names(const ClassTable& table) {
 
 ClassTable with_detected_set(const Study& study, ClassTable table) {
   if (!study.detect) return table;
+  std::string names;
+  for (const SemanticClass& c : table.classes)
+    if (c.id != kBackground) names += ' ' + c.name;
   for (const std::string& name : study.detect->classes) {
     const auto named = [&](const SemanticClass& c) { return c.name == name; };
     if (std::none_of(table.classes.begin() + 1, table.classes.end(), named))
-      throw Error("detect: the scene has no class '" + name +
-                  "'; `mapscore info SCENE` lists them");
+      throw Error(fmt::format("detect: there is no class '{}'; there are:{}", name, names));
   }
   for (SemanticClass& c : table.classes)
     c.detect =

@@ -8,6 +8,7 @@
 #include "core/refinement/map_refinement.hpp"
 #include "core/segmentation/frame_segmentation.hpp"
 #include "eval/experiment/doses.hpp"
+#include "eval/experiment/frame_fusion.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/sensor_doses.hpp"
 #include "eval/experiment/trial_seed.hpp"
@@ -37,14 +38,6 @@ ObservedObject& object_of(ClassId class_id, Observation& observation) {
   for (ObservedObject& object : observation)
     if (object.class_id == class_id) return object;
   return observation.emplace_back(ObservedObject{class_id, 1.0, {}});
-}
-
-/// A map of nothing yet, with the study's occupancy.
-SemanticMap empty_map(const Study& config) {
-  SemanticMap map(config.voxel_m);
-  const OccupancySettings& o = config.occupancy;
-  if (o.carve) map.set_carving({{o.hit, o.miss, o.clamp_min, o.clamp_max}, o.max_range_m});
-  return map;
 }
 
 std::vector<int> positive(const std::vector<int>& tolerances) {
@@ -91,7 +84,7 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       map_frame_(map_frame(task.config, task.seed_index)),
       truths_(truths),
       boxes_(truths.boxes()),
-      map_(empty_map(task.config)) {
+      map_(empty_map(task.config.voxel_m, task.config.occupancy)) {
   result_.counts = no_counts();
   if (task.config.score.unit == ScoreUnit::frame) return;
   truth_ = truths.get(map_frame_, truth_options(task.config));
@@ -108,7 +101,7 @@ Counts TrialRun::no_counts() const {
 
 void TrialRun::advance(const Frame& frame) {
   const bool by_itself = task_.config.score.unit == ScoreUnit::frame;
-  if (by_itself) map_ = empty_map(task_.config);
+  if (by_itself) map_ = empty_map(task_.config.voxel_m, task_.config.occupancy);
   Counts counts = no_counts();
   times_ = {};
   const bool truth = task_.labels == Labels::truth;
@@ -116,9 +109,9 @@ void TrialRun::advance(const Frame& frame) {
   const Observation observation = truth ? observe_truth(frame) : observe(frame, depth, counts);
   const double before_mapping_s = thread_seconds();
   const auto hits = place(observation, sensor_poses(frame.index), map_.edge_m());
-  if (map_.carves()) see(depth, frame.index, hits);
-  decay(depth, frame.index, hits);
-  map_.fuse(hits, fusion_.N, fusion_.rule, table_.classes.size());
+  const PosedDepth seen{believed_.depth, mean_sensor_pose(frame.index), believed_.range_min_m,
+                        believed_.range_max_m, depth};
+  fuse_frame(map_, seen, hits, fusion_.N, fusion_.rule, table_.classes.size());
   map_.add_colours(colours_);
   times_.mapping_s = thread_seconds() - before_mapping_s;
   ++result_.accounting.frames;
@@ -129,14 +122,6 @@ void TrialRun::advance(const Frame& frame) {
   pool_into(result_.counts, counts);
   if (by_itself && keeps_frames_)
     frames_.push_back({frame.index, frame.stamp_s, std::move(counts), times_});
-}
-
-void TrialRun::decay(const cv::Mat1w& depth, int frame, std::span<const VoxelHit> hits) {
-  const auto* blend = std::get_if<BlendRule>(&fusion_.rule);
-  if (blend == nullptr || blend->decay != Decay::view) return;
-  map_.decay_in_view(DepthView({believed_.depth, mean_sensor_pose(frame), believed_.range_min_m,
-                                believed_.range_max_m, depth}),
-                     *blend, hits);
 }
 
 TrialResult TrialRun::finish() {
@@ -204,18 +189,6 @@ void TrialRun::note_colours(const Frame& frame, const cv::Mat1w& depth,
       colours_.push_back({T_map_sensor * cloud.point(source), {bgr[2], bgr[1], bgr[0]}});
     }
   }
-}
-
-void TrialRun::see(const cv::Mat1w& depth, int frame, std::span<const VoxelHit> hits) {
-  const Pose T_map_sensor = mean_sensor_pose(frame);
-  const DepthRays rays(believed_.depth);
-  std::vector<Eigen::Vector3d> points;
-  for (int v = 0; v < depth.rows; ++v)
-    for (int u = 0; u < depth.cols; ++u)
-      if (const double z = depth(v, u) / kDepthUnitsPerMetre;
-          z > 0.0 && z >= believed_.range_min_m && z <= believed_.range_max_m)
-        points.push_back(T_map_sensor * rays.point(u, v, z));
-  map_.see(T_map_sensor.translation(), points, hits);
 }
 
 Pose TrialRun::mean_sensor_pose(int frame) const {

@@ -84,10 +84,6 @@ class TrialRun {
   /// Notes the colours behind the masks, where the refinement asks for them.
   void note_colours(const Frame& frame, const cv::Mat1w& depth,
                     const std::vector<Detection>& detections);
-  /// Carves what the depth image saw from the mean of the pose belief.
-  void see(const cv::Mat1w& depth, int frame, std::span<const VoxelHit> hits);
-  /// What the blend lets decay in view, where it does.
-  void decay(const cv::Mat1w& depth, int frame, std::span<const VoxelHit> hits);
   /// T_map_sensor at the mean of the frame's pose belief.
   [[nodiscard]] Pose mean_sensor_pose(int frame) const;
   void account(const Segment& segment);

@@ -72,6 +72,7 @@ LabelledFolder::LabelledFolder(const fs::path& folder, const LabelledFolderOptio
   read_meaning();
   pair_frames();
   size_cameras();
+  if (!options_.cameras.empty()) check_cameras();
 }
 
 void LabelledFolder::read_meaning() {
@@ -94,6 +95,10 @@ void LabelledFolder::read_meaning() {
       throw Error("--range_m: the most is not above the least; give near, then far");
   }
   if (!options_.classes.empty()) classes_ = read_label_classes(options_.classes);
+  if (classes_.has_instances && options_.masks == ClassMasks::classes)
+    throw Error(
+        "--masks classes: pixels are instance ids here, an object each; leave it out, or give "
+        "--classes with the labels of classes");
 }
 
 std::vector<StampedImage> LabelledFolder::label_images() const {
@@ -165,6 +170,21 @@ void LabelledFolder::size_cameras() {
                     "a depth camera, or make both of one size",
                     (folder_ / frames_.front().depth.path).string(), depth.width_px,
                     depth.height_px, color.width_px, color.height_px));
+}
+
+void LabelledFolder::check_cameras() const {
+  const auto check = [&](const char* name, const CameraModel& camera) {
+    const bool inside = camera.cx_px >= 0.0 && camera.cy_px >= 0.0 &&
+                        camera.cx_px <= camera.width_px - 1.0 &&
+                        camera.cy_px <= camera.height_px - 1.0;
+    if (!inside)
+      throw Error(
+          fmt::format("--intrinsics: the principal point ({}, {}) lies outside the {} images, {} x "
+                      "{}; give the intrinsics of images of this size",
+                      camera.cx_px, camera.cy_px, name, camera.width_px, camera.height_px));
+  };
+  check("label", calibration_.color);
+  check("depth", calibration_.depth);
 }
 
 Frame LabelledFolder::read(int index, ClassTable& table) const {

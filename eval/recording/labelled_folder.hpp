@@ -69,6 +69,7 @@ class LabelledFolder {
                                               double stamp_s) const;
   void pair_frames();
   void size_cameras();
+  void check_cameras() const;
 
   std::filesystem::path folder_;
   LabelledFolderOptions options_;

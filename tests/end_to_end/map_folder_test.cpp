@@ -159,6 +159,61 @@ TEST_F(MapFolder, KeysOfTheStudyCanBeChanged) {
   expect_refused(map("ours", "no.ot", {"--set", "voxel_m=0.1"}), {"--set", "--study"});
 }
 
+TEST_F(MapFolder, TakesAllOfTheStudyThatItCanAndRefusesTheRest) {
+  write_text(path("study.yaml"),
+             "recording: ours\nmethods: {direct: {segmentation: {direct: {}}}}\n");
+  const auto by = [&](const std::vector<std::string>& changes) {
+    std::vector<std::string> flags{"--study", path("study.yaml")};
+    for (const std::string& change : changes) flags.insert(flags.end(), {"--set", change});
+    return map("ours", "study.ot", flags);
+  };
+  expect_done(by({}));
+  const std::string plain = bytes_of(path("study.ot"));
+  const std::string no_colours = "methods.direct.refinement={crf: {appearance_weight: 0}}";
+  for (const std::vector<std::string>& changes : {std::vector<std::string>{"occupancy.carve=true"},
+                                                  {"fusion={blend: {decay: view}}"},
+                                                  {"detect=[wall]"},
+                                                  {"detect=all", no_colours},
+                                                  {"place=voxels"},
+                                                  {"voxel_m=0.1"}}) {
+    expect_done(by(changes));
+    EXPECT_NE(bytes_of(path("study.ot")), plain) << changes.front();
+  }
+  expect_refused(by({"methods.direct.refinement={crf: {}}"}), {"appearance_weight", "colours"});
+  expect_refused(by({"perception={simulated: {}}"}), {"perception", "labels"});
+  expect_refused(map("ours", "study.ot",
+                     {"--study", path("study.yaml"), "--set", "fusion={vote: {}}", "--K", "0.3"}),
+                 {"--K", "blend"});
+}
+
+TEST_F(MapFolder, OutputsAreCheckedBeforeTheWork) {
+  fs::create_directory(path("folder.ply"));
+  expect_refused(map("ours", "map.png"), {"-o", "map.png", ".ot"});
+  expect_refused(map("ours", "map.ot", {"--color", path("map.ot")}), {"--color", "each its own"});
+  expect_refused(map("ours", "map.ot", {"--color", path("no/colour.ot")}), {"--color", "folder"});
+  expect_refused(map("ours", "map.ot", {"--ply", path("folder.ply")}), {"--ply", "is a folder"});
+  expect_refused(map("ours", "ours/recording.yaml"), {"recording.yaml", ".ot"});
+  EXPECT_FALSE(fs::exists(path("map.ot")));
+}
+
+TEST_F(MapFolder, IntrinsicsOfAnotherSizeAndIdleMasksAreRefused) {
+  strip();
+  expect_refused(map("theirs", "map.ot",
+                     {"--intrinsics", "500,500,320,240", "--classes", path("classes.yaml")}),
+                 {"principal point", "(320, 240)", "64 x 48"});
+  expect_refused(map("ours", "map.ot", {"--masks", "classes"}), {"--masks", "instance ids"});
+  expect_refused(map("ours", "map.ot", {"--K", "1"}), {"--K"});
+}
+
+TEST_F(MapFolder, AMapOfNothingIsNoted) {
+  strip();
+  write_text(path("classes.yaml"), "classes: [{name: cup, label: 77}]\n");
+  const Outcome outcome = mapscore({"map", path("theirs"), "-o", path("map.ot"), "--intrinsics",
+                                    path("cameras.yaml"), "--classes", path("classes.yaml")});
+  expect_done(outcome);
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr("the map has no voxel"));
+}
+
 TEST_F(MapFolder, WhatIsMissingIsSaid) {
   strip();
   expect_refused(map("theirs", "map.ot"), {"recording.yaml", "--intrinsics"});

@@ -83,6 +83,9 @@ TEST_F(MapResolutions, EveryRuleAndFormat) {
 TEST_F(MapResolutions, BadInputIsRefusedInOneLine) {
   expect_refused(read({"--times", "3"}), {"--times", "3", "1, 2, 4, 8"});
   expect_refused(read({"--times", "2048"}), {"--times", "2048"});
+  expect_refused(read({"--times", "2,2"}), {"--times", "twice"});
+  expect_refused(read({"--color", path("no/colour.ot")}), {"--color", "folder"});
+  expect_refused(read({"--color", path("colour.png")}), {"--color", ".ot"});
   expect_refused(read({"--fusion", "guess"}), {"--fusion", "guess"});
   expect_refused(read({"--fusion", "vote"}), {"map.ot", "--fusion vote"});
   expect_refused(read({"--detect", "cup"}), {"cup"});

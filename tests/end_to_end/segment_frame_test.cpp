@@ -36,7 +36,9 @@ class SegmentFrame : public TinyStudy {
 
 TEST_F(SegmentFrame, EveryMethodWritesPointsVoxelsAndBoxes) {
   for (const std::string method : {"direct", "erosion", "region_growing", "edge_aligned"}) {
-    const Outcome outcome = segment(method, {"--method", method, "--radius_px", "1"});
+    std::vector<std::string> flags{"--method", method};
+    if (method == "erosion") flags.insert(flags.end(), {"--radius_px", "1"});
+    const Outcome outcome = segment(method, flags);
     expect_done(outcome);
     EXPECT_THAT(outcome.out, HasSubstr("crate"));
     const std::string csv = bytes_of(path(method + "/segments.csv"));
@@ -64,7 +66,12 @@ TEST_F(SegmentFrame, BadInputIsRefusedInOneLine) {
   expect_refused(segment("bad", {"--voxel_m", "0"}), {"--voxel_m"});
   expect_refused(segment("bad", {"--seed", "nose"}), {"--seed", "nose"});
   expect_refused(mapscore({"segment", path("nowhere"), "-o", path("bad")}), {"nowhere"});
+  expect_refused(segment("bad", {"--radius_px", "2"}), {"--radius_px", "erosion"});
+  expect_refused(segment("bad", {"--method", "erosion", "--seed", "depth_mode"}),
+                 {"--seed", "region_growing"});
   EXPECT_FALSE(std::filesystem::exists(path("bad")));
+  expect_done(segment("first", {}));
+  expect_refused(segment("first", {"--frame", "1"}), {"first", "empty folder"});
 }
 
 }  // namespace
