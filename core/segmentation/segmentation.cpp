@@ -39,7 +39,6 @@ struct Segmenter {
   void operator()(const DirectParams&) const { keep(detection.mask); }
 
   void operator()(const ErosionParams& params) const {
-    if (params.radius_px < 0) throw Error("radius_px: must not be negative");
     const cv::Mat1b eroded =
         erode_mask(detection, params.radius_px, cloud.width_px(), cloud.height_px());
     if (cv::countNonZero(eroded) == 0)

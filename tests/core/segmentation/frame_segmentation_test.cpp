@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <string>
 
 namespace mapscore {
@@ -68,6 +69,30 @@ TEST_P(FrameSegmentation, MasksFillTheirBoxes) {
   detections = found_in(64, 48);
   detections[0].box.u_max = 70;
   expect_refused([&] { (void)segments(detections); }, "beyond");
+}
+
+TEST_P(FrameSegmentation, CamerasHaveFocalLengths) {
+  const Calibration right = pair_;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto expect_bad = [&](const Calibration& wrong, const std::string& why) {
+    pair_ = wrong;
+    expect_refused([&] { (void)segments(found_in(64, 48)); }, why);
+    expect_refused([&] { (void)register_depth(depth_, pair_); }, why);
+  };
+  for (const double bad : {0.0, -50.0, nan}) {
+    Calibration wrong = right;
+    wrong.depth.fx_px = bad;
+    expect_bad(wrong, "depth camera: focal");
+    wrong = right;
+    wrong.color.fy_px = bad;
+    expect_bad(wrong, "colour camera: focal");
+  }
+  Calibration wrong = right;
+  wrong.color.cx_px = nan;
+  expect_bad(wrong, "principal point");
+  wrong = right;
+  wrong.T_color_depth.translation().x() = nan;
+  expect_bad(wrong, "T_color_depth");
 }
 
 TEST_P(FrameSegmentation, HandMadeDetectionsNeedNotKnowTheirImage) {
