@@ -30,6 +30,8 @@ class ClassBeliefs {
   /// Takes entries that ascend by class, each class once.
   explicit ClassBeliefs(std::vector<ClassProbability> entries) : entries_(std::move(entries)) {}
 
+  /// Whether classes ascend, each once, and all weights are finite and at least 0.
+  [[nodiscard]] bool well_formed() const;
   [[nodiscard]] bool empty() const { return entries_.empty(); }
   [[nodiscard]] std::span<const ClassProbability> entries() const { return entries_; }
   /// For changing weights in place; the classes stay.
