@@ -21,9 +21,10 @@ struct ClassProbability {
 };
 
 /// What a map believes of the class of one voxel: a weight for each class that it names, ascending
-/// by class, kOtherClasses last where the fusion rule keeps one. Weights that add up to at most 1
-/// are probabilities; a greater sum means counts, to be divided by it (docs/fusion.md). So a map
-/// file can be read without knowing the rule that made it. Reads are safe from several threads.
+/// by class, kOtherClasses last where the fusion rule keeps one. Weights that add up to at most 1.5
+/// are probabilities, whose sum is 1 at most up to rounding; a greater sum means counts, to be
+/// divided by it (docs/fusion.md). So a map file can be read without knowing the rule that made it.
+/// Reads are safe from several threads.
 class ClassBeliefs {
  public:
   ClassBeliefs() = default;
