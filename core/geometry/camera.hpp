@@ -42,6 +42,10 @@ struct Calibration {
   double range_max_m = 8.0;
 };
 
+/// Throws Error naming the camera unless both have pixels, positive focal lengths and a finite
+/// centre, and the pose between them is finite. Thread-safe.
+void check(const Calibration& calibration);
+
 /// Depth images hold planar z in units of 1/5000 m (TUM RGB-D); 0 where there is none.
 inline constexpr double kDepthUnitsPerMetre = 5000.0;
 

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <compare>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 namespace mapscore {
 
@@ -19,7 +21,8 @@ struct VoxelKey {
   auto operator<=>(const VoxelKey&) const = default;
 };
 
-/// floor(x / r) on each axis. The only place where a coordinate becomes an index.
+/// floor(x / r) on each axis. The only place where a coordinate becomes an index. Asks for finite
+/// positions within +-2^31 voxels.
 [[nodiscard]] inline VoxelKey voxel_of(const Eigen::Vector3d& p, double edge_m) {
   return {static_cast<std::int32_t>(std::floor(p.x() / edge_m)),
           static_cast<std::int32_t>(std::floor(p.y() / edge_m)),
@@ -49,6 +52,19 @@ struct VoxelKey {
   return {static_cast<std::int32_t>(packed >> 42 & kMask) - kOffset,
           static_cast<std::int32_t>(packed >> 21 & kMask) - kOffset,
           static_cast<std::int32_t>(packed & kMask) - kOffset};
+}
+
+/// voxel_of any position, to be packed: beyond +-2^20 voxels the last voxel on each axis; nothing
+/// where a coordinate is not finite.
+[[nodiscard]] inline std::optional<VoxelKey> packable_voxel_of(const Eigen::Vector3d& p,
+                                                               double edge_m) {
+  constexpr double kReach = 1 << 20;
+  if ((p.array().abs() < (kReach - 1) * edge_m).all()) return voxel_of(p, edge_m);
+  if (!p.allFinite()) return {};
+  const auto index = [&](double x) {
+    return static_cast<std::int32_t>(std::clamp(std::floor(x / edge_m), -kReach, kReach - 1));
+  };
+  return VoxelKey{index(p.x()), index(p.y()), index(p.z())};
 }
 
 /// Mixes all bits of a packed key (the finaliser of SplitMix64), so that power-of-two tables work.

@@ -4,6 +4,7 @@
 #include "core/mapping/class_beliefs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mapscore {
 namespace {
@@ -16,6 +17,14 @@ bool before(const ClassProbability& entry, ClassId class_id) {
 }
 
 }  // namespace
+
+bool ClassBeliefs::well_formed() const {
+  for (std::size_t n = 0; n < entries_.size(); ++n) {
+    if (n > 0 && entries_[n - 1].class_id >= entries_[n].class_id) return false;
+    if (!(entries_[n].probability >= 0.0) || !std::isfinite(entries_[n].probability)) return false;
+  }
+  return true;
+}
 
 double ClassBeliefs::weight(ClassId class_id) const {
   const auto place = std::lower_bound(entries_.begin(), entries_.end(), class_id, before);

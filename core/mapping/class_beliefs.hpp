@@ -21,15 +21,18 @@ struct ClassProbability {
 };
 
 /// What a map believes of the class of one voxel: a weight for each class that it names, ascending
-/// by class, kOtherClasses last where the fusion rule keeps one. Weights that add up to at most 1
-/// are probabilities; a greater sum means counts, to be divided by it (docs/fusion.md). So a map
-/// file can be read without knowing the rule that made it. Reads are safe from several threads.
+/// by class, kOtherClasses last where the fusion rule keeps one. Weights that add up to at most 1.5
+/// are probabilities, whose sum is 1 at most up to rounding; a greater sum means counts, to be
+/// divided by it (docs/fusion.md). So a map file can be read without knowing the rule that made it.
+/// Reads are safe from several threads.
 class ClassBeliefs {
  public:
   ClassBeliefs() = default;
   /// Takes entries that ascend by class, each class once.
   explicit ClassBeliefs(std::vector<ClassProbability> entries) : entries_(std::move(entries)) {}
 
+  /// Whether classes ascend, each once, and all weights are finite and at least 0.
+  [[nodiscard]] bool well_formed() const;
   [[nodiscard]] bool empty() const { return entries_.empty(); }
   [[nodiscard]] std::span<const ClassProbability> entries() const { return entries_; }
   /// For changing weights in place; the classes stay.

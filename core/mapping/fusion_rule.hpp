@@ -20,7 +20,8 @@ enum class Decay { hit, view };
 /// M_t = K M_{t-1} + (1 - K) / N * (sum of the scores over the draws that the class won)
 /// [M, section 3.2]. Keeps one probability a class; they add up to at most 1.
 struct BlendRule {
-  double K = 0.5;  ///< weight of what the map held before, in [0, 1]
+  /// Weight of what the map held before, in [0, 1]; 1 never maps anything, and studies refuse it.
+  double K = 0.5;
   Decay decay = Decay::hit;
 };
 

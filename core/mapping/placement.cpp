@@ -3,12 +3,14 @@
 
 #include "core/mapping/placement.hpp"
 
+#include "core/error.hpp"
 #include "core/geometry/voxel.hpp"
 #include "core/mapping/cell_placement.hpp"
 #include "core/mapping/hit_grid.hpp"
 #include "core/mapping/position_cells.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <tuple>
@@ -40,7 +42,9 @@ void tally_object(const ObservedObject& object, const Pose& T_map_sensor, double
   const std::size_t first = tallies.size();
   for (const Eigen::Vector3d& p_sensor : object.positions) {
     const Eigen::Vector3d p_map = R * p_sensor + t;
-    const std::uint64_t voxel = pack(voxel_of(p_map, edge_m));
+    const std::optional<VoxelKey> key = packable_voxel_of(p_map, edge_m);
+    if (!key) continue;
+    const std::uint64_t voxel = pack(*key);
     if (tallies.size() > first && tallies.back().voxel == voxel)
       ++tallies.back().count;
     else
@@ -133,6 +137,8 @@ std::optional<std::vector<VoxelHit>> place_by_cells(const Observation& observati
 std::vector<VoxelHit> place(const Observation& observation, std::span<const Pose> T_map_sensor,
                             double edge_m) {
   constexpr std::size_t kWorthCells = 4;  // draws from which sorting into cells pays
+  if (!(edge_m > 0.0) || !std::isfinite(edge_m))
+    throw Error("voxel_m: must be a positive length in metres");
   if (T_map_sensor.size() >= kWorthCells)
     if (auto hits = place_by_cells(observation, T_map_sensor, edge_m)) return std::move(*hits);
   return place_positions(observation, T_map_sensor, edge_m);

@@ -39,10 +39,9 @@ Covariance6 covariance_root(const Covariance6& covariance) {
 std::vector<Pose> draw_poses(const PoseBelief& belief, int draws, NoiseAt noise_at,
                              CovarianceUse use, RandomStream& stream) {
   if (draws < 1) throw Error("N: the number of draws must be at least 1");
-  const Covariance6 covariance = use == CovarianceUse::full
-                                     ? belief.covariance
-                                     : Covariance6(belief.covariance.diagonal().asDiagonal());
-  const Covariance6 root = covariance_root(covariance);
+  Covariance6 root = covariance_root(belief.covariance);  // no use of it excuses a bad one
+  if (use == CovarianceUse::diagonal)
+    root = belief.covariance.diagonal().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   const Pose mean = belief.T_map_odom * belief.T_odom_base;
   std::vector<Pose> poses(static_cast<std::size_t>(draws), mean);
   if (root.isZero(0.0)) return poses;

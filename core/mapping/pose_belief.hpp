@@ -31,7 +31,8 @@ enum class CovarianceUse { diagonal, full };
 [[nodiscard]] Covariance6 covariance_root(const Covariance6& covariance);
 
 /// N poses T_map_base drawn from the belief. A zero covariance gives N copies of the mean, bit for
-/// bit. Throws Error when `draws` < 1 or the covariance is not positive semi-definite.
+/// bit. Throws Error, nothing drawn, when `draws` < 1 or the covariance, however it is used, is not
+/// symmetric positive semi-definite. Safe from several threads, each with a stream of its own.
 [[nodiscard]] std::vector<Pose> draw_poses(const PoseBelief& belief, int draws, NoiseAt noise_at,
                                            CovarianceUse use, RandomStream& stream);
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -51,7 +52,7 @@ void SemanticMap::fuse(std::span<const VoxelHit> hits, int draws, const FusionRu
             hits_beyond_span_ += of_voxel.size();
             return;
           }
-          // Inner nodes are brought up to date when the map is saved.
+          // Inner nodes are brought up to date in what is saved.
           SemanticOcTreeNode& voxel =
               carving_ ? tree_->finest(octree_key(key)) : tree_->hit(octree_key(key));
           mapscore::fuse(kind, of_voxel, draws, voxel.mutable_beliefs());
@@ -126,6 +127,9 @@ std::vector<BelievedVoxel> SemanticMap::believed_voxels() const {
 void SemanticMap::set_beliefs(const VoxelKey& key, ClassBeliefs beliefs) {
   if (!fits_octree(key) || tree_->search(octree_key(key)) == nullptr)
     throw Error("map: has no such voxel; give one of believed_voxels()");
+  if (!beliefs.well_formed())
+    throw Error(
+        "map: beliefs that are none; give classes ascending, each once, and weights of 0 or more");
   tree_->finest(octree_key(key)).mutable_beliefs() = std::move(beliefs);
 }
 
@@ -141,7 +145,6 @@ std::optional<Colour> SemanticMap::colour_at(const VoxelKey& key) const {
 }
 
 void SemanticMap::save(const std::filesystem::path& file) const {
-  tree_->updateInnerOccupancy();
   write_whole(file, [this](std::ostream& stream) { return tree_->write(stream); });
 }
 
@@ -161,7 +164,10 @@ void SemanticMap::export_color(const std::filesystem::path& file, const ClassTab
   for (const MapVoxel& voxel : voxels()) {
     if (!voxel.occupied || voxel.best_class == kBackground || voxel.probability < threshold)
       continue;
-    const Colour colour = table.classes.at(voxel.best_class).colour;
+    if (voxel.best_class >= table.classes.size())
+      throw Error("map: class " + std::to_string(voxel.best_class) +
+                  " is not in the class table; export it with the table that it was made with");
+    const Colour colour = table.classes[voxel.best_class].colour;
     coloured.updateNode(octree_key(voxel.key), true, true)->setColor(colour.r, colour.g, colour.b);
   }
   if (coloured.size() > 0) coloured.updateInnerOccupancy();

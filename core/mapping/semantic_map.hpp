@@ -49,8 +49,9 @@ struct ColouredPoint {
   Colour colour;
 };
 
-/// A semantic voxel map in frame `map`: an octree of class probabilities and occupancy. Not safe
-/// for concurrent writes.
+/// A semantic voxel map in frame `map`: an octree of class probabilities and occupancy. Const
+/// members, save() too, are safe from several threads while nothing changes the map; changes are
+/// not.
 class SemanticMap {
  public:
   /// Throws Error unless the voxel edge is positive.
@@ -96,7 +97,8 @@ class SemanticMap {
   [[nodiscard]] std::span<const ClassProbability> classes_at(const VoxelKey& key) const;
   /// The voxels with beliefs, pruned leaves spread out, ascending by key.
   [[nodiscard]] std::vector<BelievedVoxel> believed_voxels() const;
-  /// Gives a voxel of the map other beliefs. Throws Error when it is not in the map.
+  /// Gives a voxel of the map other beliefs. Throws Error, the map unchanged, when it is not in the
+  /// map or they are not well formed.
   void set_beliefs(const VoxelKey& key, ClassBeliefs beliefs);
   /// Mean colour of one voxel; none when it is not in the map or no colour was seen there.
   [[nodiscard]] std::optional<Colour> colour_at(const VoxelKey& key) const;
@@ -104,9 +106,10 @@ class SemanticMap {
 
   /// Writes the map as .ot (type SemanticOcTree), aside and then renamed. Throws Error.
   void save(const std::filesystem::path& file) const;
+  /// Reads what save() wrote. Throws Error naming the file when it is damaged or something else.
   [[nodiscard]] static SemanticMap load(const std::filesystem::path& file);
   /// Writes the voxels whose best class has at least `threshold` as a ColorOcTree .ot in the class
-  /// colours, which octovis and ROS open.
+  /// colours, which octovis and ROS open. Throws Error, also for a class beyond the table.
   void export_color(const std::filesystem::path& file, const ClassTable& table,
                     double threshold) const;
 

@@ -6,7 +6,10 @@
 #include "core/error.hpp"
 #include "core/mapping/slot_pool.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <istream>
+#include <limits>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -19,6 +22,7 @@ namespace {
 constexpr std::int32_t kOctreeOffset = 1 << 15;
 /// In a node's number of classes: a sum of colours follows them.
 constexpr const char* kMisfit = "its data do not fit its header; write it again";
+constexpr const char* kCutShort = "it is cut short; copy it whole or write it again";
 
 template <class T>
 void write_raw(std::ostream& stream, const T& value) {
@@ -101,6 +105,9 @@ void SemanticOcTreeNode::copyData(const SemanticOcTreeNode& from) {
 std::istream& SemanticOcTreeNode::readData(std::istream& stream) {
   OcTreeNode::readData(stream);
   const auto head = read_raw<std::uint16_t>(stream);
+  if (!stream) throw Error(kCutShort);
+  if (!std::isfinite(value))
+    throw Error("a voxel's log-odds are not finite; it is damaged, write it again");
   if (head == 0) return stream;
   std::vector<ClassProbability> entries(head & ~kHasColour);
   for (ClassProbability& entry : entries) {
@@ -108,16 +115,21 @@ std::istream& SemanticOcTreeNode::readData(std::istream& stream) {
     entry.probability = read_raw<double>(stream);
   }
   const ColourSum sum = (head & kHasColour) ? read_raw<ColourSum>(stream) : ColourSum{};
-  if (!stream) throw Error("it is truncated; write it again");
+  if (!stream) throw Error(kCutShort);
   const std::uint64_t most = std::uint64_t{255} * sum.count;
   if (((head & kHasColour) && sum.count == 0) || sum.r > most || sum.g > most || sum.b > most)
     throw Error("a voxel's colours exceed their number; write it again");
-  surface() = {ClassBeliefs(std::move(entries)), sum};
+  ClassBeliefs beliefs(std::move(entries));
+  if (!beliefs.well_formed())
+    throw Error(
+        "a voxel's classes do not ascend, or a weight is not a number of 0 or more; it is damaged, "
+        "write it again");
+  surface() = {std::move(beliefs), sum};
   return stream;
 }
 
-std::ostream& SemanticOcTreeNode::writeData(std::ostream& stream) const {
-  OcTreeNode::writeData(stream);
+std::ostream& SemanticOcTreeNode::write_as(float log_odds, std::ostream& stream) const {
+  write_raw(stream, log_odds);
   const bool coloured = colour().count > 0;
   const std::size_t classes = beliefs().entries().size();
   write_raw(stream, static_cast<std::uint16_t>(classes | (coloured ? kHasColour : 0)));
@@ -136,6 +148,10 @@ SemanticOcTree::SemanticOcTree(double edge_m)
 
 std::unique_ptr<SemanticOcTree> SemanticOcTree::read_whole(std::istream& stream) {
   const OcTreeHeader header = read_header(stream);
+  if (header.type.empty())
+    throw Error(
+        "its header has no line `id`, so it is no map of a known type; write one with `mapscore "
+        "run`");
   if (header.type != "SemanticOcTree")
     throw Error("a " + header.type + ", not a semantic map; write one with `mapscore run`");
   auto tree = std::make_unique<SemanticOcTree>(header.edge_m);
@@ -157,6 +173,7 @@ std::size_t SemanticOcTree::read_node(std::istream& stream, SemanticOcTreeNode* 
                                       unsigned level, std::size_t most_nodes) {
   node->readData(stream);
   const auto children = read_raw<std::uint8_t>(stream);
+  if (!stream) throw Error(kCutShort);
   if (children == 0) return std::size_t{1} << (3 * level);
   if (level == 0) throw Error(kMisfit);
   std::size_t voxels = 0;
@@ -166,6 +183,39 @@ std::size_t SemanticOcTree::read_node(std::istream& stream, SemanticOcTreeNode* 
     voxels += read_node(stream, createNodeChild(node, index), level - 1, most_nodes);
   }
   return voxels;
+}
+
+float SemanticOcTree::gather_log_odds(const SemanticOcTreeNode* node,
+                                      std::vector<float>& log_odds) const {
+  const std::size_t place = log_odds.size();
+  log_odds.push_back(node->getLogOdds());
+  if (!nodeHasChildren(node)) return log_odds[place];
+  float most = std::numeric_limits<float>::lowest();
+  for (unsigned index = 0; index < 8; ++index)
+    if (nodeChildExists(node, index))
+      most = std::max(most, gather_log_odds(getNodeChild(node, index), log_odds));
+  return log_odds[place] = most;
+}
+
+void SemanticOcTree::write_node(const SemanticOcTreeNode* node, const float*& next,
+                                std::ostream& stream) const {
+  node->write_as(*next++, stream);
+  unsigned children = 0;
+  for (unsigned index = 0; index < 8; ++index)
+    children |= static_cast<unsigned>(nodeChildExists(node, index)) << index;
+  write_raw(stream, static_cast<std::uint8_t>(children));
+  for (unsigned index = 0; index < 8; ++index)
+    if ((children >> index & 1) != 0) write_node(getNodeChild(node, index), next, stream);
+}
+
+std::ostream& SemanticOcTree::writeData(std::ostream& stream) const {
+  if (root == nullptr) return stream;
+  std::vector<float> log_odds;
+  log_odds.reserve(tree_size);
+  gather_log_odds(root, log_odds);
+  const float* next = log_odds.data();
+  write_node(root, next, stream);
+  return stream;
 }
 
 SemanticOcTree::StaticMemberInitializer::StaticMemberInitializer() {

@@ -20,6 +20,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace mapscore {
 
@@ -56,7 +57,9 @@ class SemanticOcTreeNode : public octomap::OcTreeNode {
 
   /// OctoMap's streaming of one node's own data; native byte order, as OctoMap writes its floats.
   std::istream& readData(std::istream& stream);
-  std::ostream& writeData(std::ostream& stream) const;
+  std::ostream& writeData(std::ostream& stream) const { return write_as(value, stream); }
+  /// The same with other log-odds.
+  std::ostream& write_as(float log_odds, std::ostream& stream) const;
 
  private:
   struct Surface {
@@ -68,8 +71,8 @@ class SemanticOcTreeNode : public octomap::OcTreeNode {
   std::unique_ptr<Surface> surface_;
 };
 
-/// OctoMap octree of semantic voxels; type id "SemanticOcTree" in .ot files. Not safe for
-/// concurrent writes.
+/// OctoMap octree of semantic voxels; type id "SemanticOcTree" in .ot files. Const members are safe
+/// from several threads while nothing changes it; writes are not.
 class SemanticOcTree : public octomap::OccupancyOcTreeBase<SemanticOcTreeNode> {
  public:
   explicit SemanticOcTree(double edge_m);
@@ -82,6 +85,9 @@ class SemanticOcTree : public octomap::OccupancyOcTreeBase<SemanticOcTreeNode> {
   /// on standard error, takes nothing half-read for whole and goes no deeper than an octree does.
   /// Throws Error with the reason, also where the leaves cover more than kMostMapVoxels.
   [[nodiscard]] static std::unique_ptr<SemanticOcTree> read_whole(std::istream& stream);
+
+  /// As octomap's, after updateInnerOccupancy; but the tree stays as it is.
+  std::ostream& writeData(std::ostream& stream) const override;
 
   /// Takes the numbers of an occupancy model, which must have been checked.
   void set_model(const OccupancyModel& model);
@@ -108,6 +114,12 @@ class SemanticOcTree : public octomap::OccupancyOcTreeBase<SemanticOcTreeNode> {
   /// `most_nodes`. Returns how many finest voxels its leaves cover.
   std::size_t read_node(std::istream& stream, SemanticOcTreeNode* node, unsigned level,
                         std::size_t most_nodes);
+
+  /// Appends the log-odds that the node and all below it have, in the order of a file: inner nodes
+  /// the greatest of their children. Returns the node's.
+  float gather_log_odds(const SemanticOcTreeNode* node, std::vector<float>& log_odds) const;
+  /// Writes the node and all below it with these log-odds, from `next` on.
+  void write_node(const SemanticOcTreeNode* node, const float*& next, std::ostream& stream) const;
 
   /// Makes the type known to octomap::AbstractOcTree::read.
   class StaticMemberInitializer {

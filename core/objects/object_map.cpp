@@ -18,13 +18,14 @@ void check_params(const ObjectMapParams& params) {
   };
   const auto share = [](double value) { return value >= 0.0 && value <= 1.0; };
   const AssociationGate& gate = params.gate;
-  if (!(gate.max_distance_m >= 0.0)) refuse("max_distance_m", "give a length of at least 0");
-  if (!(gate.margin_m >= 0.0)) refuse("margin_m", "give a length of at least 0");
+  const auto length = [](double value) { return value >= 0.0 && std::isfinite(value); };
+  if (!length(gate.max_distance_m)) refuse("max_distance_m", "give a length of at least 0");
+  if (!length(gate.margin_m)) refuse("margin_m", "give a length of at least 0");
   if (!share(gate.min_overlap) || gate.min_overlap == 0.0)
     refuse("min_overlap", "give a share above 0, up to 1");
   if (!share(params.merge_overlap) || params.merge_overlap == 0.0)
     refuse("merge_overlap", "give a share above 0, up to 1");
-  if (!(params.visibility.tolerance_m >= 0.0)) refuse("tolerance_m", "give a length of at least 0");
+  if (!length(params.visibility.tolerance_m)) refuse("tolerance_m", "give a length of at least 0");
   if (!share(params.visibility.min_share)) refuse("min_share", "give a share from 0 to 1");
   if (params.visibility.min_pixels < 1) refuse("min_pixels", "give at least 1");
   if (!share(params.update.share) || params.update.share == 0.0)
@@ -32,9 +33,29 @@ void check_params(const ObjectMapParams& params) {
   if (params.max_age < 1) refuse("max_age", "give at least 1");
 }
 
+/// Rotations read from files with six digits pass.
+bool is_rotation(const Eigen::Matrix3d& R) {
+  constexpr double kTolerance = 1e-4;
+  return (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kTolerance &&
+         R.determinant() > 0.0;
+}
+
 bool is_box(const ObjectBox& box) {
   return box.T_frame_box.matrix().allFinite() && box.size_m.allFinite() &&
          box.size_m.minCoeff() >= 0.0;
+}
+
+void check_stamp(double stamp_s) {
+  if (!std::isfinite(stamp_s))
+    throw Error("object map: stamp " + std::to_string(stamp_s) + "; give the frame's, in seconds");
+}
+
+void check_counts(const MapObject& object) {
+  if (object.observations < 0 || object.misses < 0 || object.age < 0)
+    throw Error("object map: observations, misses and age must be at least 0; mend the object");
+  if (!(object.confidence >= 0.0 && object.confidence <= 1.0))
+    throw Error("object map: confidence " + std::to_string(object.confidence) +
+                "; give one from 0 to 1");
 }
 
 MapObject first_of(const ObjectDetection& detection, double stamp_s) {
@@ -52,6 +73,8 @@ MapObject first_of(const ObjectDetection& detection, double stamp_s) {
 
 ObjectMap::ObjectMap(std::size_t class_count, const ObjectMapParams& params)
     : class_count_(class_count), params_(params) {
+  if (class_count < 1)
+    throw Error("object map: class_count: give that of the class table, background included");
   check_params(params);
 }
 
@@ -63,12 +86,15 @@ void ObjectMap::check(const ObjectDetection& detection, std::size_t position) co
     refuse("class " + std::to_string(detection.class_id) + " is none; classes are 1 to " +
            std::to_string(class_count_ - 1));
   if (!is_box(detection.box)) refuse("its box is not finite, or has a negative size; leave it out");
+  if (!is_rotation(detection.box.T_frame_box.linear()))
+    refuse("its box's axes are no rotation; give orthogonal ones of length 1, right-handed");
   if (!(detection.score > 0.0 && detection.score <= 1.0))
     refuse("score " + std::to_string(detection.score) + "; give one above 0, up to 1");
 }
 
 ObjectChanges ObjectMap::integrate(std::span<const ObjectDetection> detections, double stamp_s,
                                    const PosedDepth* view) {
+  check_stamp(stamp_s);
   for (std::size_t d = 0; d < detections.size(); ++d) check(detections[d], d);
   if (view) mapscore::check(*view);
   const auto object_of = associate(detections, objects_, params_.gate);
@@ -144,6 +170,8 @@ void ObjectMap::age(const std::set<ObjectId>& seen, const PosedDepth& view,
 
 ObjectId ObjectMap::add(MapObject object) {
   check({object.class_id, object.box, 1.0, {}}, 0);
+  check_stamp(object.last_seen_s);
+  check_counts(object);
   if (object.id == 0) object.id = next_;
   if (object.id < next_)
     throw Error("object map: id " + std::to_string(object.id) +
@@ -162,6 +190,7 @@ std::vector<MapObject>::iterator ObjectMap::require(ObjectId id) {
 }
 
 void ObjectMap::update(ObjectId id, const ObjectDetection& detection, double stamp_s) {
+  check_stamp(stamp_s);
   check(detection, 0);
   const auto at = require(id);
   if (at->class_id != detection.class_id)

@@ -43,8 +43,8 @@ class ObjectMap {
 
   /// Takes in what one frame says: associates, merges or adds, and, where the frame's depth image
   /// is given, ages what should have been seen and was not. Throws Error naming the detection when
-  /// one has no class of the table, a box that is not finite or a score outside (0, 1]; the map is
-  /// unchanged then.
+  /// one has no class of the table, a box that is not finite or whose axes are no rotation, or a
+  /// score outside (0, 1], and when the stamp is not finite; the map is unchanged then.
   ObjectChanges integrate(std::span<const ObjectDetection> detections, double stamp_s,
                           const PosedDepth* view = nullptr);
 

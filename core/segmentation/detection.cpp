@@ -53,7 +53,29 @@ cv::Rect rect_of(const PixelBox& box) {
   return {box.u_min, box.v_min, box.width(), box.height()};
 }
 
+std::string size_of(int width_px, int height_px) {
+  return std::to_string(width_px) + " x " + std::to_string(height_px);
+}
+
 }  // namespace
+
+void check(const Detection& detection, int width_px, int height_px) {
+  const PixelBox& box = detection.box;
+  const cv::Mat1b& mask = detection.mask;
+  if (box.u_min < 0 || box.v_min < 0 || box.u_max >= width_px || box.v_max >= height_px)
+    throw Error("detection: its box reaches beyond the colour camera's " +
+                size_of(width_px, height_px) +
+                " pixels; detect in images of the colour camera's size");
+  if (mask.cols != box.width() || mask.rows != box.height())
+    throw Error("detection: its mask has " + size_of(mask.cols, mask.rows) +
+                " pixels, its box has " + size_of(box.width(), box.height()) +
+                "; cut the mask to the box");
+  const cv::Size image = detection.image_px;
+  if (image != cv::Size{} && image != cv::Size(width_px, height_px))
+    throw Error("detection: its label image has " + size_of(image.width, image.height) +
+                " pixels, the colour camera " + size_of(width_px, height_px) +
+                "; give the intrinsics it was taken with");
+}
 
 std::vector<Detection> detections_of(const cv::Mat1w& label, const ClassTable& table) {
   check(table);
@@ -63,7 +85,7 @@ std::vector<Detection> detections_of(const cv::Mat1w& label, const ClassTable& t
     const PixelBox& box = boxes[instance.id];
     if (!table.detected(instance.class_id) || box.u_max < box.u_min) continue;
     const cv::Mat1b mask = label(rect_of(box)) == instance.id;
-    detections.push_back({instance.class_id, instance.id, 1.0, box, mask});
+    detections.push_back({instance.class_id, instance.id, 1.0, box, mask, label.size()});
   }
   return detections;
 }
@@ -71,10 +93,8 @@ std::vector<Detection> detections_of(const cv::Mat1w& label, const ClassTable& t
 cv::Mat1b pixels_wanted(const std::vector<Detection>& detections, int width_px, int height_px) {
   cv::Mat1b wanted(height_px, width_px, std::uint8_t{0});
   for (const Detection& detection : detections) {
+    check(detection, width_px, height_px);
     const PixelBox& box = detection.box;
-    if (box.u_min < 0 || box.v_min < 0 || box.u_max >= width_px || box.v_max >= height_px)
-      throw Error(
-          "label image: not of the colour camera's size; give the intrinsics it was taken with");
     cv::Mat1b region = wanted(rect_of(box));
     region |= detection.mask;
     wanted((box.v_min + box.v_max) / 2, (box.u_min + box.u_max) / 2) = 255;

@@ -3,6 +3,8 @@
 
 #include "core/segmentation/erosion.hpp"
 
+#include "core/error.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -41,6 +43,12 @@ void keep_common(const std::uint8_t* row, std::uint8_t* kept, int count) {
   for (int u = 0; u < count; ++u) kept[u] = static_cast<std::uint8_t>(kept[u] & row[u]);
 }
 
+/// The radius, or the image's diagonal where it is longer: no pixel lies farther from another.
+int within_diagonal(int radius_px, int width_px, int height_px) {
+  const double diagonal = std::ceil(std::hypot(width_px, height_px));
+  return diagonal < radius_px ? static_cast<int>(diagonal) : radius_px;
+}
+
 /// Half widths of the disc's rows, from its middle outwards.
 std::vector<int> disc_half_widths(int radius_px) {
   std::vector<int> half_widths;
@@ -57,6 +65,8 @@ std::vector<int> disc_half_widths(int radius_px) {
 
 cv::Mat1b erode_mask(const Detection& detection, int radius_px, int image_width_px,
                      int image_height_px) {
+  if (radius_px < 0) throw Error("radius_px: must not be negative; 0 leaves the masks as they are");
+  radius_px = within_diagonal(radius_px, image_width_px, image_height_px);
   const PixelBox& box = detection.box;
   const std::vector<int> disc = disc_half_widths(radius_px);
   cv::Mat1b inner = with_margins(detection.mask, box.u_min == 0, box.u_max == image_width_px - 1);

@@ -11,6 +11,9 @@ namespace mapscore {
 std::vector<Segment> segment_frame(const std::vector<Detection>& detections, const cv::Mat1w& depth,
                                    const Calibration& believed, double voxel_m,
                                    const SegmentationParams& params, bool with_voxels) {
+  check(believed);
+  for (const Detection& detection : detections)
+    check(detection, believed.color.width_px, believed.color.height_px);
   if (const auto* aligned = std::get_if<EdgeAlignedParams>(&params))
     return segment_edge_aligned(detections, depth, believed, voxel_m, *aligned, with_voxels);
   const RegisteredCloud cloud =

@@ -14,7 +14,7 @@ namespace mapscore {
 
 /// Segments of all detections of one frame, in their order, with any method: those that take one
 /// detection and a registered cloud get them here. Arguments as of `segment` and `register_depth`,
-/// whose errors it throws.
+/// whose errors it throws, with any method. Thread-safe.
 [[nodiscard]] std::vector<Segment> segment_frame(const std::vector<Detection>& detections,
                                                  const cv::Mat1w& depth,
                                                  const Calibration& believed, double voxel_m,

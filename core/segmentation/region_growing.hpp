@@ -27,12 +27,12 @@ struct Region {
 ///
 /// The fast form: points are binned by lattice cell, so that only the few positions around each are
 /// ever tested. Same result as grow_region_reference on every input. Throws Error unless pitch and
-/// factor are positive and finite.
+/// factor are positive and finite. Thread-safe: each thread keeps a workspace of its own.
 [[nodiscard]] Region grow_region(std::span<const Eigen::Vector3d> points,
                                  const Eigen::Vector3d& seed, double pitch_m, double radius_factor,
                                  bool released);
 
-/// The plain form: a KD-tree (nanoflann) and a queue.
+/// The plain form: a KD-tree (nanoflann) and a queue. Thread-safe.
 [[nodiscard]] Region grow_region_reference(std::span<const Eigen::Vector3d> points,
                                            const Eigen::Vector3d& seed, double pitch_m,
                                            double radius_factor, bool released);

@@ -281,6 +281,7 @@ RegisteredCloud::RegisteredCloud(cv::Mat1w depth, const CameraModel& depth_camer
 
 RegisteredCloud register_depth(const cv::Mat1w& depth, const Calibration& believed,
                                const cv::Mat1b& wanted) {
+  check(believed);
   if (!has_size(depth, believed.depth))
     throw Error(
         "depth image: not of the depth camera's size; give the intrinsics it was taken with");

@@ -48,7 +48,8 @@ class RegisteredCloud {
 /// fx_depth) (z_depth / z_color)) / 2, and the rows likewise with v and fy. Of the depth pixels
 /// that cover a colour pixel the nearest in z_color wins, ties to the lower row, then column.
 /// `wanted` (not 0 on the colour pixels that matter) limits the work: the others get kNone. Throws
-/// Error when an image has another size than its camera.
+/// Error when an image has another size than its camera, and for cameras that are none (check).
+/// Thread-safe.
 [[nodiscard]] RegisteredCloud register_depth(const cv::Mat1w& depth, const Calibration& believed,
                                              const cv::Mat1b& wanted = {});
 

@@ -28,18 +28,6 @@ std::vector<Eigen::Vector3d> points_of(const cv::Mat1b& mask, const PixelBox& bo
   return points;
 }
 
-/// Throws Error unless the detection lies within the cloud and its mask fills its box.
-void check(const Detection& detection, const RegisteredCloud& cloud) {
-  const PixelBox& box = detection.box;
-  if (detection.mask.cols != box.width() || detection.mask.rows != box.height())
-    throw Error("detection: its mask has another size than its box; cut the mask to the box");
-  if (box.u_min < 0 || box.v_min < 0 || box.u_max >= cloud.width_px() ||
-      box.v_max >= cloud.height_px())
-    throw Error(
-        "detection: its box reaches beyond the registered image; detect in images of the colour "
-        "camera's size");
-}
-
 /// Fills a segment by one method; `skipped` says why it stayed empty.
 struct Segmenter {
   const Detection& detection;
@@ -51,7 +39,6 @@ struct Segmenter {
   void operator()(const DirectParams&) const { keep(detection.mask); }
 
   void operator()(const ErosionParams& params) const {
-    if (params.radius_px < 0) throw Error("radius_px: must not be negative");
     const cv::Mat1b eroded =
         erode_mask(detection, params.radius_px, cloud.width_px(), cloud.height_px());
     if (cv::countNonZero(eroded) == 0)
@@ -95,7 +82,7 @@ Segment segment(const Detection& detection, const RegisteredCloud& cloud, double
                 const SegmentationParams& params, bool with_voxels) {
   if (!(voxel_m > 0.0) || !std::isfinite(voxel_m))
     throw Error("voxel_m: must be a positive length in metres");
-  check(detection, cloud);
+  check(detection, cloud.width_px(), cloud.height_px());
   Segment segment;
   segment.class_id = detection.class_id;
   segment.instance = detection.instance;

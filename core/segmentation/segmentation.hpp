@@ -63,8 +63,8 @@ struct Segment {
 /// From a detection and a registered cloud to the points, box and voxels of the object
 /// (docs/methods.md). `voxel_m`: voxel edge. `with_voxels`: fill `voxel_centres`. An oriented box:
 /// upright_box of the points. Throws Error on a radius or edge that is not positive (an erosion
-/// radius of 0 is direct), on a mask of another size than its box, on a box beyond the cloud, and
-/// for what segments a whole frame (frame_segmentation.hpp).
+/// radius of 0 is direct), on a detection that does not fit the cloud's colour image (check), and
+/// for what segments a whole frame (frame_segmentation.hpp). Thread-safe.
 [[nodiscard]] Segment segment(const Detection& detection, const RegisteredCloud& cloud,
                               double voxel_m, const SegmentationParams& params, bool with_voxels);
 

@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -272,15 +273,24 @@ TEST(DrawPoses, DiagonalUseDropsTheCorrelation) {
   EXPECT_LT(std::abs(sampled(0, 1)), 3e-4);
 }
 
-TEST(DrawPoses, RefusesBadInput) {
-  PoseBelief belief;
+TEST(DrawPoses, RefusesBadInputHoweverTheCovarianceIsUsed) {
   RandomStream stream(1, "test");
-  EXPECT_THROW((void)draw_poses(belief, 0, NoiseAt::base, CovarianceUse::full, stream), Error);
-  belief.covariance(0, 0) = -1e-4;
-  EXPECT_THROW((void)draw_poses(belief, 1, NoiseAt::base, CovarianceUse::full, stream), Error);
-  belief.covariance(0, 0) = 1e-4;
-  belief.covariance(0, 1) = 1e-5;
-  EXPECT_THROW((void)draw_poses(belief, 1, NoiseAt::base, CovarianceUse::full, stream), Error);
+  const std::uint64_t next = RandomStream(stream).bits();
+  for (const CovarianceUse use : {CovarianceUse::full, CovarianceUse::diagonal}) {
+    const auto refused = [&](int row, int column, double value) {
+      PoseBelief belief;
+      belief.covariance.diagonal().setConstant(1e-4);
+      belief.covariance(row, column) = value;
+      if (value > 1.0) belief.covariance(column, row) = value;  // symmetric, but beyond +-1e-4
+      EXPECT_THROW((void)draw_poses(belief, 1, NoiseAt::base, use, stream), Error) << value;
+    };
+    EXPECT_THROW((void)draw_poses({}, 0, NoiseAt::base, use, stream), Error);
+    refused(0, 0, -1e-4);
+    refused(0, 1, 1e-5);
+    refused(0, 1, 2.0);
+    refused(3, 2, std::numeric_limits<double>::quiet_NaN());
+  }
+  EXPECT_EQ(stream.bits(), next) << "nothing was drawn";
 }
 
 }  // namespace

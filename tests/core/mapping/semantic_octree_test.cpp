@@ -150,6 +150,22 @@ TEST(SemanticOcTreeFile, HoldsColoursAndBeliefsAndPrunedLeaves) {
   EXPECT_TRUE(*read == map.tree());
 }
 
+/// Occupancy of inner nodes is brought up to date in the file alone: const is const.
+TEST(SemanticOcTreeFile, HoldsInnerOccupancyAndWritingChangesNothing) {
+  SemanticMap map(kEdge);
+  for (int n = 0; n < 20; ++n)
+    map.fuse(std::vector<VoxelHit>{{{n % 7, n % 5, -n}, 1, 1, 1.0}}, 1, kBlend);
+  auto& tree = const_cast<SemanticOcTree&>(map.tree());
+  tree.getRoot()->setLogOdds(-3.0f);  // as inner nodes are before they are brought up to date
+  const std::string bytes = bytes_of(map);
+  EXPECT_EQ(tree.getRoot()->getLogOdds(), -3.0f);
+  tree.updateInnerOccupancy();  // OctoMap's own
+  std::ostringstream theirs;
+  tree.OccupancyOcTreeBase<SemanticOcTreeNode>::writeData(theirs);
+  EXPECT_EQ(bytes.substr(bytes.find("data\n") + 5), theirs.str());
+  EXPECT_GT(theirs.str().size(), 500u);
+}
+
 TEST(SemanticOcTreeFile, WithoutColourIsTheOldOne) {
   // A file of before colours: one voxel's chain of nodes, the leaf with one class.
   std::string bytes = "# Octomap OcTree file\nid SemanticOcTree\nsize 17\nres 0.1\ndata\n";

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <limits>
 
 namespace mapscore {
@@ -174,6 +175,44 @@ TEST(ObjectMap, BadDetectionsLeaveTheMapAsItWas) {
     EXPECT_EQ(map.find(1)->observations, 1);
     EXPECT_EQ(map.find(1)->box.size_m, Eigen::Vector3d(1, 1, 1));
   }
+}
+
+TEST(ObjectMap, RefusesStampsRotationsAndCountsThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ObjectMap map(3);
+  const ObjectDetection good = seen(kChair, {0, 0, 0}, {1, 1, 1});
+  integrate(map, {good}, 1.0);
+  const auto unchanged = [&] {
+    return map.objects().size() == 1 && map.find(1)->observations == 1 &&
+           map.find(1)->last_seen_s == 1.0;
+  };
+  EXPECT_THROW(integrate(map, {good}, nan), Error);
+  EXPECT_THROW(map.update(1, good, nan), Error);
+  for (const double bad : {0.0, 2.0, -1.0, 1.01}) {  // times the x axis
+    ObjectDetection turned = good;
+    turned.box.T_frame_box.linear().col(0) *= bad;
+    EXPECT_THROW(integrate(map, {turned}, 2.0), Error) << bad;
+    EXPECT_THROW(map.update(1, turned, 2.0), Error) << bad;
+  }
+  MapObject object;
+  object.class_id = kChair;
+  object.box = good.box;
+  for (const auto& spoil : std::initializer_list<void (*)(MapObject&)>{
+           [](MapObject& o) { o.last_seen_s = std::numeric_limits<double>::infinity(); },
+           [](MapObject& o) { o.observations = -1; },
+           [](MapObject& o) { o.confidence = std::numeric_limits<double>::quiet_NaN(); },
+           [](MapObject& o) { o.box.T_frame_box.linear().setZero(); }}) {
+    MapObject bad = object;
+    spoil(bad);
+    EXPECT_THROW((void)map.add(bad), Error);
+  }
+  EXPECT_TRUE(unchanged());
+  EXPECT_EQ(map.add(object), 2u);
+}
+
+TEST(ObjectMap, RefusesParametersOutOfRange) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(ObjectMap(0), Error);
   ObjectMapParams params;
   params.max_age = 0;
   EXPECT_THROW(ObjectMap(3, params), Error);
@@ -182,6 +221,9 @@ TEST(ObjectMap, BadDetectionsLeaveTheMapAsItWas) {
   EXPECT_THROW(ObjectMap(3, params), Error);
   params = {};
   params.gate.max_distance_m = nan;
+  EXPECT_THROW(ObjectMap(3, params), Error);
+  params = {};
+  params.gate.margin_m = std::numeric_limits<double>::infinity();
   EXPECT_THROW(ObjectMap(3, params), Error);
 }
 

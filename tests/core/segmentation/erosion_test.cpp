@@ -3,9 +3,12 @@
 
 #include "core/segmentation/erosion.hpp"
 
+#include "core/error.hpp"
 #include "core/random_stream.hpp"
 
 #include <gtest/gtest.h>
+
+#include <limits>
 
 namespace mapscore {
 namespace {
@@ -104,6 +107,17 @@ TEST(Erosion, EqualsTheDefinitionOnRandomMasks) {
       ASSERT_TRUE(equal(eroded(mask, radius), eroded_plain(mask, radius)))
           << "round " << round << ", radius " << radius;
   }
+}
+
+TEST(Erosion, RadiiBeyondTheImageAreItsDiagonal) {
+  cv::Mat1b whole(30, 40, std::uint8_t{255}), corner = whole.clone();
+  corner(0, 0) = 0;
+  for (const int radius_px : {49, 50, 51, 100000, std::numeric_limits<int>::max()}) {
+    EXPECT_TRUE(equal(eroded(whole, radius_px), whole)) << "there the mask goes on";
+    EXPECT_EQ(cv::countNonZero(eroded(corner, radius_px)), 0) << radius_px;
+  }
+  EXPECT_EQ(cv::countNonZero(eroded(corner, 48)), 2) << "at (39, 28) and (39, 29)";
+  EXPECT_THROW((void)eroded(whole, -1), Error);
 }
 
 }  // namespace
