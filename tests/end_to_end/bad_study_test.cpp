@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"no_such_class",
                 "seeds: 2",
                 "detect: [elephant]",
-                {"detect", "'elephant'", "mapscore info"}}),
+                {"detect", "'elephant'", "crate wall"}}),
     [](const auto& bad) { return bad.param.name; });
 
 TEST_F(BadStudy, NothingIsDetected) {
