@@ -13,6 +13,7 @@
 #include "eval/experiment/trial_fusion.hpp"
 #include "eval/map_files/voxel_ply.hpp"
 #include "eval/recording/frame_selection.hpp"
+#include "eval/score/prediction.hpp"
 
 #include <fmt/format.h>
 
@@ -135,8 +136,7 @@ std::string folder_text(const LabelledFolder& folder, const MappedCounts& counts
 std::string class_lines(const SemanticMap& map, const ClassTable& table, double threshold) {
   std::vector<std::int64_t> voxels(table.classes.size());
   for (const MapVoxel& voxel : map.voxels())
-    if (voxel.best_class < voxels.size() && voxel.probability >= threshold)
-      ++voxels[voxel.best_class];
+    if (predicted(voxel, threshold)) ++voxels.at(voxel.best_class);
   std::string text = fmt::format("{:<6} {:<20} {:>10}\n", "id", "class", "voxels");
   for (const SemanticClass& c : table.classes)
     if (c.detect) text += fmt::format("{:<6} {:<20} {:>10}\n", c.id, c.name, voxels[c.id]);

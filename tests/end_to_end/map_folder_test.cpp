@@ -186,6 +186,24 @@ TEST_F(MapFolder, TakesAllOfTheStudyThatItCanAndRefusesTheRest) {
                  {"--K", "blend"});
 }
 
+TEST_F(MapFolder, VoxelsThatRaysFreedAreNotCounted) {
+  write_text(path("study.yaml"),
+             "recording: ours\nmethods: {direct: {segmentation: {direct: {}}}}\n"
+             "occupancy: {carve: true, hit: 0.51, miss: 0.01}\n");
+  const Outcome outcome =
+      map("ours", "map.ot",
+          {"--study", path("study.yaml"), "--ply", path("map.ply"), "--yaw_deg", "20"});
+  expect_done(outcome);
+  const std::string ply = bytes_of(path("map.ply"));
+  const std::size_t at = ply.find("element vertex ") + 15;
+  const int occupied = std::stoi(ply.substr(at));
+  std::istringstream row(outcome.out.substr(outcome.out.find("crate") + 5));
+  int printed = 0;
+  row >> printed;
+  EXPECT_GT(occupied, 0);
+  EXPECT_EQ(printed, occupied);
+}
+
 TEST_F(MapFolder, OutputsAreCheckedBeforeTheWork) {
   fs::create_directory(path("folder.ply"));
   expect_refused(map("ours", "map.png"), {"-o", "map.png", ".ot"});
