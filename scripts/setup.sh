@@ -25,6 +25,7 @@ mujoco_version=4.0.1
 mujoco_folder=build/deps/mujoco-$mujoco_version
 declare -A mujoco_sha256=(
   [x86_64]=be28c0c7587347ef996b4de0487264e9da296282082b092bae211a9163e9aed6
+  [aarch64]=52d934614a56f7d75dcfc2bd8bb72f058b465ecc19a0583a56df242f9505bdb6
 )
 
 say() { printf 'setup: %s\n' "$*" >&2; }
@@ -64,21 +65,29 @@ install_packages() {
 # The wheel carries libmujoco and its headers; nothing of its Python is used.
 install_mujoco() {
   [ -f "$mujoco_folder/mujoco/include/mujoco/mujoco.h" ] && return
-  for prefix in /usr/local /usr; do  # the system's own
-    [ -f "$prefix/include/mujoco/mujoco.h" ] && return
+  for prefix in /usr/local /usr; do
+    if [ -f "$prefix/include/mujoco/mujoco.h" ]; then
+      say "taking the system's own MuJoCo in $prefix; this project was tested with $mujoco_version"
+      return
+    fi
   done
-  say "fetching MuJoCo $mujoco_version into $mujoco_folder"
-  local machine wheel_folder
+  local machine expected
   machine=$(uname -m)
+  expected=${mujoco_sha256[$machine]:-}
+  if [ -z "$expected" ]; then
+    say "no MuJoCo wheel is known for $machine; install MuJoCo 3.3 or newer yourself, CMake finds it"
+    exit 2
+  fi
+  say "fetching MuJoCo $mujoco_version into $mujoco_folder"
   wheel_folder=$(mktemp -d)
+  trap 'rm -rf "$wheel_folder" "$mujoco_folder.partial"' EXIT
   if ! python3 -m pip download --quiet --disable-pip-version-check --no-deps --only-binary=:all: \
     --implementation cp --python-version 3.11 --abi cp311 --platform "manylinux_2_28_$machine" \
     --platform "manylinux_2_27_$machine" -d "$wheel_folder" "mujoco-core==$mujoco_version"; then
     say "MuJoCo could not be fetched; or install MuJoCo 3.3 or newer yourself, CMake finds it"
     exit 2
   fi
-  local expected=${mujoco_sha256[$machine]:-}
-  if [ -n "$expected" ] && ! echo "$expected $(ls "$wheel_folder"/*.whl)" | sha256sum --check --quiet; then
+  if ! echo "$expected $(ls "$wheel_folder"/*.whl)" | sha256sum --check --quiet; then
     say "the MuJoCo wheel is not the one this project was tested with; nothing was installed"
     exit 2
   fi
@@ -92,7 +101,6 @@ wanted = [name for name in wheel.namelist()
 wheel.extractall(sys.argv[2], wanted)
 PYTHON
   mv "$mujoco_folder.partial" "$mujoco_folder"
-  rm -rf "$wheel_folder"
 }
 
 install_packages
