@@ -4,7 +4,7 @@
 #include "core/mapping/map_resolution.hpp"
 
 #include "core/error.hpp"
-#include "core/mapping/whole_file.hpp"
+#include "core/whole_file.hpp"
 
 #include <octomap/ColorOcTree.h>
 
@@ -134,7 +134,9 @@ void export_color_at(const SemanticMap& map, const FusionRule& rule, int times, 
           ->setColor(colour->r, colour->g, colour->b);
   }
   if (coloured.size() > 0) coloured.updateInnerOccupancy();
-  write_whole(file, [&](std::ostream& stream) { return coloured.write(stream); });
+  WholeFile whole(file);
+  coloured.write(whole.stream());
+  whole.finish();
 }
 
 }  // namespace mapscore

@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/mapping/frame_hits.hpp"
 #include "core/mapping/free_space.hpp"
-#include "core/mapping/whole_file.hpp"
+#include "core/whole_file.hpp"
 
 #include <octomap/ColorOcTree.h>
 
@@ -145,7 +145,9 @@ std::optional<Colour> SemanticMap::colour_at(const VoxelKey& key) const {
 }
 
 void SemanticMap::save(const std::filesystem::path& file) const {
-  write_whole(file, [this](std::ostream& stream) { return tree_->write(stream); });
+  WholeFile whole(file);
+  tree_->write(whole.stream());
+  whole.finish();
 }
 
 SemanticMap SemanticMap::load(const std::filesystem::path& file) {
@@ -171,7 +173,9 @@ void SemanticMap::export_color(const std::filesystem::path& file, const ClassTab
     coloured.updateNode(octree_key(voxel.key), true, true)->setColor(colour.r, colour.g, colour.b);
   }
   if (coloured.size() > 0) coloured.updateInnerOccupancy();
-  write_whole(file, [&](std::ostream& stream) { return coloured.write(stream); });
+  WholeFile whole(file);
+  coloured.write(whole.stream());
+  whole.finish();
 }
 
 }  // namespace mapscore

@@ -4,6 +4,7 @@
 #include "eval/cli/options.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/report/baseline.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -23,14 +24,14 @@ int check(const CheckFlags& flags) {
   const std::vector<BaselineRow> now = baseline_of(summarise_store(flags.results));
   if (flags.write) {
     write_baseline(now, flags.baseline);
-    std::cout << fmt::format("{}: {} figures written\n", flags.baseline, now.size());
+    std::cout << fmt::format("{}: {} figures written\n", shown(flags.baseline), now.size());
     return 0;
   }
   const std::vector<BaselineRow> baseline = read_baseline(flags.baseline);
   const std::vector<Fall> fallen = falls(baseline, now, flags.allowed);
   if (fallen.empty()) {
-    std::cout << fmt::format("{}: all {} figures hold (none fell by more than {})\n", flags.results,
-                             baseline.size(), flags.allowed);
+    std::cout << fmt::format("{}: all {} figures hold (none fell by more than {})\n",
+                             shown(flags.results), baseline.size(), flags.allowed);
     return 0;
   }
   std::cout << to_text(fall_table(fallen))

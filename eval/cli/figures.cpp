@@ -12,6 +12,8 @@
 #include "eval/report/contact_sheet.hpp"
 #include "eval/report/pictures.hpp"
 #include "eval/report/pictures_caption.hpp"
+#include "files/folder_lock.hpp"
+#include "files/text.hpp"
 
 #include <filesystem>
 #include <iostream>
@@ -50,14 +52,14 @@ PictureChoice choice_of(const FigureFlags& flags) {
 }
 
 void print(const std::vector<fs::path>& files) {
-  for (const fs::path& file : files) std::cout << file.string() << std::endl;
+  for (const fs::path& file : files) std::cout << shown(file) << std::endl;
 }
 
 /// The recording, from the store's folder; none and a note when it is not there.
 std::optional<Recording> find_recording(const StudyRecord& record, const fs::path& folder) {
   const fs::path recording = (folder / record.recording).lexically_normal();
   if (fs::exists(recording)) return Recording::open(recording);
-  std::cerr << "mapscore: no pictures: the recording " << recording.string()
+  std::cerr << "mapscore: no pictures: the recording " << shown(recording)
             << " is not there; `mapscore sweep` renders it\n";
   return std::nullopt;
 }
@@ -74,7 +76,7 @@ void draw_from_recording(const FigureFlags& flags, const PictureChoice& choice,
   const Pictures pictures = draw_pictures(record.study, record.table, *recording, choice, folder);
   print(pictures.files);
   if (!pictures.skipped.empty())
-    std::cerr << "mapscore: no pictures of the map: " << pictures.skipped << '\n';
+    std::cerr << "mapscore: no pictures of the map: " << shown(pictures.skipped) << '\n';
 }
 
 void figures(const FigureFlags& flags) {
@@ -82,6 +84,7 @@ void figures(const FigureFlags& flags) {
   const StudySummary summary = summarise_store(flags.results);
   const fs::path folder = flags.folder.empty() ? store_file(flags.results).parent_path() / "figures"
                                                : fs::path(flags.folder);
+  const FolderLock lock(folder);
   print(write_tables(summary, folder));
   print(draw_figures(summary, folder));
   if (!flags.no_pictures) draw_from_recording(flags, choice, folder);

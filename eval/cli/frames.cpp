@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/recording_progress.hpp"
+#include "eval/cli/truth_size.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/study_recording.hpp"
@@ -12,8 +14,9 @@
 #include "eval/experiment/trial_refinement.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
-#include "eval/recording/whole_file.hpp"
 #include "eval/report/frames_figure.hpp"
+#include "files/folder_lock.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -33,6 +36,7 @@ struct FramesFlags {
   StudyFlags study;
   WorkFlags work;
   int seed = 0;
+  bool yes = false;
   std::string format = "text";
 };
 
@@ -88,12 +92,14 @@ void compare_frames(const FramesFlags& flags) {
   const Study study = flags.study.load();
   check_frames(study, flags.seed);
   const fs::path results = flags.study.results_folder(study);
-  ShownRecording shown(flags.work.quiet);
-  const Recording recording = recording_of(study, results, flags.work.jobs, shown.progress());
+  ShownRecording display(flags.work.quiet);
+  const Recording recording = recording_of(study, results, flags.work.jobs, display.progress());
   const ClassTable table = detected_table(study, recording.info().table);
   const std::vector<Task> tasks = tasks_of(study, flags.seed, recording.content_hash());
+  check_truth_size(tasks.front().config, recording, 1, flags.yes);
   const std::vector<MethodFrames> methods = walk(study, tasks, recording, table, flags);
   const fs::path folder = results / "frames";
+  const FolderLock lock(folder);
   fs::create_directories(folder);
   const Table times = frames_table(methods);
   write_whole_file(folder / "by_method.csv", to_csv(times));
@@ -102,7 +108,7 @@ void compare_frames(const FramesFlags& flags) {
                                          : to_text(times));
   if (flags.format != "text") return void(draw(frames_figure(study, table, methods), folder));
   for (const fs::path& file : draw(frames_figure(study, table, methods), folder))
-    std::cout << file.string() << '\n';
+    std::cout << shown(file) << '\n';
 }
 
 }  // namespace
@@ -113,6 +119,7 @@ void add_frames(CLI::App& program) {
   const auto flags = std::make_shared<FramesFlags>();
   flags->study.add_to(*verb);
   flags->work.add_to(*verb);
+  add_yes_flag(*verb, flags->yes);
   verb->add_option("--seed", flags->seed, "Index of the seed [0]");
   verb->add_option("--format", flags->format, "text, csv or json [text]")
       ->check(CLI::IsMember({"text", "csv", "json"}));

@@ -12,6 +12,7 @@
 #include "eval/map_files/map_file.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/report/summary.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -31,7 +32,7 @@ void print_recording(const fs::path& folder) {
   const RecordingInfo& info = recording.info();
   const CameraModel& color = info.calibration.color;
   std::cout << fmt::format("{}: recording of {}, {} frames of {} x {}, {:.4g} frames/s, {}\n",
-                           folder.string(), info.scene, info.frame_count, color.width_px,
+                           shown(folder), shown(info.scene), info.frame_count, color.width_px,
                            color.height_px, info.color_rate_hz,
                            info.has_truth ? "with truth" : "without truth");
   std::cout << fmt::format("content hash {}\n", recording.content_hash());
@@ -47,11 +48,10 @@ void print_store(const fs::path& results) {
   const ResultStore store = ResultStore::open_existing(file);
   const StudyRecord record = read_study(store, file.parent_path());
   const Plan plan = plan_of(record.study, record.recording_hash);
-  std::size_t done = 0;
-  for (const Task& task : plan.tasks) done += store.contains(task.key) ? 1 : 0;
   std::cout << fmt::format(
-      "{}: results of study {}, {} of {} trials and ceilings, by mapscore {}\n", file.string(),
-      record.study.name, done, plan.tasks.size(), store.text("mapscore_version"));
+      "{}: results of study {}, {} of {} trials and ceilings, by mapscore {}\n", shown(file),
+      record.study.name, held_tasks(store, plan.tasks), plan.tasks.size(),
+      shown(store.text("mapscore_version")));
   std::cout << store.text("study");
 }
 
@@ -74,7 +74,7 @@ void print_map(const fs::path& file) {
   const auto free = std::ranges::count(map.occupied, std::uint8_t{0});
   const char* unit = map.points.empty() ? "voxels" : "points";
   const std::string edge = map.edge_m > 0 ? fmt::format(" of {} m", map.edge_m) : "";
-  std::cout << fmt::format("{}: map of {} {}{}{}\n", file.string(), map.size(), unit, edge,
+  std::cout << fmt::format("{}: map of {} {}{}{}\n", shown(file), map.size(), unit, edge,
                            free ? fmt::format(", {} of them free", free) : "");
   Eigen::AlignedBox3d bounds;
   for (const Eigen::Vector3d& point : map.points) bounds.extend(point);
@@ -87,7 +87,7 @@ void print_map(const fs::path& file) {
   const std::vector<Leftover> labels = labels_of(map);
   if (labels.empty()) std::cout << "  no labels: geometry alone\n";
   for (std::size_t n = 0; n < std::min(kLabels, labels.size()); ++n)
-    std::cout << fmt::format("  {} {:<12} {}\n", name_of(map.label_kind), labels[n].label,
+    std::cout << fmt::format("  {} {:<12} {}\n", name_of(map.label_kind), shown(labels[n].label),
                              labels[n].count);
   if (labels.size() > kLabels)
     std::cout << fmt::format("  and {} labels more\n", labels.size() - kLabels);

@@ -4,11 +4,12 @@
 #include "eval/cli/info_scene.hpp"
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "eval/experiment/study_recording.hpp"
-#include "eval/recording/whole_file.hpp"
 #include "eval/report/pictures_caption.hpp"
 #include "eval/report/pictures_scene.hpp"
 #include "eval/report/pictures_view.hpp"
+#include "files/text.hpp"
 #include "sim/world/class_suggestion.hpp"
 #include "sim/world/scene_inventory.hpp"
 #include "sim/world/shape_bounds.hpp"
@@ -52,7 +53,7 @@ void print_classes(const ClassTable& table) {
 namespace {
 
 void print_kinds(const fs::path& file, const SceneSurfaces& scene) {
-  std::cout << fmt::format("{}: scene of {} drawn surfaces\n", file.string(), scene.shapes.size());
+  std::cout << fmt::format("{}: scene of {} drawn surfaces\n", shown(file), scene.shapes.size());
   std::map<std::string, int> kinds;
   for (const Shape& shape : scene.shapes) ++kinds[name_of(shape.kind)];
   for (const auto& [kind, count] : kinds) std::cout << fmt::format("  {:<10} {}\n", kind, count);
@@ -76,8 +77,8 @@ void print_unmatched(const std::vector<sim::BodyEntry>& bodies) {
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     const sim::BodyEntry& entry = bodies[body];
     if (entry.matched || entry.drawn_geoms == 0) continue;
-    const std::string name =
-        entry.name.empty() ? fmt::format("(body {})", body) : fmt::format("'{}'", entry.name);
+    const std::string name = entry.name.empty() ? fmt::format("(body {})", body)
+                                                : fmt::format("'{}'", shown(entry.name));
     std::cout << fmt::format("no class matches body {}: {} geoms, {}\n", name, entry.drawn_geoms,
                              place_of(entry.bounds));
   }
@@ -145,10 +146,10 @@ void draw_classes(const fs::path& file, const SceneSurfaces& scene, const SceneI
   if (picture.empty()) picture = fs::path(file).replace_extension(".classes.png");
   const cv::Mat3b drawn = class_picture(file, scene);
   try {
-    std::cout << "picture: " << write_picture(picture, drawn).string() << '\n';
+    std::cout << "picture: " << shown(write_picture(picture, drawn)) << '\n';
   } catch (const Error& error) {
     if (!flags.picture.empty()) throw;
-    std::cout << "no picture: " << error.what() << " (--picture FILE)\n";
+    std::cout << "no picture: " << shown(error.what()) << " (--picture FILE)\n";
   }
 }
 
@@ -177,7 +178,7 @@ void info_of_scene(const fs::path& file, const SceneInfoFlags& flags) {
   print_bounds(inventory.bounds);
   print_classes(scene.table);
   print_unmatched(inventory.bodies);
-  for (const std::string& note : notes_on(inventory)) std::cout << "note: " << note << '\n';
+  for (const std::string& note : notes_on(inventory)) std::cout << "note: " << shown(note) << '\n';
   if (!flags.no_picture) draw_classes(file, scene, flags);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/verbs.hpp"
@@ -11,8 +12,9 @@
 #include "eval/localization/localization_score.hpp"
 #include "eval/recording/grid_file.hpp"
 #include "eval/recording/recording.hpp"
-#include "eval/recording/whole_file.hpp"
 #include "eval/report/believed_figures.hpp"
+#include "files/folder_lock.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -43,7 +45,8 @@ struct LocalizeFlags {
 /// A study of nothing but the localisation, with a lidar as one buys it.
 Study study_of(const LocalizeFlags& flags) {
   Study study;
-  study.name = fs::path(flags.recording).filename().string();
+  study.name =
+      shown((fs::absolute(flags.recording) / "").lexically_normal().parent_path().filename());
   study.recording = flags.recording;
   study.methods = {{"direct", DirectSettings{}, {}}};  // a study has one; nothing is mapped here
   study.seed = flags.seed;
@@ -105,6 +108,7 @@ void localize(const LocalizeFlags& flags) {
   const Recording recording = Recording::open(flags.recording);
   const OccupancyGrid grid = grid_of(recording, study);
   const fs::path folder = flags.output;
+  const FolderLock lock(folder);
   fs::create_directories(folder);
   save_grid(grid, folder / "grid.yaml");
   const std::vector<LocalizationScore> scores =
@@ -116,7 +120,7 @@ void localize(const LocalizeFlags& flags) {
   if (flags.source != "odometry")
     study.sweep = {{"localization.source", {flags.source, "odometry"}}};
   for (const fs::path& file : draw_believed(study, recording, {}, folder))
-    std::cout << file.string() << '\n';
+    std::cout << shown(file) << '\n';
   std::cout << fmt::format("{:<16} {:>5} {:>11} {:>9} {:>9} {:>10} {:>10} {:>10}\n", "source",
                            "seed", "converged_s", "mean_m", "p95_m", "mean_deg", "p95_deg",
                            "nees_share");

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "eval/cli/terminal_guard.hpp"
 #include "eval/cli/verbs.hpp"
+#include "files/text.hpp"
 
+#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -16,7 +19,7 @@ namespace {
 constexpr int kWrongInput = 2;
 
 int complain(const std::string& message) {
-  std::cerr << "mapscore: " << message << '\n';
+  std::cerr << "mapscore: " << mapscore::shown(message) << '\n';
   return kWrongInput;
 }
 
@@ -72,6 +75,8 @@ int run(CLI::App& program, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is then an error of writing, with a line
+  const mapscore::eval::TerminalGuard guarded_output(std::cout), guarded_errors(std::cerr);
   CLI::App program(
       "How good is a semantic 3D map, and how much calibration and localisation error can it "
       "take?");
@@ -95,7 +100,9 @@ int main(int argc, char** argv) {
     return complain(error.path1().string() + ": " + error.code().message() +
                     "; give another place, or mend its permissions");
   } catch (const std::bad_alloc&) {
-    return complain("out of memory; use fewer --jobs, less --memory or larger voxels");
+    return complain(
+        "out of memory: what was read takes more than there is; give a smaller file, scene or "
+        "study, or larger voxels");
   } catch (const std::exception& error) {
     return complain(error.what());
   }

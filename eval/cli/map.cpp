@@ -14,6 +14,8 @@
 #include "eval/map_files/voxel_ply.hpp"
 #include "eval/recording/frame_selection.hpp"
 #include "eval/score/prediction.hpp"
+#include "files/folder_lock.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -168,13 +170,15 @@ void map_recording(const MapVerbFlags& flags) {
   if (map.voxels().empty() && !flags.quiet)
     std::cerr << "mapscore: note: the map has no voxel; do the classes occur in the labels, and do "
                  "poses, depth and --origin_m fit?\n";
+  const FolderLock lock(
+      std::filesystem::absolute(flags.file).parent_path());  // the files belong together
   map.save(flags.file);
   if (!flags.color_file.empty()) map.export_color(flags.color_file, folder.table(), threshold);
   if (!flags.ply_file.empty()) write_voxel_ply(flags.ply_file, map, folder.table(), threshold);
   std::cout << folder_text(folder, counts) << class_lines(map, folder.table(), threshold)
-            << flags.file << '\n';
+            << shown(flags.file) << '\n';
   for (const std::string& file : {flags.color_file, flags.ply_file})
-    if (!file.empty()) std::cout << file << '\n';
+    if (!file.empty()) std::cout << shown(file) << '\n';
 }
 
 void add_reading_flags(CLI::App& verb, MapVerbFlags& flags) {
@@ -202,6 +206,9 @@ void add_reading_flags(CLI::App& verb, MapVerbFlags& flags) {
       "Images and poses whose stamps are farther apart do not belong together [0.02]")
       ->check(finite_within(1e-6, 10));
   add("--frames", flags.frames, "Of the frames: 3,7,9 or first:end:step, from 0 [all]");
+  verb.add_flag("--follow", reading.follow,
+                "Images may lie outside of FOLDER: links and paths in its lists are followed")
+      ->group("Reading the folder");
 }
 
 void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/recording_progress.hpp"
@@ -10,8 +11,8 @@
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
 #include "eval/objects/object_mjcf.hpp"
-#include "eval/recording/whole_file.hpp"
 #include "eval/report/object_table.hpp"
+#include "files/folder_lock.hpp"
 
 #include <fmt/format.h>
 
@@ -99,6 +100,7 @@ void drive_through(const Recording& recording, bool quiet, ObjectRun& run) {
 
 void write_files(const ObjectRun& run, const ClassTable& table, const fs::path& folder) {
   const ObjectFile file = run.file();
+  const FolderLock lock(folder);
   fs::create_directories(folder);
   write_objects(folder / "objects.yaml", file, table);
   write_whole_file(folder / "objects.xml", object_mjcf(file, table));
@@ -121,8 +123,8 @@ void map_objects(const ObjectFlags& flags) {
   for (const char* name : {"objects.yaml", "objects.xml", "objects.ply"})
     if (fs::is_directory(fs::path(flags.output) / name))
       throw Error((fs::path(flags.output) / name).string() + ": is a folder; remove it");
-  ShownRecording shown(flags.quiet);
-  const Recording recording = recording_of(study, flags.output, flags.jobs, shown.progress());
+  ShownRecording display(flags.quiet);
+  const Recording recording = recording_of(study, flags.output, flags.jobs, display.progress());
   const ClassTable table = detected_table(study, recording.info().table);
   const Task task = task_of(study, spec, Labels::detected, recording.content_hash());
   PoseSources poses(recording);

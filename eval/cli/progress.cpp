@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <iostream>
+#include <cstdio>
 #include <utility>
 
 namespace mapscore::eval {
@@ -18,7 +18,7 @@ Progress::Progress(std::string what, std::string unit, bool quiet)
       terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
-  if (open_line_) std::cerr << '\n';
+  if (open_line_) std::fputs("\n", stderr);
 }
 
 void Progress::show(std::int64_t done, std::int64_t total) {
@@ -29,10 +29,8 @@ void Progress::show(std::int64_t done, std::int64_t total) {
   if (done < total && now - (terminal_ ? shown_ : std::max(shown_, started_)) < pause) return;
   shown_ = now;
   const std::string text = line(done, total, std::chrono::duration<double>(now - started_).count());
-  if (terminal_)
-    std::cerr << '\r' << text << "\x1b[K" << std::flush;
-  else
-    std::cerr << text << '\n';
+  // Not through std::cerr, whose guard would show the codes that renew the line.
+  std::fputs((terminal_ ? '\r' + text + "\x1b[K" : text + '\n').c_str(), stderr);
   open_line_ = terminal_;
 }
 

@@ -39,8 +39,8 @@ void record(const RecordFlags& flags) {
   if (flags.bake && has_verdict_faults(study))
     std::cerr << "record: note: wrong classes and scores are not baked: images of instance ids "
                  "cannot say them\n";
-  ShownRecording shown(flags.work.quiet);
-  record_study(study, flags.folder, flags.work.jobs, shown.progress(), flags.trajectory,
+  ShownRecording display(flags.work.quiet);
+  record_study(study, flags.folder, flags.work.jobs, display.progress(), flags.trajectory,
                flags.bake);
 }
 

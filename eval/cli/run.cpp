@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/recording_progress.hpp"
+#include "eval/cli/truth_size.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/cli/view_flag.hpp"
 #include "eval/experiment/map_frame.hpp"
@@ -15,11 +17,12 @@
 #include "eval/experiment/trial_refinement.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
-#include "eval/recording/whole_file.hpp"
 #include "eval/report/pictures.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/report/table.hpp"
 #include "eval/report/tidy_csv.hpp"
+#include "files/folder_lock.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -36,6 +39,7 @@ struct RunFlags {
   WorkFlags work;
   std::string method;
   int seed = 0;
+  bool yes = false;
   ViewFlag view;
 };
 
@@ -70,8 +74,9 @@ std::string score_text(const TrialResult& result, const ClassTable& table) {
 }
 
 void print_pictures(const Pictures& pictures) {
-  for (const std::filesystem::path& file : pictures.files) std::cout << file.string() << '\n';
-  if (!pictures.skipped.empty()) std::cerr << "mapscore: no pictures: " << pictures.skipped << '\n';
+  for (const std::filesystem::path& file : pictures.files) std::cout << shown(file) << '\n';
+  if (!pictures.skipped.empty())
+    std::cerr << "mapscore: no pictures: " << shown(pictures.skipped) << '\n';
 }
 
 /// Writes the figures of each frame where each was scored by itself, and prints the path.
@@ -81,7 +86,7 @@ void write_frames(const TrialRun& trial, const ClassTable& table,
   std::ostringstream csv;
   write_frames_csv(trial.frames(), table, csv);
   write_whole_file(file, csv.str());
-  std::cout << file.string() << '\n';
+  std::cout << shown(file) << '\n';
 }
 
 /// The command that scores the map again, as a comment.
@@ -91,17 +96,18 @@ std::string score_command(const std::filesystem::path& map, const Study& study,
   const MapFrame frame = map_frame(task.config, task.seed_index);
   std::string command = fmt::format(
       "# mapscore score {} --truth {} --voxel_m {} --origin_m {} {} {} --yaw_deg {} --threshold {}",
-      map.string(), recording.folder().string(), frame.edge_m, frame.origin_m.x(),
-      frame.origin_m.y(), frame.origin_m.z(), task.config.map_yaw_deg, threshold);
+      shell_word(map.native()), shell_word(recording.folder().native()), frame.edge_m,
+      frame.origin_m.x(), frame.origin_m.y(), frame.origin_m.z(), task.config.map_yaw_deg,
+      threshold);
   if (task.config.score.unit == ScoreUnit::frame)
     command += fmt::format(" --frames {}", recording.frame_count() - 1);
   if (study.detect) {
     std::vector<std::string> names;
     for (const SemanticClass& c : table.classes)
       if (c.detect) names.push_back(c.name);
-    command += fmt::format(" --detect {}", fmt::join(names, ","));
+    command += " --detect " + shell_word(fmt::format("{}", fmt::join(names, ",")));
   }
-  return command + '\n';
+  return shown(command) + '\n';
 }
 
 void run(const RunFlags& flags) {
@@ -109,12 +115,13 @@ void run(const RunFlags& flags) {
   const Study study = flags.study.load();
   const std::filesystem::path results = flags.study.results_folder(study);
   const TrialSpec spec = spec_of(study, flags);
-  ShownRecording shown(flags.work.quiet);
-  const Recording recording = recording_of(study, results, flags.work.jobs, shown.progress());
+  ShownRecording display(flags.work.quiet);
+  const Recording recording = recording_of(study, results, flags.work.jobs, display.progress());
   if (const std::string note = note_on_baked(recording.info()); !note.empty())
     std::cerr << "run: " << note << '\n';
   const ClassTable table = detected_table(study, recording.info().table);
   const Task task = task_of(study, spec, Labels::detected, recording.content_hash());
+  check_truth_size(task.config, recording, 1, flags.yes);
   const bool by_frame = task.config.score.unit == ScoreUnit::frame;
 
   FrameCache frames(
@@ -132,6 +139,7 @@ void run(const RunFlags& flags) {
   const std::filesystem::path folder =
       results / "runs" /
       fmt::format("{}-seed{}-{}", spec.method, spec.seed_index, task.key.substr(0, 8));
+  const FolderLock lock(folder);
   std::filesystem::create_directories(folder);
   const TrialResult result = trial.finish();  // which refines the map
   trial.map().save(folder / "map.ot");
@@ -140,8 +148,8 @@ void run(const RunFlags& flags) {
                            spec.method, spec.seed_index, spec.cell.doses.empty() ? "" : " ",
                            text_of(spec.cell), task.config.voxel_m, by_frame ? "frame" : "map",
                            trial.threshold())
-            << score_text(result, table) << (folder / "map.ot").string()
-            << (by_frame ? " (of the last frame)\n" : "\n") << (folder / "map_colour.ot").string()
+            << score_text(result, table) << shown(folder / "map.ot")
+            << (by_frame ? " (of the last frame)\n" : "\n") << shown(folder / "map_colour.ot")
             << '\n'
             << score_command(folder / "map.ot", study, recording, table, task, trial.threshold());
   write_frames(trial, table, folder / "frames.csv");
@@ -157,6 +165,7 @@ void add_run(CLI::App& program) {
   const auto flags = std::make_shared<RunFlags>();
   flags->study.add_to(*verb);
   flags->work.add_to(*verb);
+  add_yes_flag(*verb, flags->yes);
   verb->add_option("--method", flags->method, "Name of a method of the study [the first]");
   verb->add_option("--seed", flags->seed, "Index of the seed [0]");
   flags->view.add_to(*verb);

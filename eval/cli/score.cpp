@@ -13,12 +13,14 @@
 #include "eval/report/pictures_view.hpp"
 #include "eval/report/table.hpp"
 #include "eval/score/label_images.hpp"
+#include "files/folder_lock.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace mapscore::eval {
 namespace {
@@ -85,6 +87,11 @@ void note(const ScoreFlags& flags, const std::string& text) {
 void write_errors(const ScoreFlags& flags, const InputMap& map, const MapScore& score,
                   const TruthSource& source) {
   if (flags.picture.empty() && flags.errors_ply.empty()) return;
+  std::optional<FolderLock> lock;  // the two files belong together
+  const std::filesystem::path folder =
+      std::filesystem::absolute(flags.picture.empty() ? flags.errors_ply : flags.picture)
+          .parent_path();
+  if (std::filesystem::is_directory(folder)) lock.emplace(folder);
   const std::string name = std::filesystem::path(flags.map.file).filename().string();
   const JudgedMap judged =
       judged_map(name, name, map.snapshot, score.threshold, score.truth.surface,

@@ -4,13 +4,15 @@
 #include "core/error.hpp"
 #include "core/geometry/oriented_box.hpp"
 #include "core/segmentation/frame_segmentation.hpp"
+#include "core/whole_file.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/study_fields.hpp"
 #include "eval/map_files/cloud_file.hpp"
 #include "eval/recording/recording.hpp"
-#include "eval/recording/whole_file.hpp"
-#include "eval/report/csv.hpp"
+#include "files/csv.hpp"
+#include "files/folder_lock.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -117,6 +119,23 @@ void write_segment(const Segment& segment, const fs::path& folder) {
   }
 }
 
+/// Writes and prints all segments of a frame.
+void write_all(const std::vector<Segment>& segments, const ClassTable& table,
+               const Pose& T_base_depth, const fs::path& folder) {
+  std::string csv = csv_line(columns());
+  std::cout << fmt::format("{:<8} {:<16} {:>8} {:>8}  {}\n", "instance", "class", "points",
+                           "voxels", "skipped");
+  for (const Segment& found : segments) {
+    write_segment(found, folder);
+    csv += csv_line(cells_of(found, table, T_base_depth));
+    std::cout << fmt::format("{:<8} {:<16} {:>8} {:>8}  {}\n", found.instance,
+                             table.classes.at(found.class_id).name, found.points.size(),
+                             found.voxel_centres.size(), name_of(found.skipped));
+  }
+  write_whole_file(folder / "segments.csv", csv);
+  std::cout << shown(folder / "segments.csv") << '\n';
+}
+
 void write_segments(const SegmentFlags& flags) {
   check_method_flags(flags);
   const SegmentationParams params = params_of(flags);
@@ -125,25 +144,22 @@ void write_segments(const SegmentFlags& flags) {
   const Calibration& calibration = recording.info().calibration;
   const ClassTable& table = recording.info().table;
   const std::vector<Detection> detections = detections_of(frame.label, table);
+  const std::vector<Segment> segments =
+      segment_frame(detections, frame.depth, calibration, flags.voxel_m, params, true);
   const fs::path folder = flags.output;
+  const FolderLock lock(folder);
   if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
     throw Error(folder.string() +
                 ": is not an empty folder, and files of two frames would lie side by side; give "
                 "another, or remove it");
   fs::create_directories(folder);
-  std::string csv = csv_line(columns());
-  std::cout << fmt::format("{:<8} {:<16} {:>8} {:>8}  {}\n", "instance", "class", "points",
-                           "voxels", "skipped");
-  for (const Segment& found :
-       segment_frame(detections, frame.depth, calibration, flags.voxel_m, params, true)) {
-    write_segment(found, folder);
-    csv += csv_line(cells_of(found, table, calibration.T_base_depth));
-    std::cout << fmt::format("{:<8} {:<16} {:>8} {:>8}  {}\n", found.instance,
-                             table.classes.at(found.class_id).name, found.points.size(),
-                             found.voxel_centres.size(), name_of(found.skipped));
+  try {
+    write_all(segments, table, calibration.T_base_depth, folder);
+  } catch (...) {  // a part of the files would keep the next run out
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      fs::remove_all(entry.path());
+    throw;
   }
-  write_whole_file(folder / "segments.csv", csv);
-  std::cout << (folder / "segments.csv").string() << '\n';
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/recording_progress.hpp"
+#include "eval/cli/truth_size.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/replay_check.hpp"
@@ -12,7 +13,9 @@
 #include "eval/experiment/store.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
+#include "eval/report/lattice_check.hpp"
 #include "eval/report/summary.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -28,6 +31,7 @@ struct SweepFlags {
   WorkFlags work;
   std::string shard = "1/1";
   std::vector<std::string> merged;
+  bool yes = false;
 };
 
 /// "i/n" with 1 <= i <= n.
@@ -41,7 +45,8 @@ std::pair<int, int> parse_shard(const std::string& text) {
 
 void merge_into(ResultStore& store, const std::string& other, bool quiet) {
   const int taken = store.merge(ResultStore::open_existing(store_file(other)));
-  if (!quiet) std::cerr << fmt::format("sweep: {} trials taken over from {}\n", taken, other);
+  if (!quiet)
+    std::cerr << fmt::format("sweep: {} trials taken over from {}\n", taken, shown(other));
 }
 
 /// A store keeps the trials of every study, and shows those of the last one.
@@ -51,8 +56,18 @@ void note_other_study(const ResultStore& store, const std::filesystem::path& res
   const std::string before = read_study(store, results).study.name;
   if (before != study.name)
     std::cerr << fmt::format(
-        "sweep: note: {} held study {}; its trials stay, tables will show {}\n", results.string(),
-        before, study.name);
+        "sweep: note: {} held study {}; its trials stay, tables will show {}\n", shown(results),
+        shown(before), shown(study.name));
+}
+
+/// What the lattice ceilings that are there say of the recording.
+std::string lattice_note(const TaskList& tasks, const ResultStore& store, const ClassTable& table) {
+  LatticeCheck check(table);
+  for (std::size_t task = 0; task < tasks.size(); ++task) {
+    if (tasks.labels(task) != Labels::truth) continue;
+    if (const auto ceiling = store.find(tasks.key(task))) check.add(ceiling->counts);
+  }
+  return check.note();
 }
 
 void sweep(const SweepFlags& flags) {
@@ -60,12 +75,13 @@ void sweep(const SweepFlags& flags) {
   const std::filesystem::path results = flags.study.results_folder(study);
   const auto [shard, shards] = parse_shard(flags.shard);
 
-  ShownRecording shown(flags.work.quiet);
-  const Recording recording = recording_of(study, results, flags.work.jobs, shown.progress());
+  ShownRecording display(flags.work.quiet);
+  const Recording recording = recording_of(study, results, flags.work.jobs, display.progress());
   if (const std::string note = note_on_baked(recording.info()); !note.empty())
     std::cerr << "sweep: " << note << '\n';
   const ClassTable table = detected_table(study, recording.info().table);
   const Plan plan = plan_of(study, recording.content_hash());
+  check_truth_size(study, recording, plan.tasks.size(), flags.yes);
 
   ResultStore store = ResultStore::open(results / "results.sqlite");
   if (!flags.work.quiet) note_other_study(store, results, study);
@@ -82,7 +98,9 @@ void sweep(const SweepFlags& flags) {
   if (!flags.work.quiet)
     std::cerr << fmt::format(
         "sweep {}: {} trials computed, {} already there or of other shards; {}\n", study.name,
-        outcome.computed, outcome.reused, (results / "results.sqlite").string());
+        outcome.computed, outcome.reused, shown(results / "results.sqlite"));
+  if (const std::string note = lattice_note(plan.tasks, store, table); !note.empty())
+    std::cerr << "sweep: note: " << note << '\n';
 }
 
 }  // namespace
@@ -92,6 +110,7 @@ void add_sweep(CLI::App& program) {
   const auto flags = std::make_shared<SweepFlags>();
   flags->study.add_to(*verb);
   flags->work.add_to(*verb);
+  add_yes_flag(*verb, flags->yes);
   verb->add_option("--shard", flags->shard,
                    "Only every n-th trial: i/n, for several processes or machines");
   verb->add_option("--merge", flags->merged, "Take over the trials of another results folder first")

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/cli/options.hpp"
+#include "eval/cli/truth_size.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
 
@@ -34,6 +35,7 @@ void LatticeFlags::add_without_voxel_to(CLI::App& verb) {
       ->check(finite_within(-1e12, 1e12));
   verb.add_option("--frame", frame, "The same, as the frame at whose depth stamp that is, from 0")
       ->check(CLI::NonNegativeNumber);
+  add_yes_flag(verb, yes);
   verb.add_option("--frames", frames,
                   "Frames of the recording that count: 3,7,9 or first:end:step, from 0, without "
                   "end [all]");
@@ -90,9 +92,18 @@ std::vector<int> TruthSource::frames() const {
   return recording_ ? selection_.of(recording_->frame_count()) : std::vector<int>{};
 }
 
+LatticeTruth TruthSource::surfaces(const ClassTable& table, const TruthOptions& options,
+                                   bool whole_view) const {
+  const MapFrame map_frame = lattice_.map_frame();
+  TruthCost cost =
+      truth_cost(shapes_, map_frame.T_map_world(), {map_frame.edge_m, options.epsilon_m});
+  if (whole_view) cost.bytes += cost.whole_view;
+  check_truth_size(cost, map_frame.edge_m, lattice_.yes);
+  return make_surface_truth(shapes_, table, map_frame, options, jobs_);
+}
+
 SurfaceTruth TruthSource::surface() const {
-  const TruthOptions options{.epsilon_m = lattice_.epsilon_m};
-  return make_surface_truth(shapes_, table_, lattice_.map_frame(), options, jobs_).surface;
+  return surfaces(table_, {.epsilon_m = lattice_.epsilon_m}, false).surface;
 }
 
 LatticeTruth TruthSource::truth(const ClassTable& table, bool distances) {
@@ -101,7 +112,7 @@ LatticeTruth TruthSource::truth(const ClassTable& table, bool distances) {
                              .min_samples = lattice_.min_samples,
                              .distances = distances,
                              .frames = selection_};
-  LatticeTruth truth = make_surface_truth(shapes_, table, map_frame, options, jobs_);
+  LatticeTruth truth = surfaces(table, options, !recording_);
   if (recording_)
     truth.view = make_view(*recording_, table, *frames_, map_frame, options, truth.surface, jobs_);
   else

@@ -29,6 +29,7 @@ struct LatticeFlags {
 
   std::optional<double> at_s;  ///< where things move: the time whose surfaces count
   std::optional<int> frame;    ///< the same, as a frame
+  bool yes = false;            ///< make a truth of any size
 
   void add_to(CLI::App& verb);
   /// All but --voxel_m, for maps that have their own.
@@ -68,6 +69,10 @@ class TruthSource {
   [[nodiscard]] OccupancyTruth occupancy(const SurfaceTruth& surface);
 
  private:
+  /// Throws Error when the flags do not allow a truth of this size, with a view of all of it.
+  [[nodiscard]] LatticeTruth surfaces(const ClassTable& table, const TruthOptions& options,
+                                      bool whole_view) const;
+
   const LatticeFlags& lattice_;
   int jobs_;
   FrameSelection selection_;

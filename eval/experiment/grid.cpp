@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
 namespace mapscore::eval {
 
 std::vector<Cell> cells(const Study& study) {
@@ -23,16 +25,16 @@ std::vector<Cell> cells(const Study& study) {
   return grid;
 }
 
-std::vector<TrialSpec> trials(const Study& study) {
-  std::vector<TrialSpec> result;
-  for (const Cell& cell : cells(study)) {
-    for (int seed_index = 0; seed_index < study.seeds; ++seed_index) {
-      for (const MethodSettings& method : study.methods) {
-        result.push_back({static_cast<int>(result.size()), method.name, cell, seed_index});
-      }
-    }
-  }
-  return result;
+LazyList<TrialSpec> trials(const Study& study) {
+  const auto grid = std::make_shared<const std::vector<Cell>>(cells(study));
+  std::vector<std::string> methods;
+  for (const MethodSettings& method : study.methods) methods.push_back(method.name);
+  const auto seeds = static_cast<std::size_t>(study.seeds);
+  return {grid->size() * seeds * methods.size(), [grid, methods, seeds](std::size_t position) {
+            const std::size_t seed = position / methods.size();
+            return TrialSpec{static_cast<int>(position), methods[position % methods.size()],
+                             (*grid)[seed / seeds], static_cast<int>(seed % seeds)};
+          }};
 }
 
 Study resolve(const Study& study, const Cell& cell) {

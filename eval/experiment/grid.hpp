@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "eval/experiment/lazy_list.hpp"
 #include "eval/experiment/study.hpp"
 
 #include <string>
@@ -36,7 +37,7 @@ struct TrialSpec {
 
 /// Every method at every cell with every seed. Cells vary slowest, then seeds, then methods, so
 /// that neighbours share what the methods see: the same corrupted frames.
-[[nodiscard]] std::vector<TrialSpec> trials(const Study& study);
+[[nodiscard]] LazyList<TrialSpec> trials(const Study& study);
 
 /// The study at one cell: its doses set, its sweep empty. Throws Error naming the path when a dose
 /// does not fit; never for a cell of a loaded study.

@@ -86,6 +86,8 @@ struct LatticeTruth {
 class TruthCache {
  public:
   static constexpr std::size_t kFramesOfLattice = 16;
+  /// Surfaces of lattices are needed again for every block of frames, and are small beside them.
+  static constexpr std::size_t kLeastLattices = 16;
 
   TruthCache(const Recording& recording, const ClassTable& table, FrameCache& frames,
              std::size_t capacity);

@@ -7,7 +7,6 @@
 #include "eval/experiment/localization_doses.hpp"
 #include "eval/experiment/sensor_doses.hpp"
 #include "eval/experiment/trial_fusion.hpp"
-#include "eval/experiment/trial_seed.hpp"
 #include "eval/localization/believed_file.hpp"
 #include "eval/recording/file_bytes.hpp"
 #include "eval/recording/grid_file.hpp"
@@ -18,6 +17,7 @@
 #include <filesystem>
 #include <map>
 #include <unordered_map>
+#include <utility>
 #include <variant>
 
 namespace mapscore::eval {
@@ -122,41 +122,48 @@ Study for_lattice_ceiling(Study config) {
   return config;
 }
 
-Task make_task(Study config, int seed_index, Labels labels, const std::string& recording_hash,
-               PoseFiles& files) {
-  Task task;
-  task.description = fmt::format(
-      "scoring_version: {}\nrecording: {}\nlabels: {}\nseed_index: {}\n{}", kScoringVersion,
-      recording_hash, labels == Labels::truth ? "truth" : "detected", seed_index,
-      to_key_yaml(determining(config, files.content(config), files.objects(config))));
-  task.key = hash_of(task.description);
+SeedlessTask make_task(Study config, Labels labels, const std::string& recording_hash,
+                       PoseFiles& files) {
+  SeedlessTask task;
+  task.before_seed =
+      fmt::format("scoring_version: {}\nrecording: {}\nlabels: {}\nseed_index: ", kScoringVersion,
+                  recording_hash, labels == Labels::truth ? "truth" : "detected");
+  task.after_seed =
+      '\n' + to_key_yaml(determining(config, files.content(config), files.objects(config)));
   task.config = std::move(config);
-  task.seed_index = seed_index;
   task.labels = labels;
   return task;
 }
 
-/// Adds tasks to a plan, each once.
-class TaskList {
+/// Collects the configurations of a plan cell by cell, each once.
+class Configurations {
  public:
-  explicit TaskList(std::vector<Task>& tasks) : tasks_(tasks) {}
+  void next_cell() { first_ = list_.size(); }
 
-  std::size_t add(Task task) {
-    const auto [entry, is_new] = positions_.try_emplace(task.key, tasks_.size());
-    if (is_new) tasks_.push_back(std::move(task));
+  /// Position of the configuration, which may be an earlier one.
+  std::size_t add(SeedlessTask task) {
+    const auto [entry, is_new] = positions_.try_emplace(task.key(0), list_.size());
+    if (is_new) {
+      list_.push_back({std::move(task), first_, 0});
+      for (std::size_t n = first_; n < list_.size(); ++n) list_[n].count = list_.size() - first_;
+    }
     return entry->second;
   }
 
+  [[nodiscard]] std::vector<TaskList::Configuration> take() { return std::move(list_); }
+
  private:
-  std::vector<Task>& tasks_;
+  std::vector<TaskList::Configuration> list_;
   std::unordered_map<std::string, std::size_t> positions_;
+  std::size_t first_ = 0;
+};
+
+/// The configurations of a method's trials at a cell.
+struct TrialConfigurations {
+  std::size_t trial, registration_ceiling, lattice_ceiling;
 };
 
 }  // namespace
-
-std::uint64_t trial_seed(const Task& task) {
-  return trial_seed(task.config.seed, task.seed_index);
-}
 
 void check_pose_files(const Study& study) {
   PoseFiles files;
@@ -171,9 +178,10 @@ Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
              const std::string& recording_hash) {
   const Study config = resolve(study, spec.cell);
   PoseFiles files;
-  return make_task(
-      labels == Labels::truth ? for_lattice_ceiling(config) : with_method(config, spec.method),
-      spec.seed_index, labels, recording_hash, files);
+  return make_task(labels == Labels::truth ? for_lattice_ceiling(config)
+                                           : with_method(config, spec.method),
+                   labels, recording_hash, files)
+      .task(spec.seed_index);
 }
 
 Plan plan_of(const Study& study, const std::string& recording_hash) {
@@ -181,22 +189,36 @@ Plan plan_of(const Study& study, const std::string& recording_hash) {
     if (decides_recording(axis.path))
       throw Error("sweep." + axis.path +
                   ": decides what is recorded; make one study for each of its values");
-  Plan plan;
-  TaskList list(plan.tasks);
+  Configurations configurations;
+  std::vector<TrialConfigurations> of_trials;  // by cell, then method
   PoseFiles files;
-  for (const TrialSpec& spec : trials(study)) {
-    const Study config = with_method(resolve(study, spec.cell), spec.method);
-    const auto add = [&](Study&& of, Labels labels) {
-      return list.add(make_task(std::move(of), spec.seed_index, labels, recording_hash, files));
-    };
-    PlannedTrial trial;
-    trial.spec = spec;
-    trial.task = add(Study(config), Labels::detected);
-    trial.registration_ceiling = add(without_faults(config), Labels::detected);
-    trial.lattice_ceiling = add(for_lattice_ceiling(resolve(study, spec.cell)), Labels::truth);
-    plan.trials.push_back(std::move(trial));
+  const auto add = [&](Study&& config, Labels labels) {
+    return configurations.add(make_task(std::move(config), labels, recording_hash, files));
+  };
+  for (const Cell& cell : cells(study)) {
+    configurations.next_cell();
+    const Study resolved = resolve(study, cell);
+    for (const MethodSettings& method : study.methods) {
+      const Study config = with_method(resolved, method.name);
+      const std::size_t trial = add(Study(config), Labels::detected);
+      const std::size_t registration = add(without_faults(config), Labels::detected);
+      of_trials.push_back({trial, registration, add(for_lattice_ceiling(resolved), Labels::truth)});
+    }
   }
-  return plan;
+  const TaskList tasks(configurations.take(), study.seeds);
+  const LazyList<TrialSpec> specs = trials(study);
+  const auto planned = [tasks, specs, of_trials = std::move(of_trials),
+                        methods = study.methods.size(),
+                        seeds = static_cast<std::size_t>(study.seeds)](std::size_t position) {
+    PlannedTrial trial{specs[position]};
+    const std::size_t cell = position / methods / seeds;
+    const auto& of = of_trials[cell * methods + position % methods];
+    trial.task = tasks.position_of(of.trial, trial.spec.seed_index);
+    trial.registration_ceiling = tasks.position_of(of.registration_ceiling, trial.spec.seed_index);
+    trial.lattice_ceiling = tasks.position_of(of.lattice_ceiling, trial.spec.seed_index);
+    return trial;
+  };
+  return {tasks, {specs.size(), planned}};
 }
 
 }  // namespace mapscore::eval

@@ -5,34 +5,16 @@
 
 #include "eval/experiment/grid.hpp"
 #include "eval/experiment/study.hpp"
+#include "eval/experiment/task_list.hpp"
 
-#include <cstdint>
+#include <cstddef>
 #include <string>
-#include <vector>
 
 namespace mapscore::eval {
 
 /// Version of everything between a frame and its counts; part of every key, so that results of
 /// different definitions never stand side by side. Raise it when a definition changes.
 inline constexpr int kScoringVersion = 3;
-
-/// Which labels a task maps.
-enum class Labels {
-  detected,  ///< label images of the colour camera, registered: what a method sees
-  truth      ///< instance ids of the depth camera's own pixels: the lattice ceiling
-};
-
-/// One map to make and score. Same key, same result.
-struct Task {
-  std::string key;          ///< content hash of `description`
-  std::string description;  ///< YAML of everything that determines the result
-  Study config;             ///< resolved: one method, no sweep
-  int seed_index = 0;
-  Labels labels = Labels::detected;
-};
-
-/// The seed of everything that one repetition draws; shared by all methods and doses.
-[[nodiscard]] std::uint64_t trial_seed(const Task& task);
 
 /// One trial of the sweep and its two ceilings, as positions in Plan::tasks.
 struct PlannedTrial {
@@ -43,10 +25,10 @@ struct PlannedTrial {
 };
 
 /// Everything that a study computes; tasks that several trials share stand once. Trials are in the
-/// order of the grid, tasks in the order of first use.
+/// order of the grid, tasks in the order of first use. Its memory does not grow with the seeds.
 struct Plan {
-  std::vector<Task> tasks;
-  std::vector<PlannedTrial> trials;
+  TaskList tasks;
+  LazyList<PlannedTrial> trials;
 };
 
 /// Throws Error when the sweep names a leaf that decides what is recorded.

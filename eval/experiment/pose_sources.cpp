@@ -147,6 +147,11 @@ PoseSources::Beliefs PoseSources::shared(const Task& task, const std::vector<int
     const auto [entry, is_new] = made_.try_emplace(poses_key(task), promise.get_future());
     made = entry->second;
     is_first = is_new;
+    if (is_new) order_.push_back(entry->first);
+    if (order_.size() > kHeld) {
+      made_.erase(order_.front());
+      order_.pop_front();
+    }
   }
   if (is_first) try {
       promise.set_value(

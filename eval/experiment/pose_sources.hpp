@@ -9,6 +9,7 @@
 #include "eval/localization/believed_trajectory.hpp"
 #include "eval/recording/recording.hpp"
 
+#include <deque>
 #include <functional>
 #include <future>
 #include <map>
@@ -19,11 +20,13 @@
 
 namespace mapscore::eval {
 
-/// The pose beliefs of all trials of a recording. What a filter believed is computed once for all
-/// trials that share it. Safe to use from several threads: whoever asks for what is being computed
-/// waits for it.
+/// The pose beliefs of all trials of a recording. What a filter believed is computed once for the
+/// trials that share it, as long as these stand near each other: the last kHeld are kept. Safe to
+/// use from several threads: whoever asks for what is being computed waits for it.
 class PoseSources {
  public:
+  static constexpr std::size_t kHeld = 1024;
+
   explicit PoseSources(const Recording& recording) : recording_(recording) {}
 
   /// What the source of a task believes at every frame, in the map frame of its lattice;
@@ -31,6 +34,12 @@ class PoseSources {
   /// map. `depth_of`: the depth image of every frame. Throws Error when the recording has no
   /// odometry or scans for the source, or a file is refused or does not reach a frame.
   [[nodiscard]] std::vector<PoseBelief> beliefs(const Task& task, const std::vector<int>& depth_of);
+
+  /// How many are kept at present.
+  [[nodiscard]] std::size_t held() {
+    const std::scoped_lock lock(mutex_);
+    return made_.size();
+  }
 
  private:
   using Beliefs = std::shared_ptr<const std::vector<PoseBelief>>;
@@ -44,7 +53,8 @@ class PoseSources {
   const Recording& recording_;
   std::mutex mutex_;  // guards what is made
   std::map<std::string, std::shared_future<Beliefs>> made_;
-  std::mutex grids_mutex_;  // guards the grids, while one is made, too
+  std::deque<std::string> order_;  ///< keys of what is made, the oldest first
+  std::mutex grids_mutex_;         // guards the grids, while one is made, too
   std::map<std::string, std::shared_ptr<const OccupancyGrid>> grids_;
 };
 

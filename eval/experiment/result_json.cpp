@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/experiment/result_fields.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -23,10 +24,35 @@ json fields_to_json(const Owner& owner, const std::array<CountField<Owner>, N>& 
   return object;
 }
 
+/// A stored count. Throws Error where it is no whole number from 0 to 10^18.
+std::int64_t count_of(const json& value) {
+  constexpr std::int64_t kMost = 1'000'000'000'000'000'000;
+  if (!value.is_number_integer() || value > kMost || value < 0)
+    throw Error(
+        fmt::format("stored result: {} is no count; delete the store and sweep again",
+                    value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40)));
+  return value;
+}
+
+std::vector<std::int64_t> counts_of(const json& list) {
+  std::vector<std::int64_t> counts;
+  for (const json& value : list) counts.push_back(count_of(value));
+  return counts;
+}
+
+/// A place on a scale of thousandths, 0 to 1000.
+int thousandth_of(const json& value) {
+  const std::int64_t thousandth = count_of(value);
+  if (thousandth > kCurveSteps)
+    throw Error(fmt::format("stored result: {} is no thousandth; delete the store and sweep again",
+                            thousandth));
+  return static_cast<int>(thousandth);
+}
+
 template <class Owner, std::size_t N>
 void fields_from_json(const json& object, Owner& owner,
                       const std::array<CountField<Owner>, N>& fields) {
-  for (const auto& [name, member] : fields) owner.*member = object.at(name);
+  for (const auto& [name, member] : fields) owner.*member = count_of(object.at(name));
 }
 
 json tally_to_json(const DistanceTally& tally) {
@@ -36,9 +62,10 @@ json tally_to_json(const DistanceTally& tally) {
 }
 
 DistanceTally tally_from_json(const json& object) {
-  return DistanceTally(DistanceTally::Parts{object.at("limits_m"), object.at("within"),
-                                            object.at("count"), object.at("unreached"),
-                                            object.at("sum_nm"), object.at("bins")});
+  return DistanceTally(
+      DistanceTally::Parts{object.at("limits_m"), counts_of(object.at("within")),
+                           count_of(object.at("count")), count_of(object.at("unreached")),
+                           count_of(object.at("sum_nm")), counts_of(object.at("bins"))});
 }
 
 /// Steps as [thousandth, predicted, true_predicted, found, probability sum], since there are many.
@@ -53,9 +80,11 @@ json curve_to_json(const ClassCurve& curve) {
 }
 
 ClassCurve curve_from_json(const json& object) {
-  ClassCurve curve{object.at("visible"), object.at("squared_error_billionth"), {}};
+  ClassCurve curve{
+      count_of(object.at("visible")), count_of(object.at("squared_error_billionth")), {}};
   for (const json& step : object.at("steps"))
-    curve.steps.push_back({step.at(0), step.at(1), step.at(2), step.at(3), step.at(4)});
+    curve.steps.push_back({thousandth_of(step.at(0)), count_of(step.at(1)), count_of(step.at(2)),
+                           count_of(step.at(3)), count_of(step.at(4))});
   return curve;
 }
 
@@ -76,10 +105,10 @@ InstanceCounts instances_from_json(const json& object) {
   fields_from_json(object, instances, kInstanceCountFields);
   for (const json& row : object.at("steps")) {
     InstanceStep step;
-    step.score = row.at(0);
-    step.predicted = row.at(1);
+    step.score = thousandth_of(row.at(0));
+    step.predicted = count_of(row.at(1));
     for (std::size_t t = 0; t < step.true_predicted.size(); ++t)
-      step.true_predicted[t] = row.at(2 + t);
+      step.true_predicted[t] = count_of(row.at(2 + t));
     instances.steps.push_back(step);
   }
   return instances;
@@ -103,7 +132,8 @@ ClassCounts counts_from_json(const json& object) {
   ClassCounts counts;
   fields_from_json(object, counts, kClassCountFields);
   for (const json& at : object.at("at_tolerance"))
-    counts.at_tolerance.push_back({at.at(0), at.at(1), at.at(2)});
+    counts.at_tolerance.push_back(
+        {static_cast<int>(count_of(at.at(0))), count_of(at.at(1)), count_of(at.at(2))});
   counts.accuracy = tally_from_json(object.at("accuracy"));
   counts.completeness = tally_from_json(object.at("completeness"));
   counts.curve = curve_from_json(object.at("curve"));

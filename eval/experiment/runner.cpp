@@ -3,6 +3,7 @@
 
 #include "eval/experiment/runner.hpp"
 
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "eval/experiment/lattice_truth.hpp"
 #include "eval/experiment/trial_refinement.hpp"
@@ -13,6 +14,9 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <new>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace mapscore::eval {
@@ -36,30 +40,38 @@ std::size_t bytes_of_a_frame(const Recording& recording, bool colour) {
          (colour ? sizeof(cv::Vec3b) * pixels(color) : 0);
 }
 
-/// The missing tasks of this shard, those of one lattice together.
-std::vector<const Task*> missing_tasks(const Plan& plan, const ResultStore& store,
+/// Positions of the missing tasks of this shard, those of one lattice together.
+std::vector<std::size_t> missing_tasks(const TaskList& tasks, const ResultStore& store,
                                        const RunnerOptions& options) {
   const auto done = store.keys();
-  std::vector<const Task*> missing;
-  int position = 0;
-  for (const Task& task : plan.tasks) {
-    const bool mine = position++ % options.shards == options.shard - 1;
-    if (mine && !done.contains(task.key)) missing.push_back(&task);
-  }
-  std::stable_sort(missing.begin(), missing.end(), [](const Task* a, const Task* b) {
-    return std::pair(a->seed_index, a->config.voxel_m) <
-           std::pair(b->seed_index, b->config.voxel_m);
+  std::vector<std::size_t> missing;
+  for (auto position = static_cast<std::size_t>(options.shard - 1); position < tasks.size();
+       position += static_cast<std::size_t>(options.shards))
+    if (done.empty() || !done.contains(tasks.key(position))) missing.push_back(position);
+  std::ranges::stable_sort(missing, {}, [&tasks](std::size_t position) {
+    return std::pair(tasks.seed_index(position), tasks.config(position).voxel_m);
   });
   return missing;
 }
+
+/// A trial under way, with its task, which must stay where it is.
+struct RunningTask {
+  RunningTask(Task of, const Recording& recording, const ClassTable& table, TruthCache& truths,
+              PoseSources& poses)
+      : task(std::move(of)), trial(task, recording, table, truths, poses) {}
+
+  const Task task;
+  TrialRun trial;
+};
 
 /// Everything that the trials of one recording share.
 class Sweep {
  public:
   /// `colour`: whether some task reads colour images.
-  Sweep(const Recording& recording, const ClassTable& table, ResultStore& store,
-        const RunnerOptions& options, bool colour)
-      : recording_(recording),
+  Sweep(const TaskList& tasks, const Recording& recording, const ClassTable& table,
+        ResultStore& store, const RunnerOptions& options, bool colour)
+      : tasks_(tasks),
+        recording_(recording),
         table_(table),
         store_(store),
         options_(options),
@@ -70,42 +82,44 @@ class Sweep {
         truths_(recording, table, frames_, static_cast<std::size_t>(std::max(1, options.jobs)) + 1),
         poses_(recording) {}
 
-  void run(const std::vector<const Task*>& tasks) {
-    const int block = block_of_frames(tasks);
+  /// `missing`: positions of tasks.
+  void run(const std::vector<std::size_t>& missing) {
+    const int block = block_of_frames(missing);
     const bool all_fit = block == recording_.frame_count();
-    const std::size_t batch = all_fit ? tasks.size() : kTrialsAtOnce;
-    total_ = static_cast<std::int64_t>(tasks.size()) * recording_.frame_count();
-    for (std::size_t first = 0; first < tasks.size(); first += batch) {
-      const auto end = std::min(tasks.size(), first + batch);
-      run_batch({tasks.begin() + static_cast<std::ptrdiff_t>(first),
-                 tasks.begin() + static_cast<std::ptrdiff_t>(end)},
-                block);
+    const std::size_t batch = all_fit ? missing.size() : kTrialsAtOnce;
+    total_ = static_cast<std::int64_t>(missing.size()) * recording_.frame_count();
+    for (std::span rest(missing); !rest.empty();) {
+      const std::size_t count = std::min(rest.size(), batch);
+      run_batch(rest.first(count), block);
+      rest = rest.subspan(count);
     }
   }
 
  private:
-  [[nodiscard]] int block_of_frames(const std::vector<const Task*>& tasks) const {
+  [[nodiscard]] int block_of_frames(const std::vector<std::size_t>& missing) const {
     std::size_t fitting = options_.memory_bytes / bytes_of_a_frame(recording_, colour_);
-    if (std::ranges::any_of(
-            tasks, [](const Task* task) { return task->config.score.unit == ScoreUnit::frame; }))
+    if (std::ranges::any_of(missing, [this](std::size_t position) {
+          return tasks_.config(position).score.unit == ScoreUnit::frame;
+        }))
       fitting = std::min<std::size_t>(fitting, kFramesScoredAtOnce);
     return static_cast<int>(
         std::clamp<std::size_t>(fitting, 1, static_cast<std::size_t>(recording_.frame_count())));
   }
 
-  /// All trials of the batch take one block of frames after the other; a trial is finished, stored
-  /// and let go with the last block.
-  void run_batch(const std::vector<const Task*>& batch, int block) {
-    std::vector<std::unique_ptr<TrialRun>> runs(batch.size());
+  /// All trials of the batch take one block of frames after the other; a trial is made with the
+  /// first block, and finished, stored and let go with the last.
+  void run_batch(std::span<const std::size_t> batch, int block) {
+    std::vector<std::unique_ptr<RunningTask>> running(batch.size());
     for (int first = 0; first < recording_.frame_count(); first += block) {
       const int end = std::min(first + block, recording_.frame_count());
       for_each_in_parallel(batch.size(), options_.jobs, [&](std::size_t i) {
-        if (!runs[i])
-          runs[i] = std::make_unique<TrialRun>(*batch[i], recording_, table_, truths_, poses_);
-        advance(*runs[i], first, end);
+        if (!running[i])
+          running[i] =
+              std::make_unique<RunningTask>(tasks_[batch[i]], recording_, table_, truths_, poses_);
+        advance(running[i]->trial, first, end);
         if (end < recording_.frame_count()) return;
-        finish(*batch[i], *runs[i]);
-        runs[i].reset();
+        finish(*running[i]);
+        running[i].reset();
       });
     }
   }
@@ -118,12 +132,13 @@ class Sweep {
     }
   }
 
-  void finish(const Task& task, TrialRun& run) {
-    const TrialResult result = run.finish();
+  void finish(RunningTask& running) {
+    const TrialResult result = running.trial.finish();
     const std::scoped_lock lock(store_mutex_);
-    store_.add(task.key, task.description, result);
+    store_.add(running.task.key, running.task.description, result);
   }
 
+  const TaskList& tasks_;
   const Recording& recording_;
   const ClassTable& table_;
   ResultStore& store_;
@@ -141,11 +156,18 @@ class Sweep {
 
 RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
                        ResultStore& store, const RunnerOptions& options) {
-  const std::vector<const Task*> missing = missing_tasks(plan, store, options);
-  const bool colour =
-      std::ranges::any_of(missing, [](const Task* task) { return reads_colour(task->config); });
-  if (!missing.empty()) Sweep(recording, table, store, options, colour).run(missing);
-  return {missing.size(), plan.tasks.size() - missing.size()};
+  const TaskList& tasks = plan.tasks;
+  const std::vector<std::size_t> missing = missing_tasks(tasks, store, options);
+  const bool colour = std::ranges::any_of(
+      missing, [&](std::size_t position) { return reads_colour(tasks.config(position)); });
+  if (!missing.empty()) try {
+      Sweep(tasks, recording, table, store, options, colour).run(missing);
+    } catch (const std::bad_alloc&) {
+      throw Error(
+          "out of memory in a trial; use fewer --jobs, less --memory or larger voxels; what is "
+          "done stays in the store");
+    }
+  return {missing.size(), tasks.size() - missing.size()};
 }
 
 }  // namespace mapscore::eval

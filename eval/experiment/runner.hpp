@@ -29,7 +29,8 @@ struct RunnerOutcome {
 /// Computes the tasks of a plan that the store does not hold and adds each to it as soon as it is
 /// done. Trials walk the frames together in blocks that fit the memory, so that a frame is decoded
 /// once for many trials. The results depend on neither jobs, memory nor shards. The first exception
-/// of a worker ends the others and is rethrown; what was done stays in the store.
+/// of a worker ends the others and is rethrown, std::bad_alloc as an Error that says what helps;
+/// what was done stays in the store.
 RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
                        ResultStore& store, const RunnerOptions& options);
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 struct sqlite3;
@@ -43,14 +44,16 @@ struct TrialResult {
 /// called from several threads, one at a time.
 class ResultStore {
  public:
-  /// Opens or creates. Throws Error when the file is not a store, is of another format version or
-  /// cannot be written.
+  /// Opens or creates. Throws Error when the file is not a store, is of another format version,
+  /// holds a trigger, a view or any table but a store's two, or cannot be written.
   [[nodiscard]] static ResultStore open(const std::filesystem::path& file);
-  /// Opens for reading only. Throws Error when it is not there.
+  /// Opens for reading only. Throws Error when it is not there, and as above.
   [[nodiscard]] static ResultStore open_existing(const std::filesystem::path& file);
 
   /// Free texts about the study (its resolved configuration, class table, recording, version).
   void set_text(const std::string& name, const std::string& value);
+  /// Several at once, so that no reader ever sees a part of them.
+  void set_texts(const std::vector<std::pair<std::string, std::string>>& texts);
   [[nodiscard]] std::string text(const std::string& name) const;
 
   [[nodiscard]] bool contains(const std::string& key) const;
@@ -68,6 +71,7 @@ class ResultStore {
   };
   ResultStore(std::unique_ptr<sqlite3, Close> database, std::filesystem::path file);
   void execute(const std::string& sql);
+  void refuse_foreign_schema() const;
 
   std::unique_ptr<sqlite3, Close> database_;
   std::filesystem::path file_;

@@ -8,6 +8,8 @@
 #include "eval/experiment/localization_doses.hpp"
 #include "eval/experiment/picture_view.hpp"
 #include "eval/experiment/sensor_doses.hpp"
+#include "eval/recording/png_size.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -20,6 +22,13 @@ namespace mapscore::eval {
 namespace {
 
 constexpr std::size_t kMostTrials = 1000000;
+
+/// The name becomes a folder's and stands in figures.
+void check_name(const std::string& name, const Blame& blame) {
+  if (const auto unfit = unfit_as_name(name)) blame("name", *unfit);
+  if (name.find('/') != name.npos || name == "." || name == "..")
+    blame("name", fmt::format("'{}' names no folder of its own; leave out the /", name));
+}
 
 void check_input(const Study& study, const Blame& blame) {
   if (study.motion && !study.scene)
@@ -36,6 +45,9 @@ void check_input(const Study& study, const Blame& blame) {
 }
 
 void check_cameras(const CameraSettings& cameras, const Blame& blame) {
+  if (const std::string problem = too_many_pixels(cameras.width_px, cameras.height_px);
+      !problem.empty())
+    blame("cameras.width_px", problem);
   if (cameras.range_min_m < cameras.range_max_m) return;
   blame("cameras.range_min_m", fmt::format("{} is not below range_max_m, {}; write a lesser number",
                                            cameras.range_min_m, cameras.range_max_m));
@@ -233,6 +245,7 @@ void check_cell(const Study& study, const Cell& cell, const Blame& blame) {
 }  // namespace
 
 void check(const Study& study, const Blame& blame) {
+  check_name(study.name, blame);
   check_view(study, blame);
   check_size(study, blame);
   if (study.sweep.empty()) return check_leaves(study, blame);

@@ -5,14 +5,15 @@
 
 #include "core/error.hpp"
 #include "eval/experiment/baked_frames.hpp"
-#include "eval/experiment/folder_lock.hpp"
 #include "eval/experiment/own_robot.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/replay_check.hpp"
 #include "eval/recording/stamp_list.hpp"
+#include "files/folder_lock.hpp"
 
 #ifdef MAPSCORE_SIMULATOR
 #include "eval/experiment/study_drive.hpp"
+#include "files/text.hpp"
 #include "sim/recorder.hpp"
 #include "sim/world/motion.hpp"
 #include "sim/world/moving_scene.hpp"
@@ -225,7 +226,7 @@ SceneSurfaces surfaces_of_scene(const std::filesystem::path&) {
 Study study_of_scene(const std::filesystem::path& scene,
                      const std::vector<std::string>& overrides) {
   Study study;
-  study.name = scene.stem().string();
+  study.name = shown(scene.stem());
   study.scene = scene.filename().string();
   study.base_folder = scene.parent_path();
   set_leaves(study, overrides);

@@ -4,6 +4,7 @@
 #include "eval/experiment/study_store.hpp"
 
 #include "core/error.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -28,18 +29,40 @@ std::string table_to_json(const ClassTable& table) {
   return object.dump();
 }
 
+/// Ids are places in the table, of which counts are kept by place.
+void refuse_other_id(const json& entry, std::size_t place) {
+  if (entry.at("id") != place)
+    throw Error(
+        fmt::format("result store: entry {} of the class table has another id; sweep again "
+                    "into another folder",
+                    place));
+}
+
 ClassTable table_from_json(const std::string& text) {
   const json object = json::parse(text);
   ClassTable table;
   table.classes.clear();
   table.instances.clear();
-  for (const json& c : object.at("classes"))
+  for (const json& c : object.at("classes")) {
+    refuse_other_id(c, table.classes.size());
     table.classes.push_back({c.at("id"),
                              c.at("name"),
                              {c.at("colour").at(0), c.at("colour").at(1), c.at("colour").at(2)},
                              c.at("detect")});
-  for (const json& i : object.at("instances"))
+  }
+  for (const json& i : object.at("instances")) {
+    refuse_other_id(i, table.instances.size());
+    if (i.at("class") >= table.classes.size())
+      throw Error(
+          fmt::format("result store: instance {} is of a class that its table lacks; sweep "
+                      "again into another folder",
+                      table.instances.size()));
     table.instances.push_back({i.at("id"), i.at("name"), i.at("class")});
+  }
+  for (const SemanticClass& c : table.classes)
+    if (const auto unfit = unfit_as_name(c.name))
+      throw Error("result store: the name of a class " + *unfit +
+                  "; sweep again into another folder");
   return table;
 }
 
@@ -48,14 +71,15 @@ ClassTable table_from_json(const std::string& text) {
 void write_study(ResultStore& store, const StudyRecord& record,
                  const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  store.set_text("study_folder", fs::absolute(record.study.base_folder / ".")
-                                     .lexically_normal()
-                                     .lexically_relative(fs::absolute(folder).lexically_normal()));
-  store.set_text("study", to_yaml(record.study));
-  store.set_text("classes", table_to_json(record.table));
-  store.set_text("recording_hash", record.recording_hash);
-  store.set_text("recording", record.recording);
-  store.set_text("mapscore_version", MAPSCORE_VERSION);
+  const std::string base = fs::absolute(record.study.base_folder / ".")
+                               .lexically_normal()
+                               .lexically_relative(fs::absolute(folder).lexically_normal());
+  store.set_texts({{"study_folder", base},
+                   {"study", to_yaml(record.study)},
+                   {"classes", table_to_json(record.table)},
+                   {"recording_hash", record.recording_hash},
+                   {"recording", record.recording},
+                   {"mapscore_version", MAPSCORE_VERSION}});
 }
 
 StudyRecord read_study(const ResultStore& store, const std::filesystem::path& folder) try {

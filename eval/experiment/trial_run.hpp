@@ -44,6 +44,9 @@ class TrialRun {
  public:
   TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
            TruthCache& truths, PoseSources& poses);
+  /// A temporary task would not outlive it.
+  TrialRun(Task&& task, const Recording& recording, const ClassTable& table, TruthCache& truths,
+           PoseSources& poses) = delete;
 
   /// Keeps the counts of each frame, where each is scored by itself. Call it before the first one.
   void keep_frames() { keeps_frames_ = true; }

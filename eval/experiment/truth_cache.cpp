@@ -13,9 +13,6 @@ namespace {
 
 constexpr int kOneJob = 1;  // the threads that ask are the parallelism
 
-/// Surfaces of lattices are needed again for every block of frames, and are small beside them.
-constexpr std::size_t kLeastLattices = 16;
-
 /// The entry of `list` that `fits`, or a new one at its front that `make` fills without the lock;
 /// those that ask meanwhile wait for it. At most `capacity` entries stay.
 template <class Entry, class Value>

@@ -4,7 +4,8 @@
 #include "eval/experiment/yaml_at.hpp"
 
 #include "core/error.hpp"
-#include "eval/recording/one_line.hpp"
+#include "eval/recording/yaml_value.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 #include <yaml-cpp/anchor.h>
@@ -97,6 +98,7 @@ void refuse_second_document(const std::string& text, const std::string& source, 
 
 /// Null when there is nothing in the text.
 YAML::Node load_one(const std::string& text, const std::string& source, bool lines) {
+  refuse_large_yaml(text, source);
   refuse_hidden_characters(text, source);
   try {
     refuse_second_document(text, source, lines);
@@ -104,7 +106,7 @@ YAML::Node load_one(const std::string& text, const std::string& source, bool lin
   } catch (const YAML::Exception& error) {
     const int line = lines ? line_of(error.mark) : 0;
     throw Error(fmt::format("{}not YAML: {}; mend the syntax near here", located(source, line),
-                            one_line(error.msg)));
+                            shown(error.msg)));
   }
 }
 
@@ -208,18 +210,7 @@ std::string yaml_text(std::string_view text) {
   const bool word = !text.empty() && text.front() != '-' && std::ranges::all_of(text, plain) &&
                     text != "null" && text != "Null" && text != "NULL" && text != "...";
   if (word) return std::string(text);
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (c == '\n') {
-      result += "\\n";
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      result += fmt::format("\\x{:02x}", static_cast<int>(c));
-    } else {
-      result += c;
-    }
-  }
-  return result + '"';
+  return yaml_quoted(text);
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& choices) {

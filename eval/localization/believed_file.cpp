@@ -15,6 +15,8 @@ namespace mapscore::eval {
 namespace {
 
 constexpr std::size_t kBelievedColumns = kPoseColumns + 36;
+/// Two hours at 50 poses a second and more; each takes 0.7 kB.
+constexpr std::size_t kMostPoses = 500'000;
 
 /// Words 8 to 43, row by row.
 Covariance6 covariance_of(const StampedLine& line) {
@@ -55,7 +57,12 @@ BelievedTrajectory read_believed(const std::filesystem::path& file) {
       "'stamp_s tx ty tz qx qy qz qw', alone or with the 36 numbers of a covariance",
       "give one pose or more"};
   std::size_t columns = 0;
-  for (const StampedLine& line : read_stamped_lines(file, format)) {
+  read_stamped_lines(file, format, [&](const StampedLine& line) {
+    if (believed.entries.size() == kMostPoses)
+      line.refuse(
+          fmt::format("more than {} poses; leave some out, between two the pose is "
+                      "interpolated",
+                      kMostPoses));
     if (columns == 0) columns = line.words.size();
     if (line.words.size() != columns)
       line.refuse(
@@ -65,7 +72,7 @@ BelievedTrajectory read_believed(const std::filesystem::path& file) {
     believed.entries.push_back({line.stamp_s, {Pose::Identity(), T_map_base, Covariance6::Zero()}});
     if (columns == kBelievedColumns)
       believed.entries.back().belief.covariance = covariance_of(line);
-  }
+  });
   return believed;
 }
 

@@ -4,8 +4,8 @@
 #include "eval/map_files/cloud_file.hpp"
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "eval/recording/little_endian.hpp"
-#include "eval/recording/whole_file.hpp"
 
 #include <fmt/format.h>
 

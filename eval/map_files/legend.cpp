@@ -130,6 +130,7 @@ std::vector<Leftover> labels_of(const MapFile& map) {
   for (std::size_t n = 0; n < map.labels.size(); ++n)
     if (occupied(map, n)) ++counts[map.labels[n]];
   std::vector<Leftover> labels;
+  labels.reserve(counts.size());
   for (const auto& [label, count] : counts) labels.push_back({spelt(map, label), count});
   sort_by_count(labels);
   return labels;

@@ -5,6 +5,7 @@
 #include "eval/map_files/refusal.hpp"
 #include "eval/map_files/text_rows.hpp"
 #include "eval/recording/file_bytes.hpp"
+#include "eval/recording/yaml_value.hpp"
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -76,7 +77,9 @@ class LegendReader {
 
   [[nodiscard]] YAML::Node load() const {
     try {
-      return YAML::Load(read_file(file_));
+      const std::string text = read_file(file_);
+      refuse_large_yaml(text, file_.string());
+      return YAML::Load(text);
     } catch (const YAML::Exception& error) {
       fail(error.mark,
            fmt::format("broken YAML ({}); mend the syntax near here", shown(error.msg)));

@@ -16,7 +16,7 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr std::size_t kMostNumbersAPoint = 1 << 20;
+constexpr std::size_t kMostFields = 1024;
 
 /// The words of one line of the header, without its key.
 struct Entry {
@@ -68,6 +68,10 @@ class HeaderParser {
                              "VIEWPOINT", "POINTS", "DATA"})
       known = known || key == name;
     if (!known) refuse(file_, line, fmt::format("unknown word {} in the header", shown(key)));
+    if (words.size() > kMostFields + 1)
+      refuse(file_, line,
+             fmt::format("{} has more than {} values; leave out fields of the points", key,
+                         kMostFields));
     Entry entry{line, {}};
     for (std::size_t word = 1; word < words.size(); ++word) entry.words.emplace_back(words[word]);
     if (!entries_.emplace(key, std::move(entry)).second)
@@ -119,7 +123,7 @@ class HeaderParser {
                fmt::format("field {}: there is no type {} of size {}", shown(names.words[n]),
                            shown(types.words[n]), whole(sizes, n)));
       const std::size_t each = counts ? whole(*counts, n) : 1;
-      if (each == 0 || each > kMostNumbersAPoint || (numbers += each) > kMostNumbersAPoint)
+      if (each == 0 || each > kMostWords || (numbers += each) > kMostWords)
         refuse(file_, counts ? counts->line : names.line,
                "COUNT is 0, or in all beyond 1048576; mend the header");
       fields.push_back({{names.words[n], *type, each == 1}, each});

@@ -17,6 +17,9 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
+/// Elements and properties of a file together. Each takes some thirty times its bytes.
+constexpr std::size_t kMostEntries = 1024;
+
 std::optional<ScalarType> scalar_type_of(std::string_view word) {
   constexpr std::array<std::pair<std::string_view, ScalarType>, 16> kTypes{{
       {"char", ScalarType::int8},
@@ -56,8 +59,10 @@ class HeaderParser {
         take_format(words);
         has_format = true;
       } else if (words[0] == "element") {
+        count_entry();
         take_element(words);
       } else if (words[0] == "property") {
+        count_entry();
         take_property(words);
       } else if (words[0] != "comment" && words[0] != "obj_info") {
         refuse_line(fmt::format("unknown word {} in the header", shown(words[0])));
@@ -73,6 +78,14 @@ class HeaderParser {
  private:
   [[noreturn]] void refuse_line(const std::string& what) const {
     refuse(file_, lines_.number(), what);
+  }
+
+  void count_entry() {
+    if (++entries_ > kMostEntries)
+      refuse_line(
+          fmt::format("more than {} elements and properties; leave out what is no part of "
+                      "the map",
+                      kMostEntries));
   }
 
   void take_format(const Words& words) {
@@ -121,6 +134,7 @@ class HeaderParser {
   TextLines lines_;
   const std::filesystem::path& file_;
   PlyHeader header_;
+  std::size_t entries_ = 0;
 };
 
 }  // namespace

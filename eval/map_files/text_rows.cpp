@@ -41,7 +41,7 @@ bool TextLines::next_words(std::vector<std::string_view>& words) {
   while (words.empty()) {
     const auto line = next();
     if (!line) return false;
-    for (std::size_t from = 0; from < line->size();) {
+    for (std::size_t from = 0; from < line->size() && words.size() <= kMostWords;) {
       if (is_blank((*line)[from])) {
         ++from;
         continue;

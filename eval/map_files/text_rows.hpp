@@ -10,6 +10,9 @@
 
 namespace mapscore::eval {
 
+/// Numbers that a point may have, and words of a line. A word takes eight times its bytes.
+inline constexpr std::size_t kMostWords = 1 << 20;
+
 /// Lines of a text, one after the other, with their numbers. Ends of lines are LF or CR LF.
 class TextLines {
  public:
@@ -19,7 +22,8 @@ class TextLines {
 
   /// The next line without its end; nothing after the last.
   [[nodiscard]] std::optional<std::string_view> next();
-  /// The next line that is not blank, cut into `words` at blanks; false after the last.
+  /// The next line that is not blank, cut into `words` at blanks; false after the last. Of a line
+  /// with more words the first kMostWords + 1 are given.
   [[nodiscard]] bool next_words(std::vector<std::string_view>& words);
 
   /// Number of the line last taken.

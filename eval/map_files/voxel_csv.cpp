@@ -3,11 +3,11 @@
 
 #include "eval/map_files/voxel_csv.hpp"
 
-#include "eval/map_files/csv_cells.hpp"
 #include "eval/map_files/lower_case.hpp"
 #include "eval/map_files/refusal.hpp"
 #include "eval/map_files/text_rows.hpp"
 #include "eval/recording/file_bytes.hpp"
+#include "files/csv.hpp"
 
 #include <fmt/format.h>
 
@@ -23,15 +23,20 @@ enum Column { kI, kJ, kK, kX, kY, kZ, kClass, kProbability, kInstance, kTouchOnl
 constexpr std::array<std::string_view, 11> kColumns{
     "i", "j", "k", "x", "y", "z", "class", "probability", "instance", "touch_only", "samples"};
 
+/// As many as a class table can have. Each takes some twenty times its bytes in the file.
+constexpr std::size_t kMostNames = 1 << 16;
+/// `1,1,1` and the line's end.
+constexpr std::size_t kFewestRowBytes = 6;
+
 using Cells = std::vector<std::string>;
 
 /// One row of the file, before doubled voxels and classes are looked at.
 struct Row {
   std::size_t line = 0;
-  VoxelKey voxel;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  std::uint32_t name = 0;
   double probability = 1.0;
+  VoxelKey voxel;
+  std::uint32_t name = 0;
   std::uint32_t instance = 0;
   bool sampled = false;
 };
@@ -44,11 +49,16 @@ class CsvReader {
     const std::string bytes = read_file(file_);
     std::string_view text = bytes;
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    rows_.reserve(std::min(static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1,
+                           text.size() / kFewestRowBytes + 1));
     TextLines lines(text);
     while (const auto line = lines.next()) {
       line_ = lines.number();
-      const auto cells = csv_cells(*line);
+      const auto cells = csv_cells(*line, kColumns.size());
       if (!cells) refuse_row("a quote is not closed, or text follows it");
+      if (cells->size() > kColumns.size())
+        refuse_row(fmt::format("more than {} cells; the columns of a map are {}", kColumns.size(),
+                               fmt::join(kColumns, ", ")));
       if (cells->size() == 1 && cells->front().empty()) continue;
       if (!has_columns_ && take_columns(*cells)) continue;
       take_row(*cells);
@@ -144,6 +154,9 @@ class CsvReader {
     const auto next = static_cast<std::uint32_t>(names_.size());
     const auto [entry, is_new] = index_of_name_.try_emplace(text, next);
     if (is_new) names_.push_back(text);
+    if (names_.size() > kMostNames)
+      refuse_row(fmt::format(
+          "more than {} different classes; is the column `class` one of classes?", kMostNames));
     return entry->second;
   }
 

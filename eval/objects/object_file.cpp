@@ -4,9 +4,10 @@
 #include "eval/objects/object_file.hpp"
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "eval/recording/pose_text.hpp"
-#include "eval/recording/whole_file.hpp"
 #include "eval/recording/yaml_value.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/recording/pose_text.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -12,30 +13,6 @@
 
 namespace mapscore::eval {
 namespace {
-
-/// As the value of an attribute of XML; control characters, which XML cannot hold, become '_'.
-std::string xml_escaped(const std::string& text) {
-  std::string escaped;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += static_cast<unsigned char>(letter) < 0x20 ? '_' : letter;
-    }
-  }
-  return escaped;
-}
 
 const SemanticClass& class_of(const MapObject& object, const ClassTable& table) {
   if (object.class_id == kBackground || object.class_id >= table.classes.size())
@@ -54,16 +31,16 @@ ModelKind kind_of(const MapObject& object) {
   throw Error(
       fmt::format("object {}: model '{}'; give a mesh (.obj, .stl, .msh) or an MJCF (.xml), "
                   "or none for its box",
-                  object.id, xml_escaped(object.model)));
+                  object.id, shown(object.model)));
 }
 
 std::string asset_of(const MapObject& object) {
-  const std::string file = xml_escaped(object.model);
+  const std::string file = xml_quoted(object.model);
   switch (kind_of(object)) {
     case ModelKind::mesh:
-      return fmt::format("    <mesh name=\"model_{}\" file=\"{}\"/>\n", object.id, file);
+      return fmt::format("    <mesh name=\"model_{}\" file={}/>\n", object.id, file);
     case ModelKind::body:
-      return fmt::format("    <model name=\"model_{}\" file=\"{}\"/>\n", object.id, file);
+      return fmt::format("    <model name=\"model_{}\" file={}/>\n", object.id, file);
     case ModelKind::box:
       break;
   }
@@ -93,9 +70,9 @@ std::string object_mjcf(const ObjectFile& file, const ClassTable& table, double 
     const PoseNumbers pose = numbers_of(T_world_map * object.box.T_frame_box);
     assets += asset_of(object);
     bodies += fmt::format(
-        "    <body name=\"{}_{}\" pos=\"{} {} {}\" quat=\"{} {} {} {}\">\n      {}\n    </body>\n",
-        xml_escaped(c.name), object.id, pose[0], pose[1], pose[2], pose[6], pose[3], pose[4],
-        pose[5], geom_of(object, c.colour, least_size_m));
+        "    <body name={} pos=\"{} {} {}\" quat=\"{} {} {} {}\">\n      {}\n    </body>\n",
+        xml_quoted(fmt::format("{}_{}", c.name, object.id)), pose[0], pose[1], pose[2], pose[6],
+        pose[3], pose[4], pose[5], geom_of(object, c.colour, least_size_m));
   }
   if (!assets.empty()) assets = "  <asset>\n" + assets + "  </asset>\n";
   return "<mujoco model=\"objects\">\n" + assets + "  <worldbody>\n" + bodies +

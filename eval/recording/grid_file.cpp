@@ -4,11 +4,11 @@
 #include "eval/recording/grid_file.hpp"
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "eval/recording/file_bytes.hpp"
-#include "eval/recording/one_line.hpp"
 #include "eval/recording/pgm.hpp"
-#include "eval/recording/whole_file.hpp"
 #include "eval/recording/yaml_value.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -77,7 +77,7 @@ GridFrame frame_of(const YamlValue& root) {
 std::filesystem::path image_file(const YamlValue& root, const std::filesystem::path& yaml_file) {
   const YamlValue value = root.at("image");
   const std::string name = value.text();
-  if (name.empty() || name != one_line(name)) value.refuse("must name a PGM file");
+  if (name.empty() || name != shown(name)) value.refuse("must name a PGM file");
   return yaml_file.parent_path() / name;  // an absolute name stays as it is
 }
 

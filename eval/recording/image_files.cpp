@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/recording/file_bytes.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -24,7 +25,7 @@ std::vector<HashedFile> read_hash_list(const std::filesystem::path& file,
   std::istringstream text(read_file(file));
   std::vector<HashedFile> hashes;
   std::vector<std::string> listed;
-  for (std::string hash, path; text >> hash >> path;) {
+  for (std::string hash, path; listed.size() <= images.size() && text >> hash >> path;) {
     hashes.push_back({path, hash});
     listed.push_back(path);
   }
@@ -71,8 +72,13 @@ std::string hash_list_text(const std::vector<HashedFile>& files) {
   return text;
 }
 
-std::string content_hash(const std::filesystem::path& folder,
-                         const std::vector<std::string>& images,
+std::vector<HashedFile> image_hashes(const std::filesystem::path& folder,
+                                     const std::vector<std::string>& images) {
+  const std::filesystem::path list = folder / "hashes.txt";
+  return std::filesystem::exists(list) ? read_hash_list(list, images) : hash_images(folder, images);
+}
+
+std::string content_hash(const std::filesystem::path& folder, const std::vector<HashedFile>& images,
                          const std::vector<std::string>& logs) {
   std::string manifest;  // one line a file: hash, size in bytes, path
   std::vector<std::string> files(std::begin(kTextFiles), std::end(kTextFiles));
@@ -82,13 +88,23 @@ std::string content_hash(const std::filesystem::path& folder,
     const std::string bytes = read_file(folder / path);
     manifest += fmt::format("{} {} {}\n", hash_of(bytes), bytes.size(), path);
   }
-  const std::filesystem::path list = folder / "hashes.txt";
-  const auto hashes =
-      std::filesystem::exists(list) ? read_hash_list(list, images) : hash_images(folder, images);
-  for (const HashedFile& file : hashes)
+  for (const HashedFile& file : images)
     manifest += fmt::format("{} {} {}\n", file.hash, std::filesystem::file_size(folder / file.path),
                             file.path);
   return hash_of(manifest);
+}
+
+void check_inside(const std::filesystem::path& folder, const std::string& path, const char* mend) {
+  namespace fs = std::filesystem;
+  const fs::path relative = path;
+  std::error_code unreadable, no_folder;  // whoever reads the file says so
+  const fs::path real = fs::weakly_canonical(folder / relative, unreadable);
+  const fs::path below = real.lexically_relative(fs::canonical(folder, no_folder));
+  const bool climbs = std::ranges::find(relative, "..") != relative.end() ||
+                      (!unreadable && !no_folder && (below.empty() || *below.begin() == ".."));
+  if (relative.is_absolute() || climbs)
+    throw Error(fmt::format("{}: image '{}' leads out of the folder; {}", folder.string(),
+                            shown(path), mend));
 }
 
 }  // namespace mapscore::eval

@@ -26,12 +26,19 @@ struct HashedFile {
 };
 [[nodiscard]] std::string hash_list_text(const std::vector<HashedFile>& files);
 
+/// The images' own hashes, in path order: those of hashes.txt, or, where a recording has none, of
+/// the bytes that are there. Throws Error when hashes.txt lists other files than `images`.
+[[nodiscard]] std::vector<HashedFile> image_hashes(const std::filesystem::path& folder,
+                                                   const std::vector<std::string>& images);
+
 /// Hash over recording.yaml, lists, poses, surfaces, `logs` and images, wherever the folder lies.
-/// The images' own hashes come from hashes.txt, or, where a recording has none, from reading every
-/// image; the result is the same. Throws Error when a file is missing or hashes.txt lists other
-/// files than `images`.
+/// Throws Error when a file is missing.
 [[nodiscard]] std::string content_hash(const std::filesystem::path& folder,
-                                       const std::vector<std::string>& images,
+                                       const std::vector<HashedFile>& images,
                                        const std::vector<std::string>& logs = {});
+
+/// Throws Error when a listed path is absolute, holds `..` or passes a link that leads out of the
+/// folder: a list from elsewhere must not have files read that were never part of it.
+void check_inside(const std::filesystem::path& folder, const std::string& path, const char* mend);
 
 }  // namespace mapscore::eval

@@ -3,8 +3,10 @@
 
 #include "eval/recording/info_yaml.hpp"
 
+#include "eval/recording/png_size.hpp"
 #include "eval/recording/pose_text.hpp"
 #include "eval/recording/yaml_value.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +16,6 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr std::uint64_t kMaxSize =
-    16384;  // pixels; also keeps a damaged file from asking for all memory
 constexpr std::uint64_t kMaxFrames = 1'000'000;  // file names have six digits
 constexpr std::uint64_t kMaxLogLines = 100'000'000;
 
@@ -38,8 +38,11 @@ std::string instance_text(const Instance& instance) {
 
 CameraModel camera_of(const YamlValue& value) {
   CameraModel camera;
-  camera.width_px = static_cast<int>(value.at("width_px").whole(1, kMaxSize));
-  camera.height_px = static_cast<int>(value.at("height_px").whole(1, kMaxSize));
+  camera.width_px = static_cast<int>(value.at("width_px").whole(1, kMostImageSide_px));
+  camera.height_px = static_cast<int>(value.at("height_px").whole(1, kMostImageSide_px));
+  if (const std::string problem = too_many_pixels(camera.width_px, camera.height_px);
+      !problem.empty())
+    value.refuse(problem);
   camera.fx_px = value.at("fx_px").positive();
   camera.fy_px = value.at("fy_px").positive();
   camera.cx_px = value.at("cx_px").number();
@@ -69,7 +72,7 @@ std::vector<SemanticClass> classes_of(const YamlValue& value) {
   std::vector<SemanticClass> classes;
   for (const YamlValue& item : value.items()) {
     item.only({"id", "name", "colour", "detect"});
-    SemanticClass c{id_of(item, classes.size()), item.at("name").text(), item.at("colour").colour(),
+    SemanticClass c{id_of(item, classes.size()), item.at("name").name(), item.at("colour").colour(),
                     item.at("detect").boolean()};
     for (const SemanticClass& other : classes)
       if (other.name == c.name) item.refuse("two classes have this name; rename one");
@@ -86,7 +89,7 @@ std::vector<Instance> instances_of(const YamlValue& value, std::size_t class_cou
     const InstanceId id = id_of(item, instances.size());
     const auto class_id = static_cast<ClassId>(item.at("class").whole(0, class_count - 1));
     if (id == 0 && class_id != kBackground) item.refuse("instance 0 is background, class 0");
-    instances.push_back({id, item.at("name").text(), class_id});
+    instances.push_back({id, item.at("name").name(), class_id});
   }
   if (instances.empty()) value.refuse("no instances; list at least background with id 0");
   return instances;

@@ -32,7 +32,7 @@ Colour hue(std::size_t n) {
 void add_class(const YamlValue& item, LabelClasses& classes) {
   item.only({"name", "label", "colour", "detect"});
   auto& known = classes.table.classes;
-  SemanticClass added{static_cast<ClassId>(known.size()), item.at("name").text(), hue(known.size()),
+  SemanticClass added{static_cast<ClassId>(known.size()), item.at("name").name(), hue(known.size()),
                       true};
   if (item.has("colour")) added.colour = item.at("colour").colour();
   if (item.has("detect")) added.detect = item.at("detect").boolean();

@@ -143,10 +143,13 @@ void LabelledFolder::pair_frames() {
                     folder_.string(), counts_.labels, counts_.no_depth, options_.max_offset_s,
                     counts_.no_pose));
   for (const LabelledDepth& frame : frames_)
-    for (const std::string& path : {frame.label, frame.depth.path})
+    for (const std::string& path : {frame.label, frame.depth.path}) {
+      if (!options_.follow)
+        check_inside(folder_, path, "copy it there, or give --follow if the folder is your own");
       if (!fs::is_regular_file(folder_ / path))
         throw Error(fmt::format("{}: image is missing; copy it there, or list only what there is",
                                 (folder_ / path).string()));
+    }
 }
 
 void LabelledFolder::size_cameras() {

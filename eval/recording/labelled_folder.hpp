@@ -23,6 +23,7 @@ struct LabelledFolderOptions {
   double depth_units_per_m = kDepthUnitsPerMetre;
   std::optional<std::pair<double, double>> range_m;  ///< least and most depth; none: the cameras'
   double max_offset_s = 0.02;    ///< stamps farther apart do not belong together
+  bool follow = false;           ///< images may lie outside of the folder: links, `..`
   double max_pose_gap_s = 0.25;  ///< poses are interpolated between lines at most this far apart
 };
 

@@ -10,8 +10,16 @@
 
 namespace mapscore::eval {
 
-/// Width and height by the header of a PNG, each from 1 to 16384. `name` opens the message of the
-/// Error. Decoding checks the rest.
+/// Pixels on a side of an image, and pixels in all: 4096 x 4096. A few kilobytes of PNG unpack to
+/// any number of equal pixels, so that this alone bounds what an image takes.
+inline constexpr int kMostImageSide_px = 16384;
+inline constexpr int kMostImagePixels = 1 << 24;
+
+/// Says how many pixels there are at most, for an Error; empty for an image of allowed size.
+[[nodiscard]] std::string too_many_pixels(int width_px, int height_px);
+
+/// Width and height by the header of a PNG, within the bounds above. `name` opens the message of
+/// the Error. Decoding checks the rest.
 [[nodiscard]] cv::Size png_size(std::string_view bytes, const std::string& name);
 
 }  // namespace mapscore::eval

@@ -61,10 +61,12 @@ const Pose& pose_at(const fs::path& file, const std::vector<TrajectoryPose>& tra
 
 void check_files(const fs::path& folder, const std::vector<std::string>& images, bool has_truth) {
   std::error_code no_such_name;  // such as one that is too long
-  for (const std::string& image : images)
+  for (const std::string& image : images) {
+    check_inside(folder, image, "a recording holds its own images: copy it there");
     if (!fs::is_regular_file(folder / image, no_such_name))
       throw Error(fmt::format("{}: image is missing; copy the recording anew or record again",
                               (folder / image).string()));
+  }
   if (has_truth && !fs::is_regular_file(folder / "truth/shapes.csv"))
     throw Error(
         fmt::format("{}: file is missing; record again, or set has_truth: false to map "
@@ -93,10 +95,6 @@ cv::Size size_of(const CameraModel& camera) {
   return {camera.width_px, camera.height_px};
 }
 
-cv::Mat1w read_grey16(const fs::path& file, const CameraModel& camera) {
-  return decode_grey16_png(read_file(file), size_of(camera), file.string());
-}
-
 }  // namespace
 
 Recording Recording::open(const fs::path& folder) {
@@ -117,7 +115,9 @@ Recording Recording::open(const fs::path& folder) {
   check_files(folder, images, has_truth);
   const std::vector<std::string> logs = log_paths(recording.info_);
   check_logs(folder, logs);
-  recording.content_hash_ = eval::content_hash(folder, images, logs);
+  const std::vector<HashedFile> hashes = image_hashes(folder, images);
+  recording.content_hash_ = eval::content_hash(folder, hashes, logs);
+  for (const HashedFile& file : hashes) recording.image_hashes_.emplace(file.path, file.hash);
   return recording;
 }
 
@@ -141,6 +141,20 @@ void Recording::check_frame(int index) const {
                             index, frame_count() - 1));
 }
 
+std::string Recording::read_image(const std::string& path) const {
+  std::string bytes = read_file(folder_ / path);
+  if (hash_of(bytes) != image_hashes_.at(path))
+    throw Error(
+        fmt::format("{}: is not the image of this recording (its hash differs); copy the recording "
+                    "anew, or remove hashes.txt to take the images as they are",
+                    (folder_ / path).string()));
+  return bytes;
+}
+
+cv::Mat1w Recording::read_grey16(const std::string& path, const CameraModel& camera) const {
+  return decode_grey16_png(read_image(path), size_of(camera), (folder_ / path).string());
+}
+
 Frame Recording::read(int index, int depth_index, Channels channels) const {
   Frame frame;
   read_color(index, channels, frame);
@@ -153,11 +167,9 @@ void Recording::read_color(int index, Channels channels, Frame& frame) const {
   frame.index = index;
   const std::string& path = color_[static_cast<std::size_t>(index)].path;
   const CameraModel& camera = info_.calibration.color;
-  if (channels.color) {
-    const fs::path file = folder_ / path;
-    frame.color = decode_color_png(read_file(file), size_of(camera), file.string());
-  }
-  if (channels.label) frame.label = read_grey16(folder_ / sibling_path(path, "label"), camera);
+  if (channels.color)
+    frame.color = decode_color_png(read_image(path), size_of(camera), (folder_ / path).string());
+  if (channels.label) frame.label = read_grey16(sibling_path(path, "label"), camera);
 }
 
 void Recording::read_depth(int depth_index, Channels channels, Frame& frame) const {
@@ -172,9 +184,9 @@ void Recording::read_depth(int depth_index, Channels channels, Frame& frame) con
   frame.depth_index = depth_index;
   frame.stamp_s = image.stamp_s;
   frame.T_world_base = image.T_world_base;
-  if (channels.depth) frame.depth = read_grey16(folder_ / image.path, camera);
+  if (channels.depth) frame.depth = read_grey16(image.path, camera);
   if (channels.depth_label)
-    frame.depth_label = read_grey16(folder_ / sibling_path(image.path, "depth_label"), camera);
+    frame.depth_label = read_grey16(sibling_path(image.path, "depth_label"), camera);
 }
 
 std::vector<OdometryPose> Recording::read_odometry() const {

@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace mapscore::eval {
@@ -62,7 +63,8 @@ struct Channels {
 class Recording {
  public:
   /// Reads recording.yaml, the stamp lists and the trajectory; checks version, counts, order of
-  /// stamps and that every listed image is there. Images are decoded only by `read`.
+  /// stamps and that every listed image is there, below the folder. Images are read and held
+  /// against hashes.txt only by `read`.
   [[nodiscard]] static Recording open(const std::filesystem::path& folder);
 
   [[nodiscard]] const RecordingInfo& info() const { return info_; }
@@ -127,10 +129,14 @@ class Recording {
     Pose T_world_base;
   };
   void check_frame(int index) const;
+  /// Bytes of an image. Throws Error where they are not those that were hashed.
+  [[nodiscard]] std::string read_image(const std::string& path) const;
+  [[nodiscard]] cv::Mat1w read_grey16(const std::string& path, const CameraModel& camera) const;
 
   std::filesystem::path folder_;
   RecordingInfo info_;
   std::string content_hash_;
+  std::unordered_map<std::string, std::string> image_hashes_;  ///< by path
   std::vector<StampedImage> color_;
   std::vector<DepthImage> depth_;
   std::vector<TrajectoryPose> trajectory_;

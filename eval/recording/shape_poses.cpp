@@ -20,11 +20,12 @@ namespace {
 constexpr const char* kHeader = "stamp_s,shape,px,py,pz,qx,qy,qz,qw";
 constexpr std::size_t kColumns = 9;
 
-/// The numbers of a line; fewer than kColumns where it holds other things.
+/// The numbers of a line, or its first kColumns + 1; fewer than kColumns where it holds other
+/// things.
 std::vector<double> numbers_in(const std::string& line) {
   std::vector<double> numbers;
   std::istringstream cells(line);
-  for (std::string cell; std::getline(cells, cell, ',');) {
+  for (std::string cell; numbers.size() <= kColumns && std::getline(cells, cell, ',');) {
     const auto number = parse_number(cell);
     if (!number) return {};
     numbers.push_back(*number);

@@ -5,8 +5,9 @@
 
 #include "core/error.hpp"
 #include "eval/recording/file_bytes.hpp"
-#include "eval/recording/one_line.hpp"
 #include "eval/recording/pose_text.hpp"
+#include "files/csv.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -25,46 +26,16 @@ bool has_extent(const Shape& shape) {
   return (shape.size.head(sizes_of(shape.kind)).array() > 0.0).all() && shape.size.allFinite();
 }
 
-/// A field as RFC 4180 writes it: between quotes where it holds a comma or a quote.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text)
-    quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return quoted + '"';
-}
-
-/// Fields of one line; nothing when a quote is left open.
-std::optional<std::vector<std::string>> csv_fields(const std::string& line) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool pair = quoted && line[i] == '"' && i + 1 < line.size() && line[i + 1] == '"';
-    if (pair)
-      fields.back() += line[i++];
-    else if (line[i] == '"')
-      quoted = !quoted;
-    else if (line[i] == ',' && !quoted)
-      fields.emplace_back();
-    else
-      fields.back() += line[i];
-  }
-  if (quoted) return std::nullopt;
-  return fields;
-}
-
 std::string line_of(const Shape& shape) {
   const PoseNumbers pose = numbers_of(shape.T_world_shape);
-  if (shape.name.find_first_of("\r\n") != std::string::npos)
-    throw Error("a geom's name has a line break; rename it in the scene");
   if (!pose_of(pose) || !has_extent(shape))
     throw Error(
         fmt::format("geom '{}': pose is not finite or a size not above 0; mend it in the "
                     "scene",
                     shape.name));
   return fmt::format("{},{},{},{},{},{},{}\n", name_of(shape.kind), shape.instance,
-                     csv_field(shape.name), join_numbers(pose, ","), shape.size.x(), shape.size.y(),
-                     shape.size.z());
+                     csv_cell(shown(shape.name)), join_numbers(pose, ","), shape.size.x(),
+                     shape.size.y(), shape.size.z());
 }
 
 std::optional<ShapeKind> kind_of(const std::string& name) {
@@ -80,7 +51,7 @@ struct Parsed {
 };
 
 Parsed parse(const std::string& line, std::size_t instance_count) {
-  const auto fields = csv_fields(line);
+  const auto fields = csv_cells(line, kColumns);
   if (!fields || fields->size() != kColumns)
     return {{}, fmt::format("expected {} columns", kColumns)};
   Parsed parsed;
@@ -125,7 +96,7 @@ std::vector<Shape> read_shape_table(const std::filesystem::path& file, std::size
     Parsed parsed = parse(line, instance_count);
     if (!parsed.wrong.empty())
       throw Error(fmt::format("{}:{}: {}; mend the line or record again", file.string(), number,
-                              one_line(parsed.wrong)));
+                              shown(parsed.wrong)));
     shapes.push_back(std::move(parsed.shape));
   }
   return shapes;

@@ -17,16 +17,18 @@ constexpr const char* kNoFrames = "the file was cut off, or nothing was recorded
 
 std::vector<StampedImage> read_stamp_list(const std::filesystem::path& file) {
   std::vector<StampedImage> images;
-  for (const StampedLine& line : read_stamped_lines(file, {{2}, "'stamp_s path'", kNoFrames}))
+  read_stamped_lines(file, {{2}, "'stamp_s path'", kNoFrames}, [&](const StampedLine& line) {
     images.push_back({line.stamp_s, line.words[1]});
+  });
   return images;
 }
 
 std::vector<TrajectoryPose> read_trajectory(const std::filesystem::path& file) {
   std::vector<TrajectoryPose> poses;
   const LineFormat format{{kPoseColumns}, "'stamp_s tx ty tz qx qy qz qw'", kNoFrames};
-  for (const StampedLine& line : read_stamped_lines(file, format))
+  read_stamped_lines(file, format, [&](const StampedLine& line) {
     poses.push_back({line.stamp_s, line.pose()});
+  });
   return poses;
 }
 

@@ -5,19 +5,19 @@
 
 #include "core/error.hpp"
 #include "eval/recording/file_bytes.hpp"
-#include "eval/recording/one_line.hpp"
 #include "eval/recording/pose_text.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
-#include <utility>
 
 namespace mapscore::eval {
 
 void StampedLine::refuse(const std::string& what) const {
-  throw Error(fmt::format("{}:{}: {}", file, number, one_line(what)));
+  throw Error(fmt::format("{}:{}: {}", file, number, shown(what)));
 }
 
 double StampedLine::number_at(std::size_t word) const {
@@ -34,15 +34,17 @@ Pose StampedLine::pose() const {
   return *pose;
 }
 
-std::vector<StampedLine> read_stamped_lines(const std::filesystem::path& file,
-                                            const LineFormat& format) {
+void read_stamped_lines(const std::filesystem::path& file, const LineFormat& format,
+                        const std::function<void(const StampedLine&)>& take) {
+  const std::size_t most_words = std::ranges::max(format.words);
   std::istringstream text(read_file(file));
-  std::vector<StampedLine> lines;
+  std::optional<double> before_s;
   std::string line;
   for (int number = 1; std::getline(text, line); ++number) {
     StampedLine cut{file.string(), number, 0.0, {}};
     std::istringstream words(line);
-    for (std::string word; words >> word;) cut.words.push_back(word);
+    for (std::string word; cut.words.size() <= most_words && words >> word;)
+      cut.words.push_back(word);
     if (cut.words.empty() || cut.words[0][0] == '#') continue;
     if (std::ranges::find(format.words, cut.words.size()) == format.words.end())
       cut.refuse(fmt::format("expected {}; mend the line", format.text));
@@ -50,14 +52,14 @@ std::vector<StampedLine> read_stamped_lines(const std::filesystem::path& file,
     if (!stamp_s)
       cut.refuse(
           fmt::format("'{}' is no time stamp; give seconds as a finite number", cut.words[0]));
-    if (!lines.empty() && *stamp_s <= lines.back().stamp_s)
+    if (before_s && *stamp_s <= *before_s)
       cut.refuse(fmt::format("stamp {} does not come after {}; sort the lines by time", *stamp_s,
-                             lines.back().stamp_s));
+                             *before_s));
     cut.stamp_s = *stamp_s;
-    lines.push_back(std::move(cut));
+    before_s = stamp_s;
+    take(cut);
   }
-  if (lines.empty()) throw Error(fmt::format("{}: no lines; {}", file.string(), format.mend_empty));
-  return lines;
+  if (!before_s) throw Error(fmt::format("{}: no lines; {}", file.string(), format.mend_empty));
 }
 
 }  // namespace mapscore::eval

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -37,10 +38,11 @@ struct LineFormat {
   std::string mend_empty;          ///< what to do about a file without lines
 };
 
-/// All lines but empty ones and those that start with `#`. Throws Error with file and line when the
-/// file is missing, a line has another number of words, a stamp is none or does not come after the
-/// one before, or there is no line.
-[[nodiscard]] std::vector<StampedLine> read_stamped_lines(const std::filesystem::path& file,
-                                                          const LineFormat& format);
+/// Calls `take` with each line but empty ones and those that start with `#`, in the order of the
+/// file. One line is held at a time: cut into words it takes some twenty times its bytes. Throws
+/// Error with file and line when the file is missing, a line has another number of words, a stamp
+/// is none or does not come after the one before, or there is no line.
+void read_stamped_lines(const std::filesystem::path& file, const LineFormat& format,
+                        const std::function<void(const StampedLine&)>& take);
 
 }  // namespace mapscore::eval

@@ -7,6 +7,7 @@
 #include "eval/recording/file_bytes.hpp"
 #include "eval/recording/little_endian.hpp"
 #include "eval/recording/pose_text.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -38,8 +39,6 @@ T take(const char*& from) {
 }
 
 void check(const Shape& mesh) {
-  if (mesh.name.find_first_of("\r\n") != std::string::npos)
-    throw Error("a mesh's name has a line break; rename it in the scene");
   bool finite = mesh.T_world_shape.matrix().allFinite();
   for (const Triangle& triangle : mesh.triangles)
     for (const Eigen::Vector3d& corner : triangle) finite = finite && corner.allFinite();
@@ -101,6 +100,7 @@ Header checked_header(const std::string& bytes, const std::filesystem::path& fil
   if (header.vertices > body / kVertexBytes || header.faces > body / kFaceBytes ||
       body != header.vertices * kVertexBytes + header.faces * kFaceBytes)
     refuse(file, "size does not fit the counts of its header");
+  if (header.names.size() > header.faces) refuse(file, "a geom has no triangles");
   return header;
 }
 
@@ -152,7 +152,7 @@ std::string triangle_ply_bytes(const std::vector<Shape>& shapes) {
       append_little_endian(faces, shape.instance);
       append_little_endian(faces, static_cast<std::int32_t>(names.size()));
     }
-    names.push_back(shape.name);
+    names.push_back(shown(shape.name));
   }
   if (names.empty()) return "";
   return header_of(vertices.size() / kVertexBytes, faces.size() / kFaceBytes, names) + vertices +

@@ -10,6 +10,7 @@
 #include "eval/recording/shape_table.hpp"
 #include "eval/recording/stamp_list.hpp"
 #include "eval/recording/triangle_ply.hpp"
+#include "files/folder_lock.hpp"
 
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <optional>
 
 namespace mapscore::eval {
 namespace {
@@ -40,6 +42,13 @@ void create(const fs::path& folder) {
     refuse(folder, fmt::format("cannot create the folder ({}); give another", error.message()));
 }
 
+/// Removes what a crash left, but for the folder itself, which is locked.
+void empty(const fs::path& folder) {
+  std::error_code ignored;  // creating says what is wrong
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    fs::remove_all(entry.path(), ignored);
+}
+
 void check_absent(const fs::path& folder) {
   if (fs::exists(fs::symlink_status(folder)))
     refuse(folder, "exists already; remove it or give another folder");
@@ -60,6 +69,11 @@ std::string image_name(const char* folder, int index) {
 }  // namespace
 
 struct RecordingWriter::State {
+  ~State() {
+    std::error_code ignored;
+    if (!finished && hold && !hold->taken()) fs::remove_all(partial, ignored);
+  }
+
   struct Written {
     double stamp_s;
     Pose T_world_base;
@@ -68,6 +82,7 @@ struct RecordingWriter::State {
   using Side = std::map<int, Written>;  ///< by number of the image
 
   fs::path folder, partial;
+  std::optional<FolderLock> hold;  ///< on `partial`
   RecordingInfo info;
   bool has_shapes = false, finished = false;
   std::mutex mutex;  // guards the sides
@@ -162,17 +177,19 @@ RecordingWriter::RecordingWriter(const fs::path& folder, RecordingInfo info)
   state_->info = std::move(info);
   check_absent(state_->folder);
   std::error_code ignored;
-  fs::remove_all(state_->partial,
-                 ignored);  // what a crash left; creating says what is wrong with it
+  if (!fs::is_directory(fs::symlink_status(state_->partial))) fs::remove(state_->partial, ignored);
+  state_->hold.emplace(state_->partial, WhenTaken::go_on);
+  if (state_->hold->taken())
+    refuse(state_->folder,
+           "another process is recording into it; wait for it, or give another folder");
+  check_absent(state_->folder);  // the other may have finished in between
+  empty(state_->partial);
   for (const char* channel : {"color", "depth", "label"}) create(state_->partial / channel);
   if (!state_->info.has_truth) return;
   for (const char* channel : {"depth_label", "truth"}) create(state_->partial / channel);
 }
 
-RecordingWriter::~RecordingWriter() {
-  std::error_code ignored;
-  if (!state_->finished) fs::remove_all(state_->partial, ignored);
-}
+RecordingWriter::~RecordingWriter() = default;
 
 void RecordingWriter::write_color(const Frame& frame) {
   const CameraModel& camera = state_->info.calibration.color;

@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "eval/recording/file_bytes.hpp"
-#include "eval/recording/one_line.hpp"
 #include "eval/recording/pose_text.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -16,14 +16,26 @@
 
 namespace mapscore::eval {
 
+void refuse_large_yaml(std::string_view text, const std::string& source) {
+  constexpr std::ptrdiff_t kMostValues = 1 << 19;
+  const auto separates = [](char letter) {
+    return std::string_view(",:\n[{").find(letter) != std::string_view::npos;
+  };
+  if (std::ranges::count_if(text, separates) > kMostValues)
+    throw Error(fmt::format("{}: more than {} values; is it the right file? Else shorten it",
+                            source, kMostValues));
+}
+
 YamlValue YamlValue::load(const std::filesystem::path& file) {
   try {
-    YamlValue value(file.string(), "", YAML::Load(read_file(file)));
+    const std::string text = read_file(file);
+    refuse_large_yaml(text, file.string());
+    YamlValue value(file.string(), "", YAML::Load(text));
     if (!value.node_.IsMap()) value.refuse("not a map of keys; write key: value lines");
     return value;
   } catch (const YAML::Exception& error) {
     throw Error(fmt::format("{}:{}: broken YAML ({}); mend the line or make the file anew",
-                            file.string(), std::max(error.mark.line, 0) + 1, one_line(error.msg)));
+                            file.string(), std::max(error.mark.line, 0) + 1, shown(error.msg)));
   }
 }
 
@@ -60,6 +72,11 @@ std::vector<YamlValue> YamlValue::items() const {
 std::string YamlValue::text() const {
   if (!node_.IsScalar()) refuse("expected a text");
   return node_.Scalar();
+}
+
+std::string YamlValue::name() const {
+  if (const auto unfit = unfit_as_name(text())) refuse(*unfit);
+  return text();
 }
 
 Colour YamlValue::colour() const {
@@ -103,20 +120,7 @@ std::uint64_t YamlValue::whole(std::uint64_t low, std::uint64_t high) const {
 void YamlValue::refuse(const std::string& what) const {
   const std::string key = path_.empty() ? "" : path_ + ": ";
   const int line = std::max(node_.Mark().line, 0) + 1;  // an empty file has no place
-  throw Error(fmt::format("{}:{}: {}{}", file_, line, key, one_line(what)));
-}
-
-std::string yaml_quoted(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\')
-      (quoted += '\\') += letter;
-    else if (static_cast<unsigned char>(letter) < 0x20)
-      quoted += fmt::format("\\x{:02x}", static_cast<int>(letter));
-    else
-      quoted += letter;
-  }
-  return quoted + '"';
+  throw Error(fmt::format("{}:{}: {}{}", file_, line, key, shown(what)));
 }
 
 }  // namespace mapscore::eval

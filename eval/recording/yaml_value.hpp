@@ -16,6 +16,11 @@
 
 namespace mapscore::eval {
 
+/// Throws Error naming `source` where a text of YAML could have more than half a million values:
+/// yaml-cpp takes some 500 bytes for each, be it two bytes in the text. The largest recording.yaml,
+/// of 65536 instances, has fewer. To be asked before parsing.
+void refuse_large_yaml(std::string_view text, const std::string& source);
+
 /// A value of a YAML file that knows where it stands. Every reader throws Error with file, line,
 /// key path and mend when the value is not what is asked for.
 class YamlValue {
@@ -31,6 +36,8 @@ class YamlValue {
   [[nodiscard]] std::vector<YamlValue> items() const;
 
   [[nodiscard]] std::string text() const;
+  /// A text that is fit as a name (files/text.hpp).
+  [[nodiscard]] std::string name() const;
   /// Six hexadecimal digits, RRGGBB.
   [[nodiscard]] Colour colour() const;
   [[nodiscard]] bool boolean() const;
@@ -47,9 +54,5 @@ class YamlValue {
   std::string file_, path_;
   YAML::Node node_;
 };
-
-/// `text` between double quotes, with the escapes of YAML, so that every reader takes it for a
-/// string.
-[[nodiscard]] std::string yaml_quoted(std::string_view text);
 
 }  // namespace mapscore::eval

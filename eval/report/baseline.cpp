@@ -4,8 +4,8 @@
 #include "eval/report/baseline.hpp"
 
 #include "core/error.hpp"
-#include "eval/recording/whole_file.hpp"
-#include "eval/report/csv.hpp"
+#include "core/whole_file.hpp"
+#include "files/csv.hpp"
 
 #include <fmt/format.h>
 
@@ -77,9 +77,9 @@ std::vector<BaselineRow> read_baseline(const std::filesystem::path& file) {
       if (line != kHeader) throw Error(where + ": not a baseline; its first line is " + kHeader);
       continue;
     }
-    const std::vector<std::string> cells = csv_cells(line);
-    if (cells.size() != 4) throw Error(where + ": needs four columns: " + kHeader);
-    rows.push_back({cells[0], cells[1], cells[2], parse_value(cells[3], where)});
+    const auto cells = csv_cells(line, 4);
+    if (!cells || cells->size() != 4) throw Error(where + ": needs four columns: " + kHeader);
+    rows.push_back({(*cells)[0], (*cells)[1], (*cells)[2], parse_value((*cells)[3], where)});
   }
   if (rows.empty()) throw Error(file.string() + ": the baseline holds no figure; write it again");
   return rows;

@@ -4,8 +4,8 @@
 #include "eval/report/error_ply.hpp"
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "eval/recording/little_endian.hpp"
-#include "eval/recording/whole_file.hpp"
 
 #include <cstdint>
 #include <cstring>

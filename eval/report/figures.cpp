@@ -4,7 +4,7 @@
 #include "eval/report/figures.hpp"
 
 #include "core/error.hpp"
-#include "eval/recording/whole_file.hpp"
+#include "core/whole_file.hpp"
 #include "eval/report/figures_accuracy.hpp"
 #include "eval/report/figures_causes.hpp"
 #include "eval/report/figures_classes.hpp"

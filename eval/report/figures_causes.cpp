@@ -6,6 +6,7 @@
 #include "eval/report/figures_curves.hpp"
 #include "eval/report/figures_tics.hpp"
 #include "eval/report/pictures_colours.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -72,8 +73,8 @@ class CauseFigure {
     for (const Side& side : kSides)
       for (const Cause& cause : side.causes)
         sheet_.legend.push_back(
-            fmt::format("NaN with boxes fs solid 1 noborder lc rgb '{}' title \"{}\"",
-                        hex_of(cause.colour), cause.name));
+            fmt::format("NaN with boxes fs solid 1 noborder lc rgb '{}' title {}",
+                        hex_of(cause.colour), gnuplot_quoted(cause.name)));
     sheet_.caption = study_caption(summary_) +
                      " Counts pooled over classes and seeds. near: within a voxel of the own "
                      "surface; leak: on another "
@@ -112,25 +113,28 @@ class CauseFigure {
     panel.title = title;
     panel.y_label = y_label;
     panel.x_label = last_row && !layout_.bars() ? layout_.x().title() : "";
-    panel.settings = {"set style data histograms",
-                      "set style histogram rowstacked",
-                      "set style fill solid 1 noborder",
-                      "set boxwidth 0.75",
-                      "set xrange [*:*]",
-                      x_tics()};
+    const bool empty = add_block(side, column, curves) == 0;  // gnuplot finds no range by itself
+    panel.settings = {
+        "set style data histograms",
+        "set style histogram rowstacked",
+        "set style fill solid 1 noborder",
+        "set boxwidth 0.75",
+        empty ? fmt::format("set xrange [-1:{}]", layout_.x().values.size()) : "set xrange [*:*]",
+        x_tics()};
     if (const std::string& head = layout_.columns()[column]; !head.empty())
       panel.settings.push_back(
-          fmt::format("set label 1 {} at graph 0.03,0.93 left font ',6.5'", quoted(head)));
+          fmt::format("set label 1 {} at graph 0.03,0.93 left font ',6.5'", gnuplot_quoted(head)));
     for (std::size_t c = 0; c < side.causes.size(); ++c)
-      panel.elements.push_back(fmt::format("data index {} using {}{} lc rgb '{}' notitle", blocks_,
-                                           c + 2, layout_.named() ? "" : ":xtic(1)",
+      panel.elements.push_back(fmt::format("data index {} using {}{} lc rgb '{}' notitle",
+                                           blocks_ - 1, c + 2, layout_.named() ? "" : ":xtic(1)",
                                            hex_of(side.causes[c].colour)));
-    add_block(side, column, curves);
     sides_.push_back(side.whole == kSides.front().whole ? 0 : 1);
     sheet_.panels.push_back(std::move(panel));
   }
 
-  void add_block(const Side& side, std::size_t column, const std::vector<Curve>& curves) {
+  /// Returns how many bars have a height.
+  std::size_t add_block(const Side& side, std::size_t column, const std::vector<Curve>& curves) {
+    std::size_t bars = 0;
     const std::string& head = layout_.columns()[column];
     sheet_.data += fmt::format("{}# {}; {}{}\n# {}", blocks_++ > 0 ? "\n\n" : "",
                                curves.size() == 1 ? curves.front().name : "all methods", side.label,
@@ -138,13 +142,15 @@ class CauseFigure {
     for (const Cause& cause : side.causes) sheet_.data += fmt::format(" \"{}\"", cause.name);
     for (std::size_t x = 0; x < layout_.x().at.size(); ++x)
       for (const Curve& curve : curves)
-        if (const auto trial = layout_.trial(curve, column, x)) add_bar(side, x, *trial);
+        if (const auto trial = layout_.trial(curve, column, x)) bars += add_bar(side, x, *trial);
     sheet_.data += '\n';
+    return bars;
   }
 
-  void add_bar(const Side& side, std::size_t x, std::size_t trial) {
+  /// Whether the bar has a height: its whole is not 0.
+  bool add_bar(const Side& side, std::size_t x, std::size_t trial) {
     const ClassCounts counts = pool_detected(summary_.trials[trial].pooled, summary_.table);
-    sheet_.data += '\n' + quoted(layout_.x().values[x]);
+    sheet_.data += '\n' + gnuplot_column(layout_.x().values[x]);
     double height = 0.0;
     for (const Cause& cause : side.causes) {
       const auto share = ratio(counts.*cause.count, counts.*side.whole);
@@ -153,6 +159,7 @@ class CauseFigure {
     }
     double& greatest = greatest_[side.whole == kSides.front().whole ? 0 : 1];
     greatest = std::max(greatest, height);
+    return counts.*side.whole > 0;
   }
 
   const StudySummary& summary_;

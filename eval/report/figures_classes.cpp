@@ -8,6 +8,7 @@
 #include "eval/report/figures_curves.hpp"
 #include "eval/report/figures_layout.hpp"
 #include "eval/report/figures_tics.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -69,10 +70,10 @@ class ClassBars {
     for (std::size_t value = 0; value < named_.values.size(); ++value)
       sheet_.legend.push_back(
           fmt::format("NaN with boxes fs solid 0.85 noborder lc rgb '{}' title {}",
-                      palette_colour(value), eval::quoted(named_.values[value])));
-    sheet_.legend.push_back("NaN with lines lw 1.2 lc rgb '#000000' title \"lattice ceiling\"");
+                      palette_colour(value), gnuplot_quoted(named_.values[value])));
+    sheet_.legend.push_back("NaN with lines lw 1.2 lc rgb '#000000' title 'lattice ceiling'");
     sheet_.legend.push_back(
-        "NaN with lines lw 1.2 dt (1,2) lc rgb '#444444' title \"registration ceiling\"");
+        "NaN with lines lw 1.2 dt (1,2) lc rgb '#444444' title 'registration ceiling'");
     const Study& study = summary_.study;
     sheet_.caption = study_caption(summary_) + " Bars by " + named_.name + other_doses() +
                      (study.methods.size() > 1 ? "" : "; " + study.methods.front().name) +
@@ -156,7 +157,7 @@ class ClassBars {
       const Estimate shown = at(summary_.trials[line]);
       sheet_.data +=
           fmt::format("{:.4f} {} {} {} {} {} {}\n", static_cast<double>(c) + offset,
-                      quoted(classes_[c]->name), figure_number(shown.pooled),
+                      gnuplot_column(classes_[c]->name), figure_number(shown.pooled),
                       figure_number(shown.over_seeds.low), figure_number(shown.over_seeds.high),
                       figure_number(at(summary_.registration_ceilings[line]).pooled),
                       figure_number(at(summary_.lattice_ceilings[line]).pooled));

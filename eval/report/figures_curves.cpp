@@ -4,6 +4,8 @@
 #include "eval/report/figures_curves.hpp"
 
 #include "eval/report/figures_tics.hpp"
+#include "eval/report/lattice_check.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -81,6 +83,32 @@ std::vector<std::string> number_settings(const FigureAxis& x) {
           fmt::format("set xtics {:.9g}", tic_step(*high - *low))};
 }
 
+/// Said where the ruler itself does not fit; nothing elsewhere.
+std::string lattice_caption(const StudySummary& summary) {
+  LatticeCheck check(summary.table);
+  for (const ResultLine& line : summary.lattice_ceilings)
+    for (const TrialResult& result : line.results) check.add(result.counts);
+  const std::string note = check.note();
+  return note.empty() ? "" : " Note: " + note + '.';
+}
+
+/// Which methods leave points of curves out, since their maps hold no voxel of a detected class.
+std::string empty_maps_caption(const StudySummary& summary) {
+  std::string text;
+  for (const MethodSettings& method : summary.study.methods) {
+    std::size_t points = 0, empty = 0;
+    for (const ResultLine& line : summary.trials) {
+      if (line.method != method.name) continue;
+      ++points;
+      empty += pool_detected(line.pooled, summary.table).predicted == 0 ? 1 : 0;
+    }
+    if (empty > 0)
+      text += fmt::format(" {} maps nothing{}.", method.name,
+                          empty == points ? "" : fmt::format(" at {} of {} points", empty, points));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string figure_number(const std::optional<double>& value) {
@@ -92,10 +120,11 @@ std::string study_caption(const StudySummary& summary) {
   std::string detected;
   for (const SemanticClass& c : summary.table.classes)
     if (c.detect) detected += (detected.empty() ? "" : ", ") + c.name;
-  return fmt::format("{}: {}; voxels of {:.6g} cm; detected: {}; each {} scored; {} seed{}.",
+  return fmt::format("{}: {}; voxels of {:.6g} cm; detected: {}; each {} scored; {} seed{}.{}{}",
                      study.name, source_of(study), 100.0 * study.voxel_m, detected,
                      study.score.unit == ScoreUnit::map ? "fused map" : "frame", study.seeds,
-                     study.seeds == 1 ? "" : "s");
+                     study.seeds == 1 ? "" : "s", empty_maps_caption(summary),
+                     lattice_caption(summary));
 }
 
 std::string spread_caption(const Study& study, const char* marks) {
@@ -195,13 +224,13 @@ std::vector<std::string> CurveFigure::legend() const {
       legend.push_back(fmt::format("NaN with {} pt {} ps 0.9 lw 1.4 dt {} lc rgb '{}' title {}",
                                    layout_.named() ? "points" : "linespoints", curve.point,
                                    layout_.named() ? 1 : curve.dash, curve.colour,
-                                   quoted(curve.name)));
+                                   gnuplot_quoted(curve.name)));
   legend.push_back(
       layout_.bars()
-          ? fmt::format("NaN with points pt 2 ps 2 {} title \"lattice ceiling\"", kLatticeStyle)
-          : fmt::format("NaN with lines {} title \"lattice ceiling\"", kLatticeStyle));
+          ? fmt::format("NaN with points pt 2 ps 2 {} title 'lattice ceiling'", kLatticeStyle)
+          : fmt::format("NaN with lines {} title 'lattice ceiling'", kLatticeStyle));
   legend.push_back(
-      fmt::format("NaN with {} lc rgb '#666666' title \"registration ceiling\"",
+      fmt::format("NaN with {} lc rgb '#666666' title 'registration ceiling'",
                   layout_.bars() ? "points pt 1 ps 2 lw 1.5" : "lines lw 1.2 dt (1,3)"));
   return legend;
 }

@@ -51,8 +51,8 @@ std::string first_words(const std::filesystem::path& log) {
 }  // namespace
 
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
-  std::string program = "gnuplot", argument = script;
-  char* arguments[] = {program.data(), argument.data(), nullptr};
+  std::string program = "gnuplot", no_startup_files = "-d", argument = script;
+  char* arguments[] = {program.data(), no_startup_files.data(), argument.data(), nullptr};
   const SpawnActions actions(folder);
   pid_t child = 0;
   if (posix_spawnp(&child, program.c_str(), actions.get(), nullptr, arguments, environ) != 0)
@@ -61,8 +61,9 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script)
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw Error((folder / script).string() + ": gnuplot failed: " + first_words(folder / kLog) +
-                "; figures need gnuplot 5.2 or later with cairo (gnuplot-nox)");
+    throw Error(
+        script + ": gnuplot failed: " + first_words(folder / kLog) +
+        "; check the free space, and that gnuplot is 5.2 or later with cairo (gnuplot-nox)");
 }
 
 }  // namespace mapscore::eval

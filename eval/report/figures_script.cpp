@@ -4,13 +4,14 @@
 #include "eval/report/figures_script.hpp"
 
 #include "core/error.hpp"
+#include "eval/recording/file_bytes.hpp"
 #include "eval/report/figures_gnuplot.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <system_error>
 
@@ -48,8 +49,9 @@ std::vector<std::string> wrapped(const std::string& text, double width_in, doubl
 
 /// Letters between the quotes that follow `title`, in an element of the legend.
 std::size_t title_length(const std::string& element) {
-  const std::size_t at = element.find("title \"");
-  return at == std::string::npos ? 0 : element.rfind('"') - at - 7;
+  constexpr std::string_view kTitle = "title '";
+  const std::size_t at = element.find(kTitle);
+  return at == std::string::npos ? 0 : element.rfind('\'') - at - kTitle.size();
 }
 
 /// Where everything lies, in inches from the low left corner of the sheet.
@@ -180,12 +182,12 @@ std::string header_of(const FigureSheet& sheet, const Geometry& geometry) {
 
 std::string text_of(const Panel& panel, const std::string& margins, double x_label_at) {
   std::string text = "\n  " + margins + '\n';
-  text += fmt::format("  set title {} font ',7.5' offset 0,-0.6\n", quoted(panel.title));
+  text += fmt::format("  set title {} font ',7.5' offset 0,-0.6\n", gnuplot_quoted(panel.title));
   text += panel.x_label.empty()
               ? "  unset label 2\n"
               : fmt::format("  set label 2 {} at graph 0.5, screen {:.5f} center\n",
-                            quoted(panel.x_label), x_label_at);
-  text += fmt::format("  set ylabel {} offset 1.2,0\n", quoted(panel.y_label));
+                            gnuplot_quoted(panel.x_label), x_label_at);
+  text += fmt::format("  set ylabel {} offset 1.2,0\n", gnuplot_quoted(panel.y_label));
   text += panel.y_tic_labels ? "  set format y '%g'\n" : "  set format y ''\n";
   for (const std::string& setting : panel.settings) text += "  " + setting + '\n';
   return text + plot_command(panel.elements);
@@ -204,7 +206,7 @@ std::string legend_and_caption(const FigureSheet& sheet, const Geometry& geometr
   for (std::size_t line = 0; line < caption.size(); ++line)
     text += fmt::format(
         "  set label {} at screen 0.5,{:.5f} center font ',{}' textcolor rgb '#333333'\n",
-        quoted(caption[line]), geometry.caption_line(line), kCaption_pt);
+        gnuplot_quoted(caption[line]), geometry.caption_line(line), kCaption_pt);
   return text +
          plot_command(sheet.legend.empty() ? std::vector<std::string>{"NaN notitle"}
                                            : sheet.legend) +
@@ -222,11 +224,25 @@ std::string script_of(const FigureSheet& sheet) {
          "'-'\n}\n";
 }
 
-void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  if (!stream.flush())
-    throw Error(file.string() + ": cannot be written; check the folder and the free space");
+/// gnuplot leaves a picture cut short where the disk is full, and is content.
+void check_whole(const fs::path& picture, std::string_view end) {
+  constexpr std::size_t kTail = 32;
+  const std::string bytes = read_file(picture);
+  const std::string_view tail =
+      std::string_view(bytes).substr(bytes.size() - std::min(kTail, bytes.size()));
+  if (tail.find(end) == tail.npos)
+    throw Error(picture.filename().string() +
+                ": gnuplot could not write it to its end; check the free space");
+}
+
+/// Script, numbers and pictures, in a folder that holds nothing else.
+void draw_into(const fs::path& aside, const FigureSheet& sheet) {
+  fs::create_directories(aside);
+  write_file(aside / (sheet.name + ".dat"), sheet.data);
+  write_file(aside / (sheet.name + ".gp"), script_of(sheet));
+  run_gnuplot(aside, sheet.name + ".gp");
+  check_whole(aside / (sheet.name + ".png"), "IEND");
+  check_whole(aside / (sheet.name + ".pdf"), "%%EOF");
 }
 
 }  // namespace
@@ -239,28 +255,18 @@ double text_width_in(std::size_t letters, double font_pt) {
   return static_cast<double>(letters) * kLetterWidth * font_pt / kPointsPerInch;
 }
 
-std::string quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\') quoted += '\\';
-    if (letter == '\n')
-      quoted += "\\n";
-    else
-      quoted += letter;
-  }
-  return quoted + '"';
-}
-
 std::vector<fs::path> draw(const FigureSheet& sheet, const fs::path& folder) {
   const fs::path aside = folder / (sheet.name + ".partial");
   std::error_code ignored;
   fs::remove_all(aside, ignored);
-  fs::create_directories(aside, ignored);
-  write_text(aside / (sheet.name + ".dat"), sheet.data);
-  write_text(aside / (sheet.name + ".gp"), script_of(sheet));
-  run_gnuplot(aside, sheet.name + ".gp");
-  for (const char* suffix : {".dat", ".gp", ".png", ".pdf"})
-    fs::rename(aside / (sheet.name + suffix), folder / (sheet.name + suffix));
+  try {
+    draw_into(aside, sheet);
+    for (const char* suffix : {".dat", ".gp", ".png", ".pdf"})
+      fs::rename(aside / (sheet.name + suffix), folder / (sheet.name + suffix));
+  } catch (...) {
+    fs::remove_all(aside, ignored);
+    throw;
+  }
   fs::remove_all(aside, ignored);
   return {folder / (sheet.name + ".png"), folder / (sheet.name + ".pdf")};
 }

@@ -36,12 +36,9 @@ struct FigureSheet {
 /// Width of so many letters of the figures' font, by its mean letter.
 [[nodiscard]] double text_width_in(std::size_t letters, double font_pt);
 
-/// A text as gnuplot reads it; newlines stay.
-[[nodiscard]] std::string quoted(const std::string& text);
-
 /// Writes NAME.gp and NAME.dat, runs gnuplot for NAME.png and NAME.pdf, aside, and moves all four
-/// into `folder`, which must be there. Returns the PNG and the PDF. Throws Error when gnuplot is
-/// missing or fails (with its own words); NAME.partial then stays, to look into.
+/// into `folder`, which must be there. Returns the PNG and the PDF. Throws Error, and leaves
+/// nothing new, when gnuplot is missing, fails (with its own words) or leaves a picture cut short.
 [[nodiscard]] std::vector<std::filesystem::path> draw(const FigureSheet& sheet,
                                                       const std::filesystem::path& folder);
 

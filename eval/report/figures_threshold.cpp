@@ -4,6 +4,7 @@
 #include "eval/report/figures_threshold.hpp"
 
 #include "eval/report/figures_curves.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -56,8 +57,8 @@ class ThresholdFigure {
     sheet_.panel_width_in = panel_width_in(sheet_.columns);
     sheet_.panel_height_in = kPanelHeight_in;
     for (const Curve& curve : layout.curves())
-      sheet_.legend.push_back(
-          fmt::format("NaN with linespoints {} title {}", style_of(curve), quoted(curve.name)));
+      sheet_.legend.push_back(fmt::format("NaN with linespoints {} title {}", style_of(curve),
+                                          gnuplot_quoted(curve.name)));
   }
 
   [[nodiscard]] static std::string style_of(const Curve& curve) {

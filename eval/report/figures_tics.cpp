@@ -4,6 +4,7 @@
 #include "eval/report/figures_tics.hpp"
 
 #include "eval/report/figures_script.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -33,10 +34,17 @@ double width_in(const std::vector<std::string>& names) {
   return text_width_in(longest, kFont_pt);
 }
 
+/// gnuplot takes a label of a tic with a `%` for a format of numbers.
+std::string without_format(const std::string& name) {
+  std::string doubled;
+  for (const char letter : name) doubled.append(letter == '%' ? 2 : 1, letter);
+  return doubled;
+}
+
 std::string setting_of(const std::vector<std::string>& names, const std::string& turn) {
   std::string tics;
   for (std::size_t i = 0; i < names.size(); ++i)
-    tics += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(names[i]), i);
+    tics += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_quoted(without_format(names[i])), i);
   return fmt::format("set xtics ({}) {} font ',{}'", tics, turn, kFont_pt);
 }
 

@@ -5,6 +5,7 @@
 
 #include "eval/report/figures_curves.hpp"
 #include "eval/score/metrics.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -122,7 +123,7 @@ FigureSheet frames_figure(const Study& study, const ClassTable& table,
   }
   for (std::size_t m = 0; m < methods.size(); ++m) {
     sheet.legend.push_back(fmt::format("NaN with lines lw 2 lc rgb '{}' title {}",
-                                       palette_colour(m), quoted(methods[m].method)));
+                                       palette_colour(m), gnuplot_quoted(methods[m].method)));
     sheet.data += fmt::format("{}# {}\n# frame stamp_s", m > 0 ? "\n\n" : "", methods[m].method);
     for (const Shown& panel : panels) sheet.data += std::string(" ") + panel.name;
     sheet.data += '\n';

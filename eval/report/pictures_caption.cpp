@@ -3,7 +3,7 @@
 
 #include "eval/report/pictures_caption.hpp"
 
-#include "eval/recording/whole_file.hpp"
+#include "core/whole_file.hpp"
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>

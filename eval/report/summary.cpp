@@ -36,20 +36,20 @@ class LineCollector {
   std::map<std::pair<int, std::string>, std::size_t> positions_;
 };
 
-std::vector<TrialResult> read_results(const ResultStore& store, const Plan& plan,
-                                      const std::filesystem::path& results) {
-  std::vector<TrialResult> found;
-  std::size_t missing = 0;
-  for (const Task& task : plan.tasks) {
-    auto result = store.find(task.key);
-    missing += result ? 0 : 1;
-    found.push_back(result ? std::move(*result) : TrialResult{});
-  }
+/// Throws Error when the store lacks trials of the plan.
+void check_all_there(const ResultStore& store, const TaskList& tasks,
+                     const std::filesystem::path& results) {
+  const std::size_t missing = tasks.size() - held_tasks(store, tasks);
   if (missing > 0)
     throw Error(fmt::format(
         "{}: {} of {} trials are not there yet; run `mapscore sweep STUDY -o {}` again, "
         "it goes on where it stopped",
-        results.string(), missing, plan.tasks.size(), results.string()));
+        results.string(), missing, tasks.size(), results.string()));
+}
+
+std::vector<TrialResult> read_results(const ResultStore& store, const TaskList& tasks) {
+  std::vector<TrialResult> found;
+  for (std::size_t n = 0; n < tasks.size(); ++n) found.push_back(store.find(tasks.key(n)).value());
   return found;
 }
 
@@ -84,18 +84,26 @@ std::filesystem::path store_file(const std::filesystem::path& results) {
   return std::filesystem::is_directory(results) ? results / "results.sqlite" : results;
 }
 
+std::size_t held_tasks(const ResultStore& store, const TaskList& tasks) {
+  const auto keys = store.keys();
+  std::size_t held = 0;
+  for (std::size_t n = 0; n < tasks.size(); ++n) held += keys.contains(tasks.key(n)) ? 1 : 0;
+  return held;
+}
+
 StudySummary summarise_store(const std::filesystem::path& results) {
   const std::filesystem::path file = store_file(results);
   const ResultStore store = ResultStore::open_existing(file);
   const StudyRecord record = read_study(store, file.parent_path());
   const Plan plan = plan_of(record.study, record.recording_hash);
-  const std::vector<TrialResult> found = read_results(store, plan, results);
+  check_all_there(store, plan.tasks, results);
+  const std::vector<TrialResult> found = read_results(store, plan.tasks);
 
   StudySummary summary{record.study, record.table, {}, {}, {}};
   LineCollector trials(Role::trial, summary.trials);
   LineCollector registration(Role::registration_ceiling, summary.registration_ceilings);
   LineCollector lattice(Role::lattice_ceiling, summary.lattice_ceilings);
-  for (const PlannedTrial& trial : plan.trials) {
+  for (const PlannedTrial trial : plan.trials) {
     trials.add(trial.spec, found[trial.task]);
     registration.add(trial.spec, found[trial.registration_ceiling]);
     lattice.add(trial.spec, found[trial.lattice_ceiling]);

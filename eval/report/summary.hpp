@@ -60,6 +60,9 @@ struct StudySummary {
   [[nodiscard]] std::vector<std::string> groups() const;
 };
 
+/// How many tasks of a plan the store holds.
+[[nodiscard]] std::size_t held_tasks(const ResultStore& store, const TaskList& tasks);
+
 /// Opens the store of a study (`results` is the folder or its results.sqlite) and reads all its
 /// trials. Throws Error when there is none, or when trials are missing (says how many, and the
 /// command that goes on).

@@ -3,7 +3,9 @@
 
 #include "eval/report/table.hpp"
 
-#include "eval/report/csv.hpp"
+#include "eval/report/lattice_check.hpp"
+#include "files/csv.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -49,6 +51,10 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
       "ceilings: lattice = true labels on the depth pixels, true pose; registration = the method "
       "at dose "
       "zero"};
+  LatticeCheck check(summary.table);
+  for (const ResultLine& line : summary.lattice_ceilings)
+    for (const TrialResult& result : line.results) check.add(result.counts);
+  if (const std::string note = check.note(); !note.empty()) caption.push_back("note: " + note);
   if (study.score.instances)
     caption.emplace_back("PQ: of instances; a predicted one is a connected piece of one class");
   return caption;
@@ -108,17 +114,18 @@ Table score_table(const StudySummary& summary, const std::string& group) {
 
 std::string to_text(const Table& table) {
   std::vector<std::size_t> widths;
-  for (const std::string& column : table.columns) widths.push_back(column.size());
+  for (const std::string& column : table.columns) widths.push_back(shown(column).size());
   for (const auto& row : table.rows)
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    for (std::size_t i = 0; i < row.size(); ++i)
+      widths[i] = std::max(widths[i], shown(row[i]).size());
   const auto line = [&](const std::vector<std::string>& cells) {
     std::string text;
     for (std::size_t i = 0; i < cells.size(); ++i)
-      text += (i ? "  " : "") + padded(cells[i], widths[i]);
+      text += (i ? "  " : "") + padded(shown(cells[i]), widths[i]);
     return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
   };
   std::string text;
-  for (const std::string& caption : table.caption) text += "# " + caption + '\n';
+  for (const std::string& caption : table.caption) text += "# " + shown(caption) + '\n';
   text += line(table.columns);
   for (const auto& row : table.rows) text += line(row);
   return text;
@@ -145,15 +152,16 @@ nlohmann::ordered_json json_of(const std::string& cell) {
   if (const auto read = std::from_chars(begin, end, number);
       read.ec == std::errc() && read.ptr == end && std::isfinite(number))
     return number;
-  return cell;
+  return shown(cell);
 }
 
 nlohmann::ordered_json json_of(const Table& table) {
-  nlohmann::ordered_json object{{"caption", table.caption},
+  nlohmann::ordered_json object{{"caption", nlohmann::ordered_json::array()},
                                 {"rows", nlohmann::ordered_json::array()}};
+  for (const std::string& line : table.caption) object["caption"].push_back(shown(line));
   for (const auto& row : table.rows) {
     nlohmann::ordered_json entry;
-    for (std::size_t i = 0; i < row.size(); ++i) entry[table.columns[i]] = json_of(row[i]);
+    for (std::size_t i = 0; i < row.size(); ++i) entry[shown(table.columns[i])] = json_of(row[i]);
     object["rows"].push_back(std::move(entry));
   }
   return object;

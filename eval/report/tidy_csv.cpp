@@ -5,7 +5,7 @@
 
 #include "eval/experiment/result_fields.hpp"
 #include "eval/report/best_threshold.hpp"
-#include "eval/report/csv.hpp"
+#include "files/csv.hpp"
 
 #include <fmt/format.h>
 

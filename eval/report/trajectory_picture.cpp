@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/report/figures_layout.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -160,7 +161,7 @@ class TrajectoryFigure {
                  : fmt::format("lw 1.5 dt {} lc rgb '{}'", t == 1 ? "1" : "(7,3)", colour(t));
       panel_.elements.push_back(fmt::format("{} using 1:2 with lines {} notitle", of, style));
       sheet_.legend.push_back(
-          fmt::format("NaN with lines {} title {}", style, quoted(trajectories_[t].name)));
+          fmt::format("NaN with lines {} title {}", style, gnuplot_quoted(trajectories_[t].name)));
     }
   }
 
@@ -183,7 +184,7 @@ class TrajectoryFigure {
     sheet_.legend.push_back(fmt::format(
         "NaN with boxes fs transparent solid 0.2 border lc rgb '{0}' lc rgb '{0}' title "
         "{1}",
-        colour(t), quoted(what)));
+        colour(t), gnuplot_quoted(what)));
   }
 
   void add_waypoints() {
@@ -210,7 +211,8 @@ class TrajectoryFigure {
 
   void mark(const std::string& of, const std::string& style, const std::string& name) {
     panel_.elements.push_back(fmt::format("{} using 1:2 with points {} notitle", of, style));
-    sheet_.legend.push_back(fmt::format("NaN with points {} title {}", style, quoted(name)));
+    sheet_.legend.push_back(
+        fmt::format("NaN with points {} title {}", style, gnuplot_quoted(name)));
   }
 
   [[nodiscard]] std::string caption() const {

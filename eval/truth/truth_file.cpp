@@ -4,15 +4,15 @@
 #include "eval/truth/truth_file.hpp"
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
+#include "files/csv.hpp"
 
 #include <array>
 #include <bit>
 #include <charconv>
-#include <fstream>
+#include <ostream>
 #include <string>
-#include <system_error>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace mapscore::eval {
@@ -32,56 +32,17 @@ std::vector<SemanticClass> classes_of(const SurfaceTruth& truth, const ClassTabl
   return classes;
 }
 
-/// A CSV field, quoted where it must be.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
 std::uint32_t samples_at(const VisibleTruth* visible, const SurfaceVoxel& voxel) {
   return visible == nullptr ? 0 : visible->samples(voxel.key, voxel.class_id);
 }
 
-/// A file under construction beside the one that it will replace: bytes go out in pieces, so that
-/// a truth of any size takes no memory for its text. Removed unless finished.
-class FileAside {
- public:
-  explicit FileAside(const std::filesystem::path& file) : file_(file), aside_(file) {
-    aside_ += ".partial";
-    out_.open(aside_, std::ios::binary | std::ios::trunc);
-  }
-  ~FileAside() {
-    std::error_code ignored;
-    if (!finished_) std::filesystem::remove(aside_, ignored);
-  }
-  FileAside(const FileAside&) = delete;
-  FileAside& operator=(const FileAside&) = delete;
-
-  /// Writes what has gathered and empties it, when there is enough of it.
-  void take(std::string& bytes, std::size_t enough = 1 << 16) {
-    if (bytes.size() < enough) return;
-    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    bytes.clear();
-  }
-
-  void finish() {
-    out_.close();
-    std::error_code failure;
-    if (out_) std::filesystem::rename(aside_, file_, failure);
-    finished_ = out_ && !failure;
-    if (finished_) return;
-    throw Error(file_.string() +
-                ": cannot be written; check that its folder exists, may be written " +
-                "to and has room");
-  }
-
- private:
-  std::filesystem::path file_, aside_;
-  std::ofstream out_;
-  bool finished_ = false;
-};
+/// Writes what has gathered and empties it when there is enough of it, so that a truth of any size
+/// takes no memory for its text.
+void take(std::ostream& out, std::string& bytes, std::size_t enough = 1 << 16) {
+  if (bytes.size() < enough) return;
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.clear();
+}
 
 void append_number(std::string& text, std::int64_t n, char end) {
   std::array<char, 24> digits{};
@@ -90,7 +51,7 @@ void append_number(std::string& text, std::int64_t n, char end) {
   text += end;
 }
 
-void write_csv(FileAside& file, const SurfaceTruth& truth, const VisibleTruth* visible,
+void write_csv(std::ostream& out, const SurfaceTruth& truth, const VisibleTruth* visible,
                const std::vector<std::string>& names) {
   std::string text = "i,j,k,class,touch_only,samples\n";
   for (const SurfaceVoxel& voxel : truth.voxels()) {
@@ -100,9 +61,9 @@ void write_csv(FileAside& file, const SurfaceTruth& truth, const VisibleTruth* v
     text += names.at(voxel.class_id);
     text += voxel.touch_only ? ",1," : ",0,";
     append_number(text, samples_at(visible, voxel), '\n');
-    file.take(text);
+    take(out, text);
   }
-  file.take(text, 0);
+  take(out, text, 0);
 }
 
 /// Appends the bytes of a number, lowest first.
@@ -117,7 +78,7 @@ void put(std::string& bytes, Number number) {
   }
 }
 
-void write_ply(FileAside& file, const SurfaceTruth& truth, const VisibleTruth* visible,
+void write_ply(std::ostream& out, const SurfaceTruth& truth, const VisibleTruth* visible,
                const std::vector<SemanticClass>& classes) {
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                       std::to_string(truth.voxels().size()) +
@@ -132,9 +93,9 @@ void write_ply(FileAside& file, const SurfaceTruth& truth, const VisibleTruth* v
     put(bytes, voxel.class_id);
     put(bytes, static_cast<std::uint8_t>(voxel.touch_only));
     put(bytes, samples_at(visible, voxel));
-    file.take(bytes);
+    take(out, bytes);
   }
-  file.take(bytes, 0);
+  take(out, bytes, 0);
 }
 
 }  // namespace
@@ -152,15 +113,15 @@ void write_truth(const std::filesystem::path& file, const SurfaceTruth& truth,
                 ": truth is written as .csv or .ply; give the file one of these endings");
   }
   const std::vector<SemanticClass> classes = classes_of(truth, table);
-  FileAside aside(file);
+  WholeFile whole(file);
   if (ending == ".csv") {
     std::vector<std::string> names;
-    for (const SemanticClass& c : classes) names.push_back(field(c.name));
-    write_csv(aside, truth, visible, names);
+    for (const SemanticClass& c : classes) names.push_back(csv_cell(c.name));
+    write_csv(whole.stream(), truth, visible, names);
   } else {
-    write_ply(aside, truth, visible, classes);
+    write_ply(whole.stream(), truth, visible, classes);
   }
-  aside.finish();
+  whole.finish();
 }
 
 }  // namespace mapscore::eval

@@ -4,6 +4,7 @@
 #include "sim/world/class_assignment.hpp"
 
 #include "core/error.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +19,14 @@ namespace {
 std::string body_name(const mjModel& model, int body) {
   const char* name = mj_id2name(&model, mjOBJ_BODY, body);
   return name ? name : "";
+}
+
+/// Of a body that becomes an object.
+std::string instance_name(const mjModel& model, int body) {
+  const std::string name = body_name(model, body);
+  if (const auto unfit = unfit_as_name(name))
+    throw Error(fmt::format("scene: the name of body {}: {} in the MJCF", body, *unfit));
+  return name;
 }
 
 std::string display_name(const mjModel& model, int body) {
@@ -161,7 +170,7 @@ Assignment assign_geoms(const mjModel& model, const Ownership& ownership,
     const auto id = static_cast<InstanceId>(table.instances.size());
     instance_of_body[owner] = id;
     table.instances.push_back(
-        {id, body_name(model, owner), class_of_rule[ownership.rule_of_body[owner]]});
+        {id, instance_name(model, owner), class_of_rule[ownership.rule_of_body[owner]]});
   }
   assignment.geom_instances.assign(model.ngeom, 0);
   for (int geom = 0; geom < model.ngeom; ++geom) {

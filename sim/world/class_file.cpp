@@ -4,6 +4,7 @@
 #include "sim/world/class_file.hpp"
 
 #include "core/error.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 #include <fnmatch.h>
@@ -66,9 +67,8 @@ class Reader {
 
   std::string name(const YAML::Node& node, const std::string& key) {
     const YAML::Node name = node["name"];
-    if (!name || !name.IsScalar() || name.Scalar().empty()) {
-      refuse(node, key + ".name", "is missing; give the class a name");
-    }
+    if (!name || !name.IsScalar()) refuse(node, key + ".name", "is missing; give the class a name");
+    if (const auto unfit = unfit_as_name(name.Scalar())) refuse(name, key + ".name", *unfit);
     if (name.Scalar() == "background") {
       refuse(name, key + ".name", "`background` is what no class claims; choose another name");
     }

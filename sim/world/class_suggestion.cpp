@@ -3,6 +3,7 @@
 
 #include "sim/world/class_suggestion.hpp"
 
+#include "files/text.hpp"
 #include "sim/world/class_file.hpp"
 
 #include <fmt/format.h>
@@ -135,15 +136,6 @@ std::vector<std::string> patterns_for(const std::vector<std::string>& names,
   return static_cast<std::size_t>(matched) == names.size() ? rule.bodies : each;
 }
 
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + '"';
-}
-
 }  // namespace
 
 std::string stem_of_body(std::string_view body) {
@@ -210,18 +202,19 @@ std::string class_file_text(const std::vector<SuggestedClass>& classes, const st
       "# Classes of {}, suggested from the names of its bodies: join, rename, set `detect`.\n"
       "# A body belongs to the class that its name matches, or else to that of the body it hangs "
       "on.\n",
-      scene);
+      shown(scene));
   if (classes.empty()) return text + "# No named body is seen.\nclasses: []\n";
   text += "classes:\n";
   for (const SuggestedClass& suggested : classes) {
     std::vector<std::string> patterns;
-    for (const std::string& pattern : suggested.patterns) patterns.push_back(quoted(pattern));
-    text += fmt::format("  # {}\n", fmt::join(suggested.bodies, ", "));
+    for (const std::string& pattern : suggested.patterns) patterns.push_back(yaml_quoted(pattern));
+    text += fmt::format("  # {}\n", shown(fmt::format("{}", fmt::join(suggested.bodies, ", "))));
     if (!suggested.parts.empty())
-      text += fmt::format("  #   with {}\n", fmt::join(suggested.parts, ", "));
+      text += fmt::format("  #   with {}\n",
+                          shown(fmt::format("{}", fmt::join(suggested.parts, ", "))));
     text +=
         fmt::format("  - {{name: {}, colour: \"{:02X}{:02X}{:02X}\", detect: {}, bodies: [{}]}}\n",
-                    quoted(suggested.name), suggested.colour.r, suggested.colour.g,
+                    yaml_quoted(suggested.name), suggested.colour.r, suggested.colour.g,
                     suggested.colour.b, suggested.detect, fmt::join(patterns, ", "));
   }
   return text;

@@ -4,6 +4,7 @@
 #include "sim/world/motion.hpp"
 
 #include "core/error.hpp"
+#include "files/text.hpp"
 #include "sim/world/content_hash.hpp"
 
 #include <fmt/format.h>
@@ -90,14 +91,8 @@ class MotionReader {
     const auto [stop, error] = std::from_chars(cell.data(), end, value);
     if (error != std::errc() || stop != end || !std::isfinite(value))
       refuse(fmt::format("'{}' is not a finite number; write radians or metres",
-                         one_line(cell.substr(0, 40))));
+                         shown(cell.substr(0, 40))));
     return value;
-  }
-
-  static std::string one_line(std::string text) {
-    std::ranges::replace_if(
-        text, [](unsigned char c) { return c < ' '; }, '?');
-    return text;
   }
 
   const std::filesystem::path& file_;

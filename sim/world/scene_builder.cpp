@@ -6,7 +6,9 @@
 #include "core/error.hpp"
 #include "sim/world/drawn_mesh.hpp"
 #include "sim/world/facets.hpp"
+#include "sim/world/mjcf_cost.hpp"
 #include "sim/world/robot_cameras.hpp"
+#include "sim/world/trial_process.hpp"
 
 #include <fmt/format.h>
 
@@ -41,8 +43,22 @@ std::string facets_name(const Shape& shape) {
 }  // namespace
 
 SceneBuilder::SceneBuilder(const std::filesystem::path& scene, const std::filesystem::path& robot)
-    : scene_(scene), robot_(robot), spec_(parse(scene, "scene")) {
-  if (robot.empty()) return;
+    : scene_(scene) {
+  const auto build = [&] {
+    spec_ = parse(scene, "scene");
+    if (!robot.empty()) attach(robot);
+  };
+  if (may_cost_much(scene) || may_cost_much(robot)) {
+    try_apart(scene, [&] {
+      build();
+      const ModelPtr model = compile();
+      const DataPtr data(mj_makeData(model.get()));
+    });
+  }
+  build();
+}
+
+void SceneBuilder::attach(const std::filesystem::path& robot) {
   robot_spec_ = parse(robot, "robot");
   mjsBody* base = mjs_findBody(robot_spec_.get(), "base_footprint");
   if (!base) {
@@ -51,7 +67,7 @@ SceneBuilder::SceneBuilder(const std::filesystem::path& scene, const std::filesy
   }
   mjsFrame* frame = mjs_addFrame(mjs_findBody(spec_.get(), "world"), nullptr);
   if (!mjs_attach(frame->element, base->element, kRobotPrefix, "")) {
-    throw Error(fmt::format("{}: cannot be attached to {}: {}", robot.string(), scene.string(),
+    throw Error(fmt::format("{}: cannot be attached to {}: {}", robot.string(), scene_.string(),
                             one_line(mjs_getError(spec_.get()))));
   }
 }

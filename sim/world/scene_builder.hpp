@@ -17,7 +17,8 @@ namespace mapscore::sim {
 /// the robot: the scene by itself.
 class SceneBuilder {
  public:
-  /// Throws Error when a file is missing or MuJoCo refuses it.
+  /// Files that may cost MuJoCo much are first parsed and compiled in a process of their own.
+  /// Throws Error when a file is missing, or MuJoCo refuses it or dies of it.
   SceneBuilder(const std::filesystem::path& scene, const std::filesystem::path& robot);
 
   /// Throws Error with MuJoCo's reason.
@@ -28,7 +29,9 @@ class SceneBuilder {
   void add_facets(const std::vector<Shape>& shapes);
 
  private:
-  std::filesystem::path scene_, robot_;
+  void attach(const std::filesystem::path& robot);
+
+  std::filesystem::path scene_;
   SpecPtr spec_, robot_spec_;  ///< the latter is null where there is no robot
 };
 

@@ -88,7 +88,9 @@ SceneInventory take_inventory(const std::filesystem::path& scene) {
   SceneInventory inventory;
   inventory.bodies = bodies_of(*model, ownership);
   count_unseen(*model, ownership, visible_scene(*model, *data), inventory.unseen);
-  for (const mjvGeom& geom : solid_scene(*model, *data, ownership, no_robot).geoms) {
+  const DrawnScene solid = solid_scene(*model, *data, ownership, no_robot);
+  refuse_countless_triangles(*model, solid, scene.string());
+  for (const mjvGeom& geom : solid.geoms) {
     BodyEntry& body = inventory.bodies[model->geom_bodyid[geom.objid]];
     ++body.drawn_geoms;
     if (!infinite(*model, geom.objid))

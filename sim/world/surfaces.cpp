@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+
 namespace mapscore::sim {
 namespace {
 
@@ -110,7 +112,29 @@ ShapeKind kind_of(const mjModel& model, int geom, const std::string& scene_file)
                   scene_file, geom, model.geom_type[geom]));
 }
 
+/// 72 bytes each.
+constexpr std::int64_t kMostTriangles = 20'000'000;
+
+std::int64_t triangle_count(const mjModel& model, int geom) {
+  const int asset = model.geom_dataid[geom], type = model.geom_type[geom];
+  if (asset < 0) return 0;
+  if (type == mjGEOM_HFIELD)
+    return std::int64_t{2} * model.hfield_nrow[asset] * model.hfield_ncol[asset];
+  return type == mjGEOM_MESH || type == mjGEOM_SDF ? model.mesh_facenum[asset] : 0;
+}
+
 }  // namespace
+
+void refuse_countless_triangles(const mjModel& model, const DrawnScene& drawn,
+                                const std::string& scene_file) {
+  std::int64_t count = 0;
+  for (const mjvGeom& geom : drawn.geoms) count += triangle_count(model, geom.objid);
+  if (count > kMostTriangles)
+    throw Error(
+        fmt::format("{}: its meshes and height fields have {} triangles, {} can be kept; "
+                    "take coarser ones, or move some to group 3",
+                    scene_file, count, kMostTriangles));
+}
 
 Shape surface_of(const mjModel& model, const mjData& data, int geom,
                  const std::string& scene_file) {

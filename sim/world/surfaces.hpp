@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/geometry/shape.hpp"
+#include "sim/world/drawn_scene.hpp"
 
 #include <mujoco/mujoco.h>
 
@@ -16,5 +17,10 @@ namespace mapscore::sim {
 /// Error naming `scene_file` and the geom when it is of a kind that Shape cannot hold.
 [[nodiscard]] Shape surface_of(const mjModel& model, const mjData& data, int geom,
                                const std::string& scene_file);
+
+/// Throws Error naming `scene_file` when the meshes and height fields of `drawn` have so many
+/// triangles in all that their surfaces would fill the memory.
+void refuse_countless_triangles(const mjModel& model, const DrawnScene& drawn,
+                                const std::string& scene_file);
 
 }  // namespace mapscore::sim

@@ -93,6 +93,16 @@ int address_of(const CompiledScene& scene, const std::string& joint, const std::
                           names.empty() ? "none" : names));
 }
 
+/// OpenGL would keep that many slices of every built-in shape.
+void refuse_countless_slices(const mjModel& model, const std::string& scene_file) {
+  constexpr int kMost = 512;
+  const auto& quality = model.vis.quality;
+  if (std::max({quality.numslices, quality.numstacks, quality.numquads}) > kMost)
+    throw Error(fmt::format(
+        "{}: numslices, numstacks or numquads of its <quality> exceeds {}; lower it there",
+        scene_file, kMost));
+}
+
 /// What renderers need of the model: one sample a pixel, so that nothing blends, room for images,
 /// and shadow maps of a size that software rendering can pay for (MuJoCo's default is 4096).
 void set_quality(mjModel& model, const CameraOverrides& cameras) {
@@ -119,10 +129,13 @@ World World::load(const WorldFiles& files, const CameraOverrides& cameras) {
   if (base >= 0)
     compiled->calibration =
         read_calibration(*plain.model, *plain.data, base, cameras, files.robot.string());
+  refuse_countless_slices(*plain.model, files.scene.string());
   compiled->robot_body = bodies_under(*plain.model, base);
   compiled->ownership = assign_bodies(*plain.model, class_file, compiled->robot_body);
-  const std::vector<int> geoms =
-      ids_of(solid_scene(*plain.model, *plain.data, compiled->ownership, compiled->robot_body));
+  const DrawnScene solid =
+      solid_scene(*plain.model, *plain.data, compiled->ownership, compiled->robot_body);
+  refuse_countless_triangles(*plain.model, solid, files.scene.string());
+  const std::vector<int> geoms = ids_of(solid);
   compiled->assignment =
       assign_geoms(*plain.model, compiled->ownership, geoms, class_file.has_value());
   compiled->hash = content_hash(*plain.model, files.scene, class_file, files.robot);

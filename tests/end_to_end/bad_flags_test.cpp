@@ -56,6 +56,23 @@ TEST_F(BadFlags, FilesThatAreNotThere) {
                  {"no.csv", "check that the file is there"});
 }
 
+/// Voxels of 0.1 mm: hundreds of millions even here.
+TEST_F(BadFlags, WithoutYesNoTruthThatFillsTheMachine) {
+  const std::vector<std::string> parts{"truth at 0.0001 m: about", "GB", "add --yes", "larger"};
+  const std::vector<std::string> fine{"--voxel_m", "0.0001", "--epsilon_m", "0"};
+  const std::vector<std::string> study_of_fine{"-o", results(), "--set", "voxel_m=0.0001"};
+  const auto with = [](std::vector<std::string> command, const std::vector<std::string>& more) {
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+  };
+  expect_refused(mapscore(with({"truth", path("tiny"), "-o", path("t.csv")}, fine)), parts);
+  expect_refused(mapscore(with({"sweep", study()}, study_of_fine)), parts);
+  expect_refused(mapscore(with({"run", study()}, study_of_fine)), parts);
+  expect_refused(mapscore(with({"frames", study(), "--set", "score.unit=frame"}, study_of_fine)),
+                 parts);
+  expect_done(mapscore({"truth", path("tiny"), "-o", path("t.csv"), "--yes"}));
+}
+
 TEST_F(BadFlags, LeaveNothingBehind) {
   const auto before = contents_of(folder());
   (void)mapscore({"sweep", study(), "-o", results(), "--set", "voxel_m=-1"});

@@ -50,7 +50,7 @@ TEST_F(BadOutput, AFullDiskForFilesKeepsTheOldOnes) {
   const auto before = contents_of(folder());
   const Surroundings full{.file_size_limit = 500, .standard_output = {}};
   expect_refused(mapscore({"truth", path("tiny"), "-o", path("truth.csv")}, full),
-                 {"truth.csv", "has room"});
+                 {"truth.csv", "has free space"});
   expect_refused(
       mapscore({"check", results(), "--baseline", path("baseline.csv"), "--write"}, full),
       {"baseline.csv", "free space"});

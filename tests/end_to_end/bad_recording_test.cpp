@@ -25,7 +25,8 @@ TEST_F(BadRecording, WithATruncatedImage) {
   const std::string image = path("tiny/depth/000002.png");
   const std::string whole = bytes_of(image);
   write_text(image, whole.substr(0, whole.size() / 2));
-  expect_refused(sweep(), {"depth/000002.png", "cut off", "make the recording again"});
+  expect_refused(sweep(), {"depth/000002.png", "is not the image of this recording",
+                           "copy the recording anew"});
   expect_no_results();
   write_text(image, whole);
   expect_done(sweep());

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <variant>
@@ -88,6 +89,14 @@ TEST(Trials, HoldEachMethodCellAndSeedOnce) {
     EXPECT_EQ(all[i].cell, cells(study)[static_cast<std::size_t>(all[i].cell.index)]);
   }
   EXPECT_EQ(distinct.size(), all.size());
+}
+
+TEST(Trials, ComeInTurnAsTheyAreCounted) {
+  const auto all = trials(two_axes());
+  std::size_t position = 0;
+  for (const TrialSpec& spec : all) EXPECT_EQ(spec, all[position++]);
+  EXPECT_EQ(position, all.size());
+  EXPECT_THROW((void)all.at(position), std::out_of_range);
 }
 
 TEST(Trials, VaryMethodsFastestThenSeeds) {

@@ -147,7 +147,7 @@ TEST_F(MovingRecording, LatticeCeilingByFrameIsNextToOne) {
   FrameCache frames(recording, {.depth = true, .depth_label = true}, 1 << 24);
   TruthCache truths(recording, recording.info().table, frames, 1);
   const Task task =
-      task_of(by_frame, trials(by_frame).front(), Labels::truth, recording.content_hash());
+      task_of(by_frame, trials(by_frame).at(0), Labels::truth, recording.content_hash());
   PoseSources poses(recording);
   TrialRun run(task, recording, recording.info().table, truths, poses);
   for (int frame = 0; frame < recording.frame_count(); ++frame) run.advance(*frames.get(frame));

@@ -24,7 +24,7 @@ class TinyObjects : public testing::TinyExperiment {
     options.map.visibility.min_pixels = 30;  // of 64 x 48
     const Study study = study_of(lines + "map_origin_m: [0, 0, 0]\n");
     const Plan planned = plan(study);
-    const Task& task = planned.tasks[planned.trials.back().task];  // last method
+    const Task task = planned.tasks[planned.trials[planned.trials.size() - 1].task];  // last method
     PoseSources poses(recording());
     ObjectRun run(task, recording(), table(), poses, options);
     run.start_from(known);

@@ -256,10 +256,25 @@ TEST_F(PoseSourcesTest, DecideTheKeyOfATrial) {
   EXPECT_NE(key(given), before);
 }
 
+TEST_F(PoseSourcesTest, KeepTheLastSeedsAlone) {
+  const auto seeds = static_cast<int>(PoseSources::kHeld) + 7;
+  const Plan plan =
+      plan_of(study_of(source("odometry") + fmt::format("seeds: {}\n", seeds)), "recording");
+  PoseSources sources(recording());
+  const auto end = [&](std::size_t trial) {
+    const Task task = plan.tasks[plan.trials[trial].task];
+    return sources.beliefs(task, {0, 1, 2, 3}).back().T_odom_base.matrix();
+  };
+  const Eigen::Matrix4d first = end(0);
+  for (std::size_t trial = 1; trial < plan.trials.size(); ++trial) (void)end(trial);
+  EXPECT_EQ(sources.held(), PoseSources::kHeld);
+  EXPECT_EQ(end(0), first);
+}
+
 /// The registration ceiling has no fault, so its pose is the true one.
 TEST_F(PoseSourcesTest, AreTrueInCeilings) {
   const Plan plan = plan_of(study_of(source("particle_filter")), "recording");
-  const PlannedTrial& trial = plan.trials.at(0);
+  const PlannedTrial trial = plan.trials.at(0);
   EXPECT_EQ(plan.tasks.at(trial.registration_ceiling).key, task(kMap).key);
   EXPECT_EQ(plan.tasks.at(trial.lattice_ceiling).config.localization, LocalizationSettings{});
 }

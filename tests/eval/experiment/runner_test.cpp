@@ -10,6 +10,7 @@
 #include <atomic>
 #include <fstream>
 #include <map>
+#include <new>
 #include <stdexcept>
 
 namespace mapscore::eval {
@@ -33,8 +34,9 @@ class Runner : public testing::TinyExperiment {
   }
   [[nodiscard]] static Results results_of(const Plan& plan, const ResultStore& store) {
     Results results;
-    for (const Task& task : plan.tasks)
-      if (const auto found = store.find(task.key)) results[task.key] = to_json(*found);
+    for (std::size_t n = 0; n < plan.tasks.size(); ++n)
+      if (const auto found = store.find(plan.tasks.key(n)))
+        results[plan.tasks.key(n)] = to_json(*found);
     return results;
   }
   /// All results of the plan, from a store of its own.
@@ -60,6 +62,19 @@ TEST_F(Runner, ResultsDoNotDependOnJobs) {
   const Results results = run(plan, one_job(), "one");
   EXPECT_EQ(results.size(), plan.tasks.size());
   EXPECT_EQ(run(plan, three, "three"), results);
+}
+
+TEST_F(Runner, ResultsOfAllKindsOfTrialsDoNotDependOnJobs) {
+  const Plan all =
+      plan(testing::study_of("  grown: {segmentation: {region_growing: {}}, fusion: {bayes: {}}}\n"
+                             "  aligned: {segmentation: {edge_aligned: {}}}\n"
+                             "  refined: {segmentation: {direct: {}}, refinement: {crf: {}}}\n"
+                             "fusion: {blend: {N: 3, decay: view}}\n"
+                             "occupancy: {carve: true}\n"
+                             "seeds: 2\n"));
+  RunnerOptions four = one_job();
+  four.jobs = 4;
+  EXPECT_EQ(run(all, four, "four"), run(all, one_job(), "one"));
 }
 
 TEST_F(Runner, ResultsDoNotDependOnBlocksOfFrames) {
@@ -92,12 +107,12 @@ TEST_F(Runner, WhatTheStoreHoldsIsNotComputedAgain) {
   const Plan plan = plan_with_pose_noise();
   ResultStore results = store();
   TrialResult mark;
-  mark.accounting.points = -1;
+  mark.accounting.points = 123456789;
   results.add(plan.tasks[1].key, "", mark);
   const RunnerOutcome outcome = run_plan(plan, recording(), table(), results, one_job());
   EXPECT_EQ(outcome.computed, plan.tasks.size() - 1);
   EXPECT_EQ(outcome.reused, 1u);
-  EXPECT_EQ(results.find(plan.tasks[1].key)->accounting.points, -1);
+  EXPECT_EQ(results.find(plan.tasks[1].key)->accounting.points, 123456789);
   EXPECT_EQ(run_plan(plan, recording(), table(), results, one_job()).computed, 0u);
 }
 
@@ -132,6 +147,15 @@ TEST_F(Runner, AnExceptionOfAWorkerIsRethrownAndWhatWasDoneStays) {
   EXPECT_LT(done, plan.tasks.size());
   const RunnerOutcome rest = run_plan(plan, recording(), table(), results, one_job());
   EXPECT_EQ(rest.computed, plan.tasks.size() - done);
+}
+
+TEST_F(Runner, OutOfMemoryInATrialSaysWhatHelps) {
+  ResultStore results = store();
+  RunnerOptions options = one_job();
+  options.progress = [](std::int64_t, std::int64_t) { throw std::bad_alloc(); };
+  mapscore::testing::expect_error("out of memory in a trial; use fewer --jobs", [&] {
+    run_plan(plan_with_pose_noise(), recording(), table(), results, options);
+  });
 }
 
 TEST_F(Runner, ABrokenImageIsAnErrorThatNamesIt) {

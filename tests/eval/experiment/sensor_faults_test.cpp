@@ -114,7 +114,7 @@ TEST_F(SensorFaults, ConfusedClassesComeIntoTheMap) {
 TEST_F(SensorFaults, CeilingsKnowNothingOfThem) {
   const Study study = with_faults("depth: {preset: astra}, labels: {preset: typical}");
   const Plan noisy = plan(study), plain = plan(study_of(""));
-  const PlannedTrial& trial = noisy.trials.at(0);
+  const PlannedTrial trial = noisy.trials.at(0);
   EXPECT_NE(noisy.tasks[trial.task].key, plain.tasks[plain.trials.at(0).task].key);
   EXPECT_EQ(noisy.tasks[trial.registration_ceiling].key,
             plain.tasks[plain.trials.at(0).registration_ceiling].key);

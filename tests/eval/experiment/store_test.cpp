@@ -3,13 +3,21 @@
 
 #include "eval/experiment/store.hpp"
 
+#include "core/error.hpp"
 #include "eval/experiment/result_json.hpp"
+#include "eval/experiment/store_trouble.hpp"
 #include "tests/eval/recording/expect_error.hpp"
 #include "tests/support/tiny_recording.hpp"
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <iterator>
 
@@ -47,6 +55,87 @@ TrialResult result_of(std::int64_t number) {
     *count = next();
   return result;
 }
+
+void run_sql(const std::filesystem::path& file, const std::string& sql) {
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sql;
+  sqlite3_close(database);
+}
+
+void put(std::string& bytes, std::size_t at, std::uint32_t number, int width) {
+  for (int n = 0; n < width; ++n)
+    bytes[at + n] = static_cast<char>(number >> (8 * (width - 1 - n)));
+}
+
+/// A page of the index of `trials`, by SQLite's file format: 50 times the same row, each above the
+/// same child, or one row where there is no child.
+std::string index_page(std::uint32_t child) {
+  constexpr std::size_t kPage = 512;
+  const int rows = child > 0 ? 50 : 1;
+  const std::string row{5, 3, 15, 1, 'k', 1};  // length, then a record: 'k', rowid 1
+  std::string page(kPage - row.size(), '\0');
+  page += row;
+  std::size_t at = page.size() - row.size();
+  page[0] = child > 0 ? 2 : 10;
+  if (child > 0) put(page, at -= 4, child, 4);
+  put(page, 3, static_cast<std::uint32_t>(rows), 2);
+  put(page, 5, static_cast<std::uint32_t>(at), 2);
+  if (child > 0) put(page, 8, child, 4);
+  for (std::size_t n = 0; n < static_cast<std::size_t>(rows); ++n)
+    put(page, (child > 0 ? 12 : 8) + 2 * n, static_cast<std::uint32_t>(at), 2);
+  return page;
+}
+
+/// A store of 10 kB whose index has 50^15 rows: each of 15 pages names the next one 50 times.
+void write_endless_store(const std::filesystem::path& file) {
+  run_sql(file, "PRAGMA page_size = 512; VACUUM");
+  ResultStore::open(file).set_text("study", "text");
+  std::string bytes = bytes_of(file);
+  const std::size_t pages = bytes.size() / 512;
+  const std::size_t root = 5;  // schema, texts, its index, trials, its index
+  bytes.replace((root - 1) * 512, 512, index_page(static_cast<std::uint32_t>(pages + 1)));
+  for (std::size_t page = pages + 1; page < pages + 15; ++page)
+    bytes += index_page(static_cast<std::uint32_t>(page + 1));
+  bytes += index_page(0);
+  put(bytes, 28, static_cast<std::uint32_t>(bytes.size() / 512), 4);
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+/// Another process that holds a lock of SQLite's on a file until the destructor.
+class OtherProcess {
+ public:
+  explicit OtherProcess(const std::filesystem::path& file) {
+    int ready[2];
+    if (pipe(ready) != 0) return;
+    id_ = fork();
+    if (id_ == 0) {
+      struct flock lock {};
+      lock.l_type = F_WRLCK;
+      lock.l_start = 0x40000001;
+      lock.l_len = 1;
+      const int descriptor = ::open(file.c_str(), O_RDWR);
+      const char answer = fcntl(descriptor, F_SETLK, &lock) == 0 ? 'y' : 'n';
+      if (write(ready[1], &answer, 1) == 1) pause();
+      _exit(0);
+    }
+    char answer = 'n';
+    EXPECT_EQ(read(ready[0], &answer, 1), 1);
+    EXPECT_EQ(answer, 'y');
+    close(ready[0]);
+    close(ready[1]);
+  }
+  ~OtherProcess() {
+    kill(id_, SIGKILL);
+    waitpid(id_, nullptr, 0);
+  }
+  OtherProcess(const OtherProcess&) = delete;
+  OtherProcess& operator=(const OtherProcess&) = delete;
+  [[nodiscard]] pid_t id() const { return id_; }
+
+ private:
+  pid_t id_ = -1;
+};
 
 class Store : public ::testing::Test {
  protected:
@@ -144,6 +233,107 @@ TEST_F(Store, RefusesAFolderThatCanNotBe) {
   std::ofstream(file("in_the_way")) << "";
   expect_error("cannot be written",
                [&] { (void)ResultStore::open(file("in_the_way") / "a.sqlite"); });
+}
+
+TEST_F(Store, RefusesEverySchemaButItsOwn) {
+  for (const char* made :
+       {"TRIGGER t AFTER INSERT ON trials BEGIN DELETE FROM trials; END", "VIEW v AS SELECT 1",
+        "TABLE t (x)", "INDEX i ON trials (result)", "VIRTUAL TABLE t USING fts5(x)"}) {
+    std::filesystem::remove(file("a.sqlite"));
+    (void)ResultStore::open(file("a.sqlite"));
+    run_sql(file("a.sqlite"), std::string("CREATE ") + made);
+    const std::string what = "which mapscore does not make; sweep again into another folder";
+    expect_error(what, [&] { (void)ResultStore::open(file("a.sqlite")); });
+    expect_error(what, [&] { (void)ResultStore::open_existing(file("a.sqlite")); });
+  }
+}
+
+TEST_F(Store, RefusesTablesOfItsNamesThatAreOthers) {
+  run_sql(file("a.sqlite"), "CREATE TABLE texts (name TEXT, value TEXT AS (upper(name)))");
+  expect_error("holds the table 'texts'", [&] { (void)ResultStore::open(file("a.sqlite")); });
+  std::filesystem::remove(file("a.sqlite"));
+  run_sql(file("a.sqlite"),
+          "CREATE VIEW texts AS WITH RECURSIVE n(name, value) AS "
+          "(VALUES(1, 1) UNION ALL SELECT name + 1, 1 FROM n) SELECT * FROM n");
+  expect_error("holds the view 'texts'",
+               [&] { (void)ResultStore::open_existing(file("a.sqlite")); });
+}
+
+TEST_F(Store, EndsWherePagesNameOneAnotherWithoutEnd) {
+  write_endless_store(file("a.sqlite"));
+  const ResultStore endless = ResultStore::open_existing(file("a.sqlite"));
+  expect_error("endless steps", [&] { (void)endless.keys(); });
+  ResultStore store = ResultStore::open(file("b.sqlite"));
+  EXPECT_THROW(store.merge(endless), Error);
+}
+
+TEST_F(Store, RefusesAJournalThatNamesAFileToDelete) {
+  (void)ResultStore::open(file("a.sqlite"));
+  std::ofstream(file("a.sqlite-journal"), std::ios::binary) << "path of a file"
+                                                            << "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
+  std::filesystem::create_symlink(file("a.sqlite"), file("link.sqlite"));
+  for (const char* name : {"a.sqlite", "link.sqlite"}) {
+    expect_error("names a file to delete", [&] { (void)ResultStore::open(file(name)); });
+    expect_error("names a file to delete", [&] { (void)ResultStore::open_existing(file(name)); });
+  }
+}
+
+TEST_F(Store, MergeTakesNothingThatCanNotBeRead) {
+  ResultStore a = ResultStore::open(file("a.sqlite"));
+  {
+    ResultStore b = ResultStore::open(file("b.sqlite"));
+    b.add("bad", "", result_of(1));
+    b.add("good", "", result_of(2));
+  }
+  run_sql(file("b.sqlite"), "UPDATE trials SET result = '{}' WHERE key = 'bad'");
+  const ResultStore b = ResultStore::open_existing(file("b.sqlite"));
+  expect_error("b.sqlite: stored result: not readable", [&] { (void)a.merge(b); });
+}
+
+TEST_F(Store, ARemovedFolderIsCalledRemoved) {
+  const auto folder = file("results");
+  ResultStore store = ResultStore::open(folder / "a.sqlite");
+  std::filesystem::remove_all(folder);
+  expect_error("its folder was removed or replaced while in use",
+               [&] { store.add("key", "", result_of(1)); });
+}
+
+TEST_F(Store, ALockNamesItsHolder) {
+  const ResultStore store = ResultStore::open(file("a.sqlite"));
+  EXPECT_EQ(lock_holder(file("a.sqlite")), "");
+  EXPECT_EQ(lock_holder(file("none.sqlite")), "");
+  EXPECT_NE(store_trouble(SQLITE_BUSY, "", file("a.sqlite")).find("locked by another process"),
+            std::string::npos);
+  const OtherProcess holder(file("a.sqlite"));
+  const std::string named = lock_holder(file("a.sqlite"));
+  EXPECT_NE(named.find("(process " + std::to_string(holder.id()) + ")"), std::string::npos)
+      << named;
+  EXPECT_NE(store_trouble(SQLITE_BUSY, "", file("a.sqlite")).find("locked by " + named),
+            std::string::npos);
+}
+
+TEST(ResultJson, RefusesWhatIsNoCount) {
+  TrialResult result = result_of(10);
+  result.counts[0].instances = InstanceCounts{1, 2, 3, 4, 5, {{900, 6, {}}}};
+  const std::string good = to_json(result);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string bad = good;
+    EXPECT_NE(bad.find(from), std::string::npos) << from << " in " << good;
+    return bad.replace(bad.find(from), from.size(), to);
+  };
+  for (const char* key : {"predicted", "frames", "unreached", "sum_nm", "squared_error_billionth",
+                          "boxes_unseen", "instances_void"})
+    for (const char* value : {"-1", "1.5", "1e300", "18446744073709551615", "1000000000000000001",
+                              "null", "\"7\"", "true"}) {
+      const std::string name = fmt::format("\"{}\":", key);
+      expect_error("is no count; delete the store and sweep again",
+                   [&] { (void)result_from_json(with(name, name + value + ",\"x\":")); });
+    }
+  for (const char* list : {"bins", "within"}) {
+    const std::string name = fmt::format("\"{}\":[", list);
+    expect_error("-1 is no count", [&] { (void)result_from_json(with(name, name + "-1,")); });
+  }
+  expect_error("is no thousandth", [&] { (void)result_from_json(with("[[900,", "[[1001,")); });
 }
 
 TEST(ResultJson, RefusesWhatIsNotAResult) {

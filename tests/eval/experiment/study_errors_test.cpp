@@ -239,6 +239,13 @@ TEST(BadFlag, IsBlamedForWhatItBreaks) {
             "a lesser number");
 }
 
+TEST(BadFlag, ForImagesOfMoreThan16MillionPixels) {
+  const std::string line = refusal(kSound, {"cameras.width_px=8192", "cameras.height_px=8192"});
+  EXPECT_NE(line.find("cameras.width_px: 8192 x 8192 pixels are more than 16777216"),
+            std::string::npos)
+      << line;
+}
+
 TEST(BadFlag, ThatTheSweepWouldOverrule) {
   EXPECT_EQ(refusal(std::string(kSound) + "sweep: {voxel_m: [1, 2]}\n", {"voxel_m=3"}),
             "flag voxel_m=3: voxel_m: is swept; set sweep.voxel_m=[...] instead");

@@ -45,6 +45,21 @@ TEST(StudyStore, RefusesAStoreWithoutAStudy) {
   expect_error("class table not readable", [&] { (void)read_study(store, folder.path()); });
 }
 
+TEST(StudyStore, RefusesAClassTableWhoseIdsAreNoPlaces) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::open(folder.path() / "results.sqlite");
+  const ClassTable table = mapscore::testing::tiny_info().table;
+  write_study(store, {study_of(""), table, "hash", "recordings/tiny"}, folder.path());
+  const std::string good = store.text("classes");
+  for (const auto& [from, to] :
+       {std::pair{"\"id\":1,", "\"id\":65535,"}, {"\"class\":1", "\"class\":9"}}) {
+    std::string bad = good;
+    ASSERT_NE(bad.find(from), std::string::npos) << good;
+    store.set_text("classes", bad.replace(bad.find(from), std::string(from).size(), to));
+    expect_error("result store: ", [&] { (void)read_study(store, folder.path()); });
+  }
+}
+
 TEST(StudyStore, DetectedSetIsTheClassFilesOrTheStudys) {
   const ClassTable table = mapscore::testing::tiny_info().table;  // crate is detected, wall is not
   const auto detected = [&](const std::string& lines) {

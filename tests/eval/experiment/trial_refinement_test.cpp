@@ -35,7 +35,8 @@ class RefinedTrial : public testing::TinyExperiment {
                       std::size_t{1} << 24);
     TruthCache truths(recording(), detected, frames, 1);
     PoseSources poses(recording());
-    TrialRun run(planned.tasks.at(0), recording(), detected, truths, poses);
+    const Task task = planned.tasks.at(0);
+    TrialRun run(task, recording(), detected, truths, poses);
     for (int index = 0; index < recording().frame_count(); ++index) run.advance(*frames.get(index));
     TrialResult result = run.finish();
     run.map().save(folder() / "map.ot");

@@ -276,7 +276,7 @@ TEST_F(TinyTrial, EveryFaultChangesTheCounts) {
 
 TEST_F(TinyTrial, LatticeCeilingIsPerfectOnFlatSurfaces) {
   const Plan whole = plan(study_of("seeds: 3\n"));
-  for (const PlannedTrial& trial : whole.trials) {
+  for (const PlannedTrial trial : whole.trials) {
     const ClassCounts crate =
         result_of(whole.tasks[trial.lattice_ceiling], recording(), table()).counts.at(1);
     EXPECT_GE(static_cast<double>(crate.true_predicted),

@@ -73,6 +73,12 @@ TEST_F(BelievedFile, ComesBack) {
             back.entries[2].belief.covariance);
 }
 
+TEST_F(BelievedFile, MoreThanHalfAMillionPosesAreRefused) {
+  std::string text;
+  for (int n = 0; n <= 500'000; ++n) text += std::to_string(n) + " 0 0 0 0 0 0 1\n";
+  EXPECT_THAT(refusal(text), HasSubstr(":500001: more than 500000 poses; leave some out"));
+}
+
 TEST_F(BelievedFile, TrajectoryOfEightColumnsIsBelievedExactly) {
   const BelievedTrajectory back = read("# x\n0 1 2 0 0 0 0 1\n\n1 3 2 0 0 0 0 1\n");
   const PoseBelief middle = back.at(0.25);

@@ -33,6 +33,11 @@ TEST_F(LegendFile, AllSections) {
   EXPECT_EQ(legend.names, (std::map<std::string, ClassId>{{"Stuhl", 2}, {"a: b", 1}}));
 }
 
+TEST_F(LegendFile, ManyValuesAreRefusedBeforeParsing) {
+  expect_refusal("ids: [" + std::string(1 << 19, ',') + "]\n",
+                 "legend.yaml: more than 524288 values; is it the right file?");
+}
+
 TEST_F(LegendFile, BadLegends) {
   expect_refusal("", "legend.yaml:1: expected the sections colours, ids or names");
   expect_refusal("[cup]", "legend.yaml:1: expected the sections");

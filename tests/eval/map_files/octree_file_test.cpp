@@ -277,6 +277,12 @@ TEST_F(OctreeFile, RefusesLeavesThatCoverTooMuch) {
                  "cover 35184372088832 voxels, at most 50000000");
 }
 
+TEST_F(OctreeFile, RefusesMoreVoxelsThanItsBytesAreWorth) {
+  EXPECT_EQ(read_octree(file("room.ot", header("OcTree", 10) + chain(10))).voxels.size(),
+            std::size_t{1 << 21});
+  expect_refusal(header("OcTree", 9) + chain(9), "cover 16777216 voxels, more than 128 a byte");
+}
+
 TEST_F(OctreeFile, RefusesDamagedNodes) {
   expect_refusal(header("OcTree", 17) + chain(17, kInfinite), "node 1 has odds of inf");
   expect_refusal(header("OcTree", 17) + chain(17, -kInfinite), "node 1 has odds of -inf");

@@ -161,9 +161,25 @@ TEST_F(PcdFile, BadCompressedBodies) {
   std::string bomb = xyz(300'000'000, "binary_compressed");
   put(bomb, std::uint32_t{4});
   put(bomb, std::uint32_t{3'600'000'000});
-  expect_refusal(bomb + "abcd", "4 compressed bytes cannot hold 3600000000");
+  expect_refusal(bomb + "abcd",
+                 "4 compressed bytes would unpack to 3600000000, more than 10 times");
   expect_refusal(xyz(400'000'000, "binary_compressed") + "12345678",
                  "400000000 points do not fit into one compressed body");
+}
+
+TEST_F(PcdFile, BodiesThatUnpackToMuchMoreThanCloudsDoAreRefused) {
+  constexpr int kRoom = (1 << 24) / 12;  // the most that may be all the same
+  const auto equal_points = [](int points) {
+    return compressed(xyz(points, "binary_compressed"), std::string(12 * std::size_t(points), 1));
+  };
+  EXPECT_EQ(read(equal_points(kRoom)).points.size(), std::size_t{kRoom});
+  expect_refusal(equal_points(kRoom + 1), "more than 10 times as many; is the file damaged?");
+}
+
+TEST_F(PcdFile, FieldsBeyondAThousandAreRefused) {
+  std::string names;
+  for (int n = 0; n < 1025; ++n) names += fmt::format(" f{}", n);
+  expect_refusal("VERSION 0.7\nFIELDS" + names + "\n", "map.pcd:2: FIELDS has more than 1024");
 }
 
 TEST_F(PcdFile, AsciiWithArraysAndColoursAsFloats) {

@@ -3,6 +3,7 @@
 
 #include "eval/map_files/ply_file.hpp"
 
+#include "eval/map_files/text_rows.hpp"
 #include "eval/truth/truth_file.hpp"
 #include "tests/eval/map_files/cloud_bytes.hpp"
 #include "tests/eval/recording/expect_error.hpp"
@@ -212,6 +213,24 @@ TEST_F(PlyFile, CountsBeyondTheFileAreRefusedBeforeAnythingIsHeld) {
                       "0 0 0 0 0 0 0 0\n",
                       format, element, kXyz, element[0] == 'f' ? "element vertex 0\n" + kXyz : ""),
           "truncated: the header announces 1000000000000");
+}
+
+TEST_F(PlyFile, HeadersOfManyEntriesAreRefused) {
+  for (const std::string entry : {"element e{} 0\n", "property char p{}\n"}) {
+    std::string entries;
+    for (int n = 0; n < 1024; ++n) entries += fmt::format(fmt::runtime(entry), n);
+    expect_refusal("ply\nformat ascii 1.0\nelement vertex 1\n" + entries + "end_header\n",
+                   "map.ply:1027: more than 1024 elements and properties");
+  }
+}
+
+TEST_F(PlyFile, WordsOfALineAreCutToABound) {
+  std::string text;
+  for (std::size_t n = 0; n < kMostWords + 10; ++n) text += "1 ";
+  TextLines lines(text);
+  std::vector<std::string_view> words;
+  ASSERT_TRUE(lines.next_words(words));
+  EXPECT_EQ(words.size(), kMostWords + 1);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "eval/map_files/voxel_csv.hpp"
 
 #include "eval/truth/truth_file.hpp"
+#include "files/csv.hpp"
 #include "tests/eval/map_files/cloud_bytes.hpp"
 #include "tests/eval/recording/expect_error.hpp"
 
@@ -122,6 +123,22 @@ TEST_F(VoxelCsv, BadRows) {
   expect_refusal("0,0,0,cup,1.5\n", "map.csv:1: probability 1.5 is not in [0, 1]");
   expect_refusal("0,0,0,cup,1,-2\n", "map.csv:1: instance '-2' is no whole number from 0 up");
   expect_refusal("x,y,z\n0,0,a\n", "map.csv:2: z 'a' is no number");
+}
+
+TEST_F(VoxelCsv, LinesOfManyCellsAreRefusedBeforeAllAreHeld) {
+  const std::string commas(1000, ',');
+  EXPECT_EQ(csv_cells(commas, 3)->size(), 4u);
+  EXPECT_EQ(csv_cells(",,", 3)->size(), 3u);
+  const std::string what = "more than 11 cells; the columns of a map are i, j, k, x,";
+  expect_refusal("i,j,k" + commas + "\n", "map.csv:1: " + what);
+  expect_refusal("i,j,k\n1,2,3" + commas + "\n", "map.csv:2: " + what);
+}
+
+TEST_F(VoxelCsv, MoreClassesThanATableCanHaveAreRefused) {
+  std::string text = "x,y,z,class\n";
+  for (int n = 0; n < 1 << 16; ++n) text += "1,1,1," + std::to_string(n) + "\n";
+  EXPECT_EQ(read(text).labels.size(), std::size_t{1 << 16});
+  expect_refusal(text + "1,1,1,one more\n", "map.csv:65538: more than 65536 different classes");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "eval/recording/png.hpp"
 
 #include "core/random_stream.hpp"
+#include "eval/recording/png_size.hpp"
 #include "tests/eval/recording/expect_error.hpp"
 
 #include <gtest/gtest.h>
@@ -113,6 +114,27 @@ TEST(Png, RefusesWrongSizeAndType) {
   const std::string byte_grey = by_opencv(cv::Mat1b(kSize, uchar{3}), cv::IMWRITE_PNG_STRATEGY_RLE);
   expect_error("not 16-bit grey", [&] { (void)decode_grey16_png(byte_grey, kSize, "x"); });
   expect_error("not a PNG", [&] { (void)decode_grey16_png("GIF89a, or so", kSize, "x"); });
+}
+
+/// The head of a PNG that claims this size.
+std::string head_of(int width, int height) {
+  std::string png = encode_png(cv::Mat1w(1, 1, std::uint16_t{0}));
+  for (int n = 0; n < 4; ++n) {
+    png[16 + n] = static_cast<char>(width >> (24 - 8 * n));
+    png[20 + n] = static_cast<char>(height >> (24 - 8 * n));
+  }
+  return png;
+}
+
+TEST(Png, SizesOfMoreThan16MillionPixelsAreRefusedByTheHeader) {
+  EXPECT_EQ(png_size(head_of(4096, 4096), "x"), cv::Size(4096, 4096));
+  EXPECT_EQ(png_size(head_of(16384, 1024), "x"), cv::Size(16384, 1024));
+  expect_error(
+      "x.png: 4096 x 4097 pixels are more than 16777216, as of 4096 x 4096; make the "
+      "images smaller",
+      [] { (void)png_size(head_of(4096, 4097), "x.png"); });
+  expect_error("16384 x 16384 pixels", [] { (void)png_size(head_of(16384, 16384), "x.png"); });
+  expect_error("no size of 1 to 16384", [] { (void)png_size(head_of(16385, 1), "x.png"); });
 }
 
 }  // namespace

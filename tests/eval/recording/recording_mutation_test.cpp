@@ -102,8 +102,9 @@ TEST_F(DamagedRecording, WhatRefersToItselfIsRefused) {
 
 TEST_F(DamagedRecording, LineBreaksInAMessageAreNotRepeated) {
   expect_refusal("recording.yaml", "format_version: \"1\\n2\"\n", "format_version");
-  expect_refusal("recording.yaml", "format_version: 1\n\"sce\\nne\": 2\n", "unknown key 'sce?ne'");
-  expect_refusal("recording.yaml", "scene: \"\\\rx\"\n", "unknown escape character: ?");
+  expect_refusal("recording.yaml", "format_version: 1\n\"sce\\nne\": 2\n",
+                 "unknown key 'sce\\nne'");
+  expect_refusal("recording.yaml", "scene: \"\\\rx\"\n", "unknown escape character: \\r");
 }
 
 TEST_F(DamagedRecording, NamesThatNoFileCanHaveAreRefused) {

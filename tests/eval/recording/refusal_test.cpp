@@ -41,6 +41,51 @@ TEST_F(BrokenRecording, MissingFolder) {
   expect_error("no such folder", [&] { (void)Recording::open(tiny_ / "color.txt"); });
 }
 
+TEST_F(BrokenRecording, AnImageThatIsNotTheHashedOne) {
+  const Recording recording = Recording::open(tiny_);
+  std::filesystem::copy_file(tiny_ / "label/000001.png", tiny_ / "label/000000.png",
+                             std::filesystem::copy_options::overwrite_existing);
+  const std::string what = "label/000000.png: is not the image of this recording";
+  expect_error(what, [&] { (void)recording.read(0); });
+  expect_error(what, [&] { (void)Recording::open(tiny_).read(0); });
+  EXPECT_EQ(recording.read(1).index, 1);
+  remove("hashes.txt");
+  EXPECT_EQ(Recording::open(tiny_).read(0).index, 0) << "taken as they are";
+}
+
+TEST_F(BrokenRecording, PathsThatLeaveTheFolder) {
+  const std::string what = "leads out of the folder; a recording holds its own images";
+  const std::string list = read_file(tiny_ / "color.txt");
+  write_file(folder_.path() / "outside.png", read_file(tiny_ / "color/000000.png"));
+  for (const std::string& path :
+       {std::string("../outside.png"), (folder_.path() / "outside.png").string(),
+        std::string("color/../../outside.png"), std::string("color/../color/000000.png")}) {
+    replace("color.txt", "color/000000.png", path);
+    expect_refusal(what);
+    write_file(tiny_ / "color.txt", list);
+  }
+  remove("color/000000.png");
+  std::filesystem::create_symlink("../../outside.png", tiny_ / "color/000000.png");
+  expect_refusal(what);
+}
+
+TEST_F(BrokenRecording, AFolderOfImagesThatIsALinkOut) {
+  std::filesystem::rename(tiny_ / "depth", folder_.path() / "depth");
+  std::filesystem::create_directory_symlink("../depth", tiny_ / "depth");
+  expect_refusal("image 'depth/000000.png' leads out of the folder");
+}
+
+TEST_F(BrokenRecording, LinksWithinTheFolderAreFollowed) {
+  std::filesystem::rename(tiny_ / "color", tiny_ / "images");
+  std::filesystem::create_directory_symlink("images", tiny_ / "color");
+  EXPECT_EQ(Recording::open(tiny_).frame_count(), 4);
+}
+
+TEST_F(BrokenRecording, NamesThatATerminalObeys) {
+  replace("recording.yaml", "name: \"background\", colour", "name: \"a\\x1b[2J\", colour");
+  expect_refusal("classes[0].name: 'a\\x1b[2J' holds the control character \\x1b; remove it");
+}
+
 TEST_F(BrokenRecording, NoRecordingYaml) {
   remove("recording.yaml");
   expect_refusal("not a recording (no recording.yaml in it)");
@@ -171,12 +216,13 @@ TEST_F(BrokenRecording, HashesOfOtherImages) {
 
 TEST_F(BrokenRecording, DamagedImagesAreRefusedWhenRead) {
   const std::string png = read_file(tiny_ / "depth/000001.png");
-  const Recording recording = Recording::open(tiny_);
+  remove("hashes.txt");
+  const auto read = [&] { (void)Recording::open(tiny_).read(1); };
   write_file(tiny_ / "depth/000001.png", png.substr(0, png.size() - 7));
-  expect_error("depth/000001.png: PNG cut off", [&] { (void)recording.read(1); });
+  expect_error("depth/000001.png: PNG cut off", read);
   write_file(tiny_ / "depth/000001.png", read_file(tiny_ / "color/000001.png"));
-  expect_error("depth/000001.png: image is not 16-bit grey", [&] { (void)recording.read(1); });
-  EXPECT_EQ(recording.read(2).index, 2);
+  expect_error("depth/000001.png: image is not 16-bit grey", read);
+  EXPECT_EQ(Recording::open(tiny_).read(2).index, 2);
 }
 
 TEST_F(BrokenRecording, ImagesOfAnotherSize) {
@@ -190,6 +236,36 @@ TEST_F(BrokenRecording, FramesBeyondTheLast) {
   const Recording recording = Recording::open(tiny_);
   for (const int index : {-1, 4})
     expect_error("the recording has frames 0 to 3", [&] { (void)recording.read(index); });
+}
+
+TEST_F(BrokenRecording, CamerasOfMoreThan16MillionPixels) {
+  replace("recording.yaml", "color: {width_px: 64, height_px: 48",
+          "color: {width_px: 16384, height_px: 16384");
+  expect_refusal("color: 16384 x 16384 pixels are more than 16777216, as of 4096 x 4096");
+}
+
+TEST_F(BrokenRecording, YamlOfManyValues) {
+  write_file(tiny_ / "recording.yaml", "a: [" + std::string(1 << 19, ',') + "]\n");
+  expect_refusal("recording.yaml: more than 524288 values; is it the right file?");
+}
+
+TEST_F(BrokenRecording, LinesOfManyWordsAndCells) {
+  std::string words = "0";
+  for (int n = 0; n < 1000; ++n) words += " 0";
+  write_file(tiny_ / "groundtruth.txt", words + "\n");
+  expect_refusal("groundtruth.txt:1: expected 'stamp_s tx ty tz qx qy qz qw'");
+}
+
+TEST_F(BrokenRecording, ShapesOfManyCells) {
+  const auto shapes = tiny_ / "truth/shapes.csv";
+  write_file(shapes, read_file(shapes) + std::string(1000, ',') + "\n");
+  expect_error("shapes.csv:4: expected 13 columns",
+               [&] { (void)Recording::open(tiny_).read_shapes(); });
+}
+
+TEST_F(BrokenRecording, HashesOfMoreImagesThanThereAre) {
+  write_file(tiny_ / "hashes.txt", read_file(tiny_ / "hashes.txt") + "0 a\n0 b\n0 c\n");
+  expect_refusal("hashes.txt: does not list the images of color.txt and depth.txt");
 }
 
 }  // namespace

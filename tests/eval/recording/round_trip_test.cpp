@@ -66,7 +66,7 @@ TEST(InfoYaml, EveryFieldComesBack) {
   info.calibration.range_max_m = 7.1;
   info.color_rate_hz = 29.97;
   info.table.classes[1].name = "a \"quoted\" \\ name: #1";
-  info.table.instances[2].name = "null\t";
+  info.table.instances[2].name = "null: \\ \"it's\"";
   info.seed = ~std::uint64_t{0};
   info.mujoco_version = "4.0.1";
   info.scene_hash = "0123";
@@ -87,7 +87,7 @@ TEST(InfoYaml, EveryFieldComesBack) {
   EXPECT_EQ(back.table.classes[1].colour, info.table.classes[1].colour);
   EXPECT_TRUE(back.table.detected(1));
   EXPECT_FALSE(back.table.detected(2));
-  EXPECT_EQ(back.table.instances[2].name, "null\t");
+  EXPECT_EQ(back.table.instances[2].name, "null: \\ \"it's\"");
   EXPECT_EQ(back.table.class_of(2), 2);
   EXPECT_EQ(back.seed, info.seed);
   EXPECT_EQ(back.scene, info.scene);

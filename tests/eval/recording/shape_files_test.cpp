@@ -7,7 +7,7 @@
 #include "tests/eval/recording/expect_error.hpp"
 #include "tests/support/tiny_recording.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <limits>
 
@@ -90,12 +90,14 @@ TEST(ShapeTable, RefusesToWriteWhatItCouldNotRead) {
   expect_error("geom 'flat'", [] {
     (void)shape_table_text({shape_of(ShapeKind::box, 0, "flat", {1, 1, 0})});
   });
-  expect_error("line break", [] {
-    (void)shape_table_text({shape_of(ShapeKind::sphere, 0, "a\nb", {1, 1, 0})});
-  });
   Shape lost = shape_of(ShapeKind::sphere, 0, "lost", {1, 1, 0});
   lost.T_world_shape.translation().x() = std::numeric_limits<double>::quiet_NaN();
   expect_error("geom 'lost'", [&] { (void)shape_table_text({lost}); });
+}
+
+TEST(ShapeTable, EndsOfLinesInNamesAreEscaped) {
+  EXPECT_THAT(shape_table_text({shape_of(ShapeKind::sphere, 0, "a\nb", {1, 1, 0})}),
+              ::testing::HasSubstr("\nsphere,0,a\\nb,"));
 }
 
 TEST(TrianglePly, MeshesComeBackInTheWorldFrame) {
@@ -149,6 +151,13 @@ TEST(TrianglePly, RefusesBrokenFiles) {
 
 TEST(TrianglePly, RefusesToWriteAnEmptyMesh) {
   expect_error("mesh 'none'", [] { (void)triangle_ply_bytes({mesh_of(0, "none", 0)}); });
+}
+
+TEST(TrianglePly, MoreNamesThanTrianglesAreRefused) {
+  std::string bytes = triangle_ply_bytes({mesh_of(1, "m", 2)});
+  const std::string name = "comment geom m\n";
+  bytes.insert(bytes.find(name), name + name);
+  expect_error("a geom has no triangles", [&] { (void)ply_back(bytes, 3); });
 }
 
 }  // namespace

@@ -84,6 +84,31 @@ TEST_F(Writer, WhatACrashLeftIsReplaced) {
   EXPECT_EQ(Recording::open(out_).frame_count(), 4);
 }
 
+TEST_F(Writer, ASecondWriterOfTheSameFolderIsRefusedAndHarmsNothing) {
+  {
+    RecordingWriter first(out_, tiny_info());
+    first.write(tiny_frames()[0]);
+    expect_error("out: another process is recording into it; wait for it",
+                 [&] { RecordingWriter second(out_, tiny_info()); });
+    EXPECT_TRUE(fs::exists(partial_ / "color/000000.png"));
+    for (const int index : {1, 2, 3}) first.write(tiny_frames()[static_cast<std::size_t>(index)]);
+    first.write_shapes(tiny_shapes());
+    first.finish();
+  }
+  EXPECT_EQ(Recording::open(out_).frame_count(), 4);
+  expect_error("exists already", [&] { RecordingWriter third(out_, tiny_info()); });
+}
+
+TEST_F(Writer, ALinkInThePlaceOfThePartialFolderIsNotWrittenThrough) {
+  const fs::path elsewhere = folder_.path() / "elsewhere";
+  fs::create_directory(elsewhere);
+  write_file(elsewhere / "keep", "me");
+  fs::create_directory_symlink(elsewhere, partial_);
+  write_tiny_recording(out_);
+  EXPECT_EQ(read_file(elsewhere / "keep"), "me");
+  EXPECT_EQ(std::distance(fs::directory_iterator(elsewhere), {}), 1);
+}
+
 TEST_F(Writer, MissingParentFoldersAreMade) {
   write_tiny_recording(folder_.path() / "a/b/c");
   EXPECT_EQ(Recording::open(folder_.path() / "a/b/c").frame_count(), 4);

@@ -192,6 +192,57 @@ TEST_F(FiguresTest, NamesWithQuotesAreDrawn) {
   EXPECT_EQ(draw_figures(summary, folder_).size(), 10u);
 }
 
+TEST_F(FiguresTest, NoNameRunsAnything) {
+  const std::string marker = (folder_ / "ran").string();
+  fs::create_directories(folder_);
+  StudySummary summary = one_axis(1);
+  summary.study.name = "`touch " + marker + "` $(touch " + marker + ") @x %s";
+  summary.table.classes[1].name = "`touch " + marker + "` 100%";
+  summary.table.classes[2].name = "'.system('touch " + marker + "').'' it's ''";
+  EXPECT_EQ(draw_figures(summary, folder_).size(), 10u);
+  for (const auto& entry : fs::directory_iterator(folder_))
+    if (entry.path().extension() == ".gp") run_gnuplot(folder_, entry.path().filename().string());
+  EXPECT_FALSE(fs::exists(marker));
+}
+
+TEST_F(FiguresTest, MethodsThatMapNothingAreDrawnAndNamed) {
+  for (const StudySummary& like :
+       {one_axis(1), synthetic_summary(synthetic_study({"direct", "erosion"}, {}, 1)),
+        synthetic_summary(synthetic_study({"direct"}, {kShift, kTurn}, 1))}) {
+    StudySummary summary = like;
+    for (ResultLine& line : summary.trials) {
+      if (line.method != "direct") continue;
+      line.pooled = Counts(4);
+      for (TrialResult& result : line.results) result.counts = Counts(4);
+    }
+    EXPECT_GE(draw_figures(summary, folder_).size(), 8u);
+    const FigureSheet sheet = accuracy_figure(summary, StudyLayout(summary));
+    EXPECT_THAT(sheet.caption, HasSubstr(" direct maps nothing."));
+  }
+}
+
+TEST_F(FiguresTest, ALowLatticeCeilingIsSaidBelow) {
+  StudySummary summary = one_axis(1);
+  EXPECT_THAT(accuracy_figure(summary, StudyLayout(summary)).caption,
+              HasSubstr("Note: the lattice ceiling falls to a precision of 0.980"));
+  for (ResultLine& line : summary.lattice_ceilings)
+    for (TrialResult& result : line.results) {
+      result.counts[1] = testing::synthetic_counts(0.0, 0.0);
+      result.counts[2] = testing::synthetic_counts(0.02, 0.02);
+    }
+  EXPECT_THAT(accuracy_figure(summary, StudyLayout(summary)).caption,
+              ::testing::Not(HasSubstr("Note:")));
+}
+
+TEST_F(FiguresTest, APictureThatIsCutShortIsRefusedAndNothingLeft) {
+  fs::create_directories(folder_);
+  const StudySummary summary = one_axis(1);
+  FigureSheet sheet = accuracy_figure(summary, StudyLayout(summary));
+  sheet.panels.front().settings.push_back("set output '/dev/null'; set multiplot");
+  EXPECT_THROW(static_cast<void>(draw(sheet, folder_)), Error);
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
 TEST_F(FiguresTest, AFailingScriptSaysWhy) {
   fs::create_directories(folder_);
   std::ofstream(folder_ / "wrong.gp") << "plot nonsense(\n";

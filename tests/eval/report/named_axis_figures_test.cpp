@@ -51,7 +51,7 @@ TEST_F(FiguresTest, ClassesOverANamedAxisAreGroupedBars) {
       block(sheet->data, "# direct; recall; depth camera = ideal"),
       ElementsAre("-0.2667 \"cup\" 0.9 0.9 0.9 0.9 0.9", "0.7333 \"chair\" 0.8 0.8 0.8 0.8 0.8"));
   EXPECT_EQ(sheet->panels[3].y_label, "erosion");
-  EXPECT_THAT(sheet->legend, ::testing::Contains(HasSubstr("title \"kinect v1\"")));
+  EXPECT_THAT(sheet->legend, ::testing::Contains(HasSubstr("title 'kinect v1'")));
   EXPECT_FALSE(class_figure(summary, StudyLayout(summary))) << "would show the same once more";
 }
 
@@ -116,9 +116,9 @@ TEST_F(FiguresTest, DrawsAStudyOverNames) {
 
 TEST(NameTics, AreBrokenOrTurnedWhereTheyHaveNoRoom) {
   const NameTics flat = name_tics({"truth", "particle filter"}, 1.0);
-  EXPECT_THAT(flat.setting, HasSubstr("(\"truth\" 0, \"particle filter\" 1) norotate"));
+  EXPECT_THAT(flat.setting, HasSubstr("('truth' 0, 'particle filter' 1) norotate"));
   const NameTics broken = name_tics({"truth", "particle filter"}, 0.5);
-  EXPECT_THAT(broken.setting, HasSubstr("\"particle\\nfilter\" 1) norotate"));
+  EXPECT_THAT(broken.setting, HasSubstr("'particle'.\"\\n\".'filter' 1) norotate"));
   EXPECT_GT(broken.height_in, flat.height_in);
   const NameTics turned = name_tics({"washing_machine", "tv"}, 0.3);
   EXPECT_THAT(turned.setting, HasSubstr("rotate by 35 right"));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/experiment/folder_lock.hpp"
+#include "files/folder_lock.hpp"
 
 #include "tests/support/tiny_recording.hpp"
 
@@ -12,7 +12,7 @@
 #include <fstream>
 #include <thread>
 
-namespace mapscore::eval {
+namespace mapscore {
 namespace {
 
 using mapscore::testing::TemporaryFolder;
@@ -50,4 +50,4 @@ TEST(FolderLock, DoesNothingWhereThereCanBeNoFolder) {
 }
 
 }  // namespace
-}  // namespace mapscore::eval
+}  // namespace mapscore

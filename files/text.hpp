@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <concepts>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mapscore {
+
+// Texts of other people - names of classes, files, studies - on their way out. Each destination has
+// one function here, and every text goes through it, so that no name is ever run, starts a line of
+// its own or changes a terminal. Cells of CSV: files/csv.hpp. All functions are pure.
+
+/// What keeps a text from being a name of a class, an instance, a geom or a study: it is empty,
+/// longer than 255 bytes, not UTF-8, or holds a control character or an invisible one (line
+/// separators, direction marks). Written to follow the name's place in a message; nothing when the
+/// text is fit.
+[[nodiscard]] std::optional<std::string> unfit_as_name(std::string_view text);
+
+/// For a message, a table or a terminal: one line without anything that a terminal would obey.
+/// Control and invisible characters and bytes that are no UTF-8 become `\n`, `\x1b`, `\u202e`; all
+/// else stays.
+[[nodiscard]] std::string shown(std::string_view text);
+template <std::same_as<std::filesystem::path> Path>
+[[nodiscard]] std::string shown(const Path& path) {
+  return shown(std::string_view(path.native()));
+}
+/// The same for text of several lines: ends of lines and tabs stay.
+[[nodiscard]] std::string shown_lines(std::string_view text);
+
+/// A YAML scalar between double quotes.
+[[nodiscard]] std::string yaml_quoted(std::string_view text);
+
+/// The value of an XML attribute, with its quotes. What XML cannot hold becomes '_'.
+[[nodiscard]] std::string xml_quoted(std::string_view text);
+
+/// A string expression of a gnuplot script: between single quotes, within which gnuplot runs and
+/// expands nothing, but for ends of lines and single quotes, which are joined on. Other control
+/// characters are shown.
+[[nodiscard]] std::string gnuplot_quoted(std::string_view text);
+/// A column of a gnuplot data file; such a file cannot quote a quote, so double quotes become
+/// single ones.
+[[nodiscard]] std::string gnuplot_column(std::string_view text);
+
+/// A word of a command line that a person may paste into a POSIX shell: as it is where it is
+/// plain, else between single quotes.
+[[nodiscard]] std::string shell_word(std::string_view text);
+
+/// Bytes of UTF-8 at the end of `text` that begin a character and do not end it; 0 to 3.
+[[nodiscard]] std::size_t unfinished_tail(std::string_view text);
+
+}  // namespace mapscore
