@@ -39,11 +39,12 @@ class SpawnActions {
   posix_spawn_file_actions_t actions_;
 };
 
-/// The first line that says something.
+/// The first line that says something but a warning.
 std::string first_words(const std::filesystem::path& log) {
   std::ifstream stream(log);
   for (std::string line; std::getline(stream, line);)
-    if (const std::size_t start = line.find_first_not_of(" \t^"); start != std::string::npos)
+    if (const std::size_t start = line.find_first_not_of(" \t^");
+        start != std::string::npos && line.find("arning:") == std::string::npos)
       return line.substr(start);
   return "it said nothing";
 }

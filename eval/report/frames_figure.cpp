@@ -52,6 +52,28 @@ std::string caption_of(const Study& study, const ClassTable& table) {
       study.name, 100.0 * study.voxel_m, fmt::join(detected, ", "));
 }
 
+/// Ranges of a panel without a point, which gnuplot finds none for.
+std::string empty_ranges(std::span<const MethodFrames> methods) {
+  double first = 0.0, last = 1.0;
+  if (!methods.empty() && methods.front().frames.size() > 1) {
+    first = methods.front().frames.front().stamp_s;
+    last = methods.front().frames.back().stamp_s;
+  }
+  return fmt::format("set xrange [{}:{}]; set yrange [0:1]", first, last);
+}
+
+/// Which methods leave gaps in the panel of precision.
+std::string empty_caption(std::span<const MethodFrames> methods) {
+  std::string text;
+  for (const MethodFrames& method : methods) {
+    const auto empty = std::ranges::count(method.frames, 0, &FrameFigures::predicted);
+    if (empty > 0)
+      text += fmt::format(" {} maps nothing in {} of {} frames.", method.method, empty,
+                          method.frames.size());
+  }
+  return text;
+}
+
 struct Spread {
   double least = 0.0, mean = 0.0, most = 0.0, deviation = 0.0;
 };
@@ -113,7 +135,13 @@ FigureSheet frames_figure(const Study& study, const ClassTable& table,
     Panel panel;
     panel.y_label = panels[p].y_label;
     if (p + 1 == panels.size()) panel.x_label = "time of the recording / s";
-    panel.settings = {panels[p].settings};
+    const auto defined = [&](const MethodFrames& method) {
+      return std::ranges::any_of(method.frames, [&](const FrameFigures& frame) {
+        return panels[p].value(frame).has_value();
+      });
+    };
+    panel.settings = {std::ranges::any_of(methods, defined) ? panels[p].settings
+                                                            : empty_ranges(methods)};
     for (std::size_t m = 0; m < methods.size(); ++m)
       panel.elements.push_back(
           fmt::format("data index {} using 2:{} with lines lw 1 lc rgb '{}' "
@@ -133,7 +161,7 @@ FigureSheet frames_figure(const Study& study, const ClassTable& table,
       sheet.data += '\n';
     }
   }
-  sheet.caption = caption_of(study, table);
+  sheet.caption = caption_of(study, table) + empty_caption(methods);
   return sheet;
 }
 

@@ -39,6 +39,14 @@ TEST_F(FrameByFrame, WritesATableAndAFigureOfItsNumbers) {
   EXPECT_THAT(bytes_of(path("results/frames/by_frame.pdf")), StartsWith("%PDF"));
 }
 
+TEST_F(FrameByFrame, AMapOfNothingIsDrawnAllTheSame) {
+  const Outcome outcome =
+      frames({"--set", "faults.labels.miss=1", "--set", "faults.labels.miss_area_px=1000000000"});
+  expect_done(outcome);
+  EXPECT_THAT(bytes_of(path("results/frames/by_frame.gp")), HasSubstr("direct maps nothing in "));
+  EXPECT_GT(bytes_of(path("results/frames/by_frame.png")).size(), 5000u);
+}
+
 TEST_F(FrameByFrame, FramesAreThoseOfTrialsThatScoreEachFrame) {
   const Outcome outcome = frames({"--set", "sweep={}", "--set", "seeds=1", "--format", "csv"});
   expect_done(outcome);
