@@ -171,7 +171,7 @@ FigureSheet reliability_figure(const StudySummary& summary, const StudyLayout& l
   figure.add_row(lower, false, [&](const ClassCounts&, const Curve&, std::size_t, Panel& panel) {
     panel.elements.push_back(bars[next++]);
   });
-  figure.explain("NaN with lines lw 0.8 dt (4,3) lc rgb '#666666' title \"as true as probable\"");
+  figure.explain("NaN with lines lw 0.8 dt (4,3) lc rgb '#666666' title 'as true as probable'");
   return figure.finish(
       "Voxels with a class by their probability, in bins of a tenth. Below the diagonal the map is "
       "surer than it should be, above it less sure.");
