@@ -13,7 +13,8 @@
 namespace mapscore {
 namespace {
 
-constexpr std::size_t kLongestName = 255;  ///< bytes, as of a file's name
+constexpr std::size_t kLongestName = 255;                  ///< bytes, as of a file's name
+constexpr std::string_view kReplacement = "\xef\xbf\xbd";  ///< U+FFFD, for what is no character
 
 /// Bytes that a character takes, told by its first one; 0 where none begins so.
 std::size_t length_of(unsigned char first) {
@@ -129,15 +130,19 @@ std::string shown_lines(std::string_view text) {
 
 std::string yaml_quoted(std::string_view text) {
   std::string quoted = "\"";
-  for (const char letter : text) {
-    const auto code = static_cast<unsigned char>(letter);
-    if (letter == '"' || letter == '\\') quoted += '\\';
-    if (letter == '\n')
+  while (!text.empty()) {
+    const Character c = first_of(text);
+    if (!c.valid)
+      quoted += kReplacement;
+    else if (c.code == '"' || c.code == '\\')
+      (quoted += '\\') += c.bytes;
+    else if (c.code == '\n')
       quoted += "\\n";
-    else if (code < 0x20 || code == 0x7f)
-      quoted += fmt::format("\\x{:02x}", code);
+    else if (is_control(c.code))
+      quoted += fmt::format("\\x{:02x}", static_cast<std::uint32_t>(c.code));
     else
-      quoted += letter;
+      quoted += c.bytes;
+    text.remove_prefix(c.bytes.size());
   }
   return quoted + '"';
 }

@@ -32,7 +32,8 @@ template <std::same_as<std::filesystem::path> Path>
 /// The same for text of several lines: ends of lines and tabs stay.
 [[nodiscard]] std::string shown_lines(std::string_view text);
 
-/// A YAML scalar between double quotes.
+/// A YAML scalar between double quotes. Bytes that are no UTF-8, which YAML cannot hold, become
+/// U+FFFD.
 [[nodiscard]] std::string yaml_quoted(std::string_view text);
 
 /// The value of an XML attribute, with its quotes. What XML cannot hold becomes '_'.

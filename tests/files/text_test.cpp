@@ -86,6 +86,11 @@ TEST(YamlQuoted, IsReadBackAsItWas) {
     EXPECT_EQ(YAML::Load("k: " + yaml_quoted(text))["k"].as<std::string>(), text);
 }
 
+TEST(YamlQuoted, HoldsWhatEveryReaderTakes) {
+  EXPECT_EQ(yaml_quoted("a\xc2\x9b\x1b\x7f"), "\"a\\x9b\\x1b\\x7f\"");
+  EXPECT_EQ(yaml_quoted("a\xff"), "\"a\xef\xbf\xbd\"");
+}
+
 TEST(XmlQuoted, HoldsNoMarkup) {
   EXPECT_EQ(xml_quoted("<a b=\"c\">&\n\xff"), "\"&lt;a b=&quot;c&quot;&gt;&amp;__\"");
 }
