@@ -5,7 +5,8 @@
 // one run: counters `octomap_ms` and `ours_ms` a frame, their `ratio` (bar: 3), and `equal`, 1 when
 // every leaf of both maps is. Frames of a synthetic room; with MAPSCORE_BENCH_RECORDINGS, folders
 // with colons between them, also of these, of which the second set of benchmarks maps every frame
-// with all classes: memory that the map holds and the sizes of [R, table 3] (results/notes/octree.md).
+// with all classes: memory that the map holds and the sizes of [R, table 3]
+// (results/notes/octree.md).
 
 #include "core/mapping/free_space.hpp"
 #include "core/mapping/placement.hpp"
