@@ -30,7 +30,9 @@ if [ "${1:-}" = --threads ]; then
   shift
   programs=(core_test recording_test experiment_test)
   build tsan ON "${programs[@]}"
-  export TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
+  export TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1:suppressions=$PWD/scripts/tsan.supp
+  # Mesa's own threads are not built for ThreadSanitizer; without them it draws in the thread that calls it.
+  export LP_NUM_THREADS=0
   filter='ParticleFilter.SameBytes*:*CrfFilters*:Writer*:Cache.*:Runner*:MovingRecording.*'
   for program in "${programs[@]}"; do
     build/tsan/$program --gtest_brief=1 --gtest_filter="$filter" "$@"
