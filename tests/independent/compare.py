@@ -15,7 +15,6 @@ import tempfile
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # many small systems, which threads only slow down
 
-import numpy as np
 import yaml
 
 sys.dont_write_bytecode = True
@@ -23,6 +22,7 @@ sys.dont_write_bytecode = True
 import drive_scores
 import ruler
 from agreement import differences
+from distances import KeptDistances, bounds_of
 from drives import program, record
 from each_frame import compare_frames, swept
 from recording import Recording
@@ -126,27 +126,17 @@ def compare_truth(mapscore, study, recording, folder):
     return lines, len(theirs)
 
 
-def corners_of(shapes):
-    return np.array([shape.bounds() for shape in shapes]).tobytes()
-
-
 def keep_what_scores_share():
     """The ruler's surface truth of a lattice and its distances, made once, since all scores of a drive share them."""
-    surface_truth, surface_distances, truths, distances = ruler.surface_truth, drive_scores.surface_distances, {}, {}
+    surface_truth, truths = ruler.surface_truth, {}
 
     def kept_truth(geoms, voxel, epsilon):
-        key = corners_of([shape for _, shape in geoms]), voxel, epsilon
+        key = bounds_of([shape for _, shape in geoms]), voxel, epsilon
         if key not in truths:
             truths[key] = surface_truth(geoms, voxel, epsilon)
         return truths[key]
 
-    def kept_distances(keys, shapes, voxel):
-        known = distances.setdefault((corners_of(shapes), voxel), {})
-        new = np.array([key for key in keys.tolist() if key not in known], np.int64)
-        known.update(zip(new.tolist(), surface_distances(new, shapes, voxel)))
-        return np.array([known[key] for key in keys.tolist()])
-
-    ruler.surface_truth, drive_scores.surface_distances = kept_truth, kept_distances
+    ruler.surface_truth, drive_scores.surface_distances = kept_truth, KeptDistances()
 
 
 COMPARISONS = {"rows of truth": compare_truth, "figures": compare_scores, "figures of frames": compare_each_frame}

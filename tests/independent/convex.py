@@ -16,6 +16,7 @@ SLACK = 1e-9  # metres: contact in exact arithmetic counts as contact in doubles
 
 CORNERS = np.array(list(itertools.product((0, 1), repeat=3)))  # 0 = low, 1 = high
 EDGES = [(a, b) for a in range(8) for b in range(a + 1, 8) if np.abs(CORNERS[a] - CORNERS[b]).sum() == 1]
+FIRST, LAST = np.transpose(EDGES)  # corners at the two ends of the twelve edges
 
 
 def rotation_of_quaternion(quaternion):
@@ -65,7 +66,7 @@ class Shape:
         self.rotation, self.centre, self.size = rotation, centre, np.asarray(size, float)
 
     def local(self, points):
-        return (points - self.centre) @ self.rotation
+        return ((points - self.centre).reshape(-1, 3) @ self.rotation).reshape(points.shape)
 
     def world(self, points):
         return points @ self.rotation.T + self.centre
@@ -83,13 +84,25 @@ class Shape:
             return np.zeros(len(low), bool)
         return self.local_inside(self.local(corners_of(low, high))).all(axis=1)
 
+    def meets_and_contains(self, low, high):
+        """Whether the solid meets each closed cube, and whether all of the cube lies in its open interior.
+
+        The distance of the cube's centre from the boundary says it for all but those between the spheres in and about
+        the cube: it meets what comes into the inner one, and nothing that stays out of the outer one.
+        """
+        distance = self.signed_distance((low + high) / 2)
+        inner, outer = (high - low).min(axis=-1) / 2 - SLACK, np.linalg.norm(high - low, axis=-1) / 2 + SLACK
+        meets, contains = distance < inner, distance < -outer
+        near = np.flatnonzero((inner <= distance) & (distance <= outer))
+        meets[near] = self.meets(low[near], high[near])
+        near = np.flatnonzero((-outer <= distance) & (distance <= -inner))
+        contains[near] = self.contains(low[near], high[near])
+        return meets, contains
+
     def boundary_meets(self, low, high):
         """Whether each closed cube meets the boundary, exactly as given (no slack, no epsilon)."""
-        result = np.zeros(len(low), bool)
-        centre, radius = (low + high) / 2, np.linalg.norm(high - low, axis=-1) / 2
-        near = np.flatnonzero(np.abs(self.signed_distance(centre)) <= radius + SLACK)
-        result[near] = self.meets(low[near], high[near]) & ~self.contains(low[near], high[near])
-        return result
+        meets, contains = self.meets_and_contains(low, high)
+        return meets & ~contains
 
     def signed_distance(self, points):
         """Distance to the boundary, negative inside."""
@@ -114,6 +127,28 @@ class Shape:
         result[outside] = self.outer_distance(low[outside], high[outside])
         return result
 
+    def edges_with_a_nearest_point(self, corners, gap):
+        """Edges that come nearer to the solid between their ends: the number of the cube, the start, the step to the end.
+
+        gap: from the nearest point of the solid to each corner. Along an edge the distance to a convex solid is convex,
+        so its least value lies between the ends exactly if it falls at the start and rises at the end.
+        """
+        step = corners[:, LAST] - corners[:, FIRST]
+        falls, rises = (gap[:, FIRST] * step).sum(-1) < 0, (gap[:, LAST] * step).sum(-1) > 0
+        box, edge = np.nonzero(falls & rises)
+        return box, corners[box, FIRST[edge]], step[box, edge]
+
+    def least_distance_along(self, start, step):
+        """Least distance from each segment to the solid: all segments are halved at once, by the sign of the slope."""
+        first, last = np.zeros((len(start), 1)), np.ones((len(start), 1))
+        for _ in range(40):
+            middle = (first + last) / 2
+            point = start + middle * step
+            rising = ((point - self.nearest(point)) * step).sum(-1, keepdims=True) > 0
+            first, last = np.where(rising, first, middle), np.where(rising, middle, last)
+        point = start + (first + last) / 2 * step
+        return np.linalg.norm(point - self.nearest(point), axis=-1)
+
     def outer_distance(self, low, high):
         """Distance from cubes that do not meet the solid: least over their corners, edges and faces."""
         if len(low) == 0:
@@ -121,18 +156,9 @@ class Shape:
         corners = self.local(corners_of(low, high))
         gap = corners - self.nearest(corners.reshape(-1, 3)).reshape(corners.shape)
         best = np.linalg.norm(gap, axis=-1).min(axis=1)
-        for a, b in EDGES:  # the distance is convex along an edge: bisect on the sign of its slope
-            step = corners[:, b] - corners[:, a]
-            inner = np.flatnonzero(((gap[:, a] * step).sum(-1) < 0) & ((gap[:, b] * step).sum(-1) > 0))
-            start, step = corners[inner, a], step[inner]
-            first, last = np.zeros((len(inner), 1)), np.ones((len(inner), 1))
-            for _ in range(40):
-                middle = (first + last) / 2
-                point = start + middle * step
-                rising = ((point - self.nearest(point)) * step).sum(-1, keepdims=True) > 0
-                first, last = np.where(rising, first, middle), np.where(rising, middle, last)
-            point = start + (first + last) / 2 * step
-            best[inner] = np.minimum(best[inner], np.linalg.norm(point - self.nearest(point), axis=-1))
+        box, start, step = self.edges_with_a_nearest_point(corners, gap)
+        if len(box):
+            np.minimum.at(best, box, self.least_distance_along(start, step))
         for axis, sign in itertools.product(range(3), (-1, 1)):  # a face: the solid's extreme point opposite to it
             point = self.support(-sign * np.eye(3)[axis])
             distance = point[axis] - high[:, axis] if sign > 0 else low[:, axis] - point[axis]

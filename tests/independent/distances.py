@@ -35,6 +35,24 @@ def cube_distances(points, keys, voxel):
     return best
 
 
+class KeptDistances:
+    """surface_distances() that measures a cube once for the same shapes, since the maps of a drive share most cubes."""
+
+    def __init__(self):
+        self.known = {}
+
+    def __call__(self, keys, shapes, voxel):
+        known = self.known.setdefault((bounds_of(shapes), voxel), {})
+        new = np.array([key for key in keys.tolist() if key not in known], np.int64)
+        known.update(zip(new.tolist(), surface_distances(new, shapes, voxel)))
+        return np.array([known[key] for key in keys.tolist()])
+
+
+def bounds_of(shapes):
+    """Tells shapes, and their order, from others."""
+    return np.array([shape.bounds() for shape in shapes]).tobytes()
+
+
 def surface_distances(keys, shapes, voxel):
     """Distance from each closed cube to the nearest boundary of the shapes."""
     best = np.full(len(keys), np.inf)

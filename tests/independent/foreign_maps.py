@@ -21,7 +21,9 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 
+import map_scores
 from agreement import differences
+from distances import KeptDistances
 from drives import program, record
 from foreign_cases import Bench, point_clouds, voxel_lists
 from foreign_trees import label_folders, resampled, trees
@@ -58,6 +60,7 @@ def all_cases(bench):
 
 def main(mapscore, scenes):
     mapscore, compared, lines = os.path.abspath(mapscore), 0, []
+    map_scores.surface_distances = KeptDistances()
     with tempfile.TemporaryDirectory() as folder:
         for source in (os.path.join(scenes, "robot.xml"), *(os.path.join(HERE, "corner" + end) for end in ENDINGS)):
             shutil.copy(source, folder)

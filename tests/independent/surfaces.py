@@ -6,7 +6,7 @@ import itertools
 
 import numpy as np
 
-from convex import CORNERS, EDGES, Shape, clip_line, corners_of, distance_to_boxes, segment_meets_box
+from convex import CORNERS, FIRST, LAST, Shape, clip_line, corners_of, distance_to_boxes, segment_meets_box
 
 
 class Box(Shape):
@@ -24,12 +24,11 @@ class Box(Shape):
 
     def meets(self, low, high):
         """Two convex polyhedra meet exactly if an edge of one meets the other."""
-        mine = self.world(np.where(CORNERS == 0, -self.size, self.size))
-        theirs = self.local(corners_of(low, high))
-        result = np.zeros(len(low), bool)
-        for a, b in EDGES:
-            result |= segment_meets_box(mine[a], mine[b], low, high)
-            result |= segment_meets_box(theirs[:, a], theirs[:, b], -self.size, self.size)
+        mine = self.world(np.where(CORNERS == 0, -self.size, self.size))[:, None]
+        result = segment_meets_box(mine[FIRST], mine[LAST], low, high).any(axis=0)
+        rest = np.flatnonzero(~result)
+        theirs = self.local(corners_of(low[rest], high[rest]))
+        result[rest] = segment_meets_box(theirs[:, FIRST], theirs[:, LAST], -self.size, self.size).any(axis=1)
         return result
 
 
@@ -172,14 +171,13 @@ class Cylinder(Shape):
         normal = self.rotation[:, 2]
         result = segment_meets_box(self.centre - half * normal, self.centre + half * normal, low, high)
         corners = self.local(corners_of(low, high))
-        for a, b in EDGES:
-            start, step = corners[:, a], corners[:, b] - corners[:, a]
-            first, last = clip_line(0.0, 1.0, start[:, 2], step[:, 2], -half, half)
-            length = (step[:, :2]**2).sum(-1)
-            t = -(start[:, :2] * step[:, :2]).sum(-1) / np.where(length > 0, length, 1)
-            with np.errstate(invalid="ignore"):
-                point = start + np.clip(t, first, np.maximum(first, last))[:, None] * step
-                result |= (first <= last) & (np.linalg.norm(point[:, :2], axis=-1) <= radius)
+        start, step = corners[:, FIRST], corners[:, LAST] - corners[:, FIRST]
+        first, last = clip_line(0.0, 1.0, start[..., 2], step[..., 2], -half, half)
+        length = (step[..., :2]**2).sum(-1)
+        t = -(start[..., :2] * step[..., :2]).sum(-1) / np.where(length > 0, length, 1)
+        with np.errstate(invalid="ignore"):
+            point = start + np.clip(t, first, np.maximum(first, last))[..., None] * step
+            result |= ((first <= last) & (np.linalg.norm(point[..., :2], axis=-1) <= radius)).any(axis=1)
         for axis, cap, bound in itertools.product(range(3), (-half, half), (low, high)):
             lean = 1 - normal[axis]**2
             if lean < 1e-14:

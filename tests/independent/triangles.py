@@ -17,6 +17,9 @@ class Triangle(Shape):
     def __init__(self, corners):
         super().__init__(np.eye(3), np.zeros(3), np.zeros(3))
         self.corners = corners
+        a, b, c = corners
+        self.basis = np.stack([b - a, c - a], axis=-1)
+        self.inverse = np.linalg.pinv(self.basis)
 
     def bounds(self):
         return self.corners.min(axis=0), self.corners.max(axis=0)
@@ -27,10 +30,9 @@ class Triangle(Shape):
     def nearest(self, points):
         """On the face where the foot of the perpendicular lies in it, else on the nearest side."""
         a, b, c = self.corners
-        basis = np.stack([b - a, c - a], axis=-1)
-        share = (points - a) @ np.linalg.pinv(basis).T
+        share = (points - a) @ self.inverse.T
         inside = (share >= 0).all(axis=-1) & (share.sum(axis=-1) <= 1)
-        best = a + share @ basis.T
+        best = a + share @ self.basis.T
         least = np.where(inside, np.linalg.norm(points - best, axis=-1), np.inf)
         for start, end in ((a, b), (b, c), (c, a)):
             step = end - start
@@ -43,22 +45,21 @@ class Triangle(Shape):
 
     def meets(self, low, high):
         """A side of the triangle meets the cube, or an edge of the cube the triangle."""
-        result = np.zeros(len(low), bool)
-        for start, end in zip(self.corners, np.roll(self.corners, -1, axis=0)):
-            result |= segment_meets_box(start, end, low, high)
+        start, end = self.corners[:, None], np.roll(self.corners, -1, axis=0)[:, None]
+        result = segment_meets_box(start, end, low, high).any(axis=0)
         for axis in range(3):
             others = [n for n in range(3) if n != axis]
             a, b, c = self.corners[:, others]
             basis = np.stack([b - a, c - a], axis=-1)
             if abs(np.linalg.det(basis)) < 1e-14:
                 continue  # parallel to these edges: where they meet, a side meets the cube too
-            for first in (low, high):
-                for second in (low, high):
-                    at = np.stack([first[:, others[0]], second[:, others[1]]], axis=-1)
-                    share = np.linalg.solve(basis, (at - a).T).T
-                    height = self.corners[0, axis] + share @ (self.corners[1:, axis] - self.corners[0, axis])
-                    inside = (share >= -1e-12).all(axis=-1) & (share.sum(axis=-1) <= 1 + 1e-12)
-                    result |= inside & (low[:, axis] <= height) & (height <= high[:, axis])
+            at = np.concatenate([np.stack([first[:, others[0]], second[:, others[1]]], axis=-1)
+                                 for first in (low, high) for second in (low, high)])  # of the four edges
+            share = np.linalg.solve(basis, (at - a).T).T
+            height = self.corners[0, axis] + share @ (self.corners[1:, axis] - self.corners[0, axis])
+            inside = (share >= -1e-12).all(axis=-1) & (share.sum(axis=-1) <= 1 + 1e-12)
+            height, inside = height.reshape(4, -1), inside.reshape(4, -1)
+            result |= (inside & (low[:, axis] <= height) & (height <= high[:, axis])).any(axis=0)
         return result
 
     def outer_distance(self, low, high):

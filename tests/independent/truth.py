@@ -72,11 +72,11 @@ def unburied(shape, others, low, high):
             low, high, owner = low[met], high[met], owner[met]
         meets, inside = np.zeros(len(low), bool), np.zeros(len(low), bool)
         for other, (first, last) in zip(others, limits):
-            near = np.flatnonzero(((low - SLACK <= last) & (high + SLACK >= first)).all(axis=1))
+            near = np.flatnonzero(((low - SLACK <= last) & (high + SLACK >= first)).all(axis=1) & ~inside)
             if len(near):
-                cube = low[near] - SLACK, high[near] + SLACK
-                meets[near] |= other.meets(*cube)
-                inside[near] |= other.contains(*cube)
+                met, buried = other.meets_and_contains(low[near] - SLACK, high[near] + SLACK)
+                meets[near] |= met
+                inside[near] |= buried
         keep[owner[~meets]] = True
         undecided = meets & ~inside & ~keep[owner]
         low, high, owner = low[undecided], high[undecided], owner[undecided]
@@ -86,12 +86,12 @@ def unburied(shape, others, low, high):
 
 def surface_truth(geoms, voxel, epsilon):
     """class -> {key: touch_only}; geoms is a list of (class, shape)."""
-    truth = {}
+    truth, limits = {}, [shape.bounds() for _, shape in geoms]
     for number, (label, shape) in enumerate(geoms):
-        low, high = shape.bounds()
+        low, high = limits[number]
         others = []
         for n, (_, other) in enumerate(geoms):
-            first, last = other.bounds()
+            first, last = limits[n]
             reach = voxel + 2 * epsilon + 4 * SLACK
             if n != number and other.solid and ((low - reach <= last) & (high + reach >= first)).all():
                 others.append(other)
