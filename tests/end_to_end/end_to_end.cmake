@@ -2,15 +2,20 @@
 # SPDX-License-Identifier: MIT
 
 # Tests of the built program, from the outside. A suite is one entry of CTest, since its tests share what it
-# records.
+# records. The suites are read from the sources, so that none is forgotten.
 set(folder ${CMAKE_CURRENT_SOURCE_DIR}/end_to_end)
 file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
-set(suites BadFlags BadStudy BadRecording BadOutput ScoreMap MapFolder MapObjects MapResolutions SegmentFrame
-    FrameByFrame TinySweep)
 if(MAPSCORE_SIMULATOR)
   file(GLOB rendered CONFIGURE_DEPENDS ${folder}/rendered/*.cpp)
-  list(APPEND suites ObjectScene BadScene BadDrive DemoGrowing Gate)
 endif()
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources} ${rendered})
+set(suites)
+foreach(source IN LISTS sources rendered)
+  file(STRINGS ${source} tests REGEX "^TEST(_F|_P)?\\(")
+  list(TRANSFORM tests REPLACE "^TEST[_FP]*\\(([A-Za-z]+),.*" "\\1")
+  list(APPEND suites ${tests})
+endforeach()
+list(REMOVE_DUPLICATES suites)
 
 add_executable(end_to_end_test ${sources} ${rendered})
 target_link_libraries(end_to_end_test PRIVATE mapscore_experiment mapscore_test_support GTest::gtest_main
@@ -19,28 +24,29 @@ target_compile_definitions(end_to_end_test PRIVATE MAPSCORE_SOURCE_DIR="${PROJEC
                            MAPSCORE_PROGRAM="$<TARGET_FILE:mapscore>")
 add_dependencies(end_to_end_test mapscore)
 foreach(suite IN LISTS suites)
-  add_test(NAME end_to_end.${suite} COMMAND end_to_end_test --gtest_filter=*${suite}.*:*${suite}/*)
+  add_test(NAME end_to_end.${suite}
+           COMMAND end_to_end_test --gtest_filter=${suite}.*:*/${suite}.*:${suite}/*)
 endforeach()
 
 if(NOT MAPSCORE_SIMULATOR)
   return()
 endif()
 
-# A mapscore that is wrong by half a voxel: it rounds where it should take the floor. Its object comes before
-# the library's, so the library's is never linked.
+# A mapscore that is wrong by half a voxel (mutant/rounding_placement.cpp), whichever way a frame is placed. Its
+# object comes before the library's, so the library's is never linked.
 set(placement ${PROJECT_SOURCE_DIR}/core/mapping/placement.cpp)
-set(right "voxel_of(p_map, edge_m)")
-set(wrong "voxel_of(p_map + Eigen::Vector3d::Constant(0.5 * edge_m), edge_m)")
+set(mutant ${CMAKE_CURRENT_BINARY_DIR}/mutant)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${placement})
 file(READ ${placement} text)
-string(REPLACE "${right}" "${wrong}" mutated "${text}")
-if(mutated STREQUAL text)
-  message(FATAL_ERROR "${placement}: no `${right}` to put the error of half a voxel in; mend end_to_end.cmake")
+string(REPLACE "\nstd::vector<VoxelHit> place(" "\nstd::vector<VoxelHit> exactly_placed(" renamed "${text}")
+if(renamed STREQUAL text)
+  message(FATAL_ERROR "${placement}: no `std::vector<VoxelHit> place(` to put the error of half a voxel in; mend "
+                      "end_to_end.cmake")
 endif()
-file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/rounding_placement.cpp CONTENT "${mutated}" @ONLY)
+file(CONFIGURE OUTPUT ${mutant}/exact_placement.cpp CONTENT "${renamed}" @ONLY)
 
-add_executable(mapscore_mutant ${CMAKE_CURRENT_BINARY_DIR}/rounding_placement.cpp
-               $<TARGET_OBJECTS:mapscore_cli>)
+add_executable(mapscore_mutant ${folder}/mutant/rounding_placement.cpp $<TARGET_OBJECTS:mapscore_cli>)
+target_include_directories(mapscore_mutant PRIVATE ${mutant})
 target_link_libraries(mapscore_mutant PRIVATE mapscore::eval)
 target_compile_definitions(end_to_end_test PRIVATE MAPSCORE_MUTANT="$<TARGET_FILE:mapscore_mutant>")
 add_dependencies(end_to_end_test mapscore_mutant)

@@ -38,16 +38,18 @@ METHODS_AND_PLACES = [f"{name}-{place}" for name in METHODS for place in ("point
 CEILINGS_OF = {"lattice_ceiling": ["direct-points"], "registration_ceiling": ["direct-points", "growing_half-voxels"]}
 OF_OTHER_SEEDS = ("f1_best", "threshold_best")  # undefined with one seed
 
-# A drive, its lattice, and the ways in which it is scored. Doses are without a round number on purpose.
+# A drive, its lattice, and the ways in which it is scored. Doses are without a round number on purpose. The person has
+# voxels of the default size; the apartment, whose surfaces are many times as large, has larger ones: each of its 350
+# geoms keeps some surface in them, and more pairs of geoms meet than in finer ones.
 STUDIES = {
     "apartment": {
-        "scene": "apartment.xml", "origin_m": (0.0131, 0.0217, 0.0343), "yaw_deg": 0,
+        "scene": "apartment.xml", "voxel_m": 0.09, "origin_m": (0.0131, 0.0217, 0.0343), "yaw_deg": 0,
         "trajectory": {"waypoints_m_deg": [[2.763, 4.813, -137], [1.413, 4.737, -38], [1.027, 2.963, -8],
                                             [1.143, 1.553, 22], [2.637, 1.647, -58]], "frames_per_s": 0.37},
         "misregistration_m": (0.0173, -0.0061, 0.0029), "rotation_deg": (0.31, -0.17, 0.53),
         "runs": [("map", 0.5)]},
     "person": {
-        "scene": "person.xml", "origin_m": (-0.0233, 0.0107, 0.0071), "yaw_deg": 7.3,
+        "scene": "person.xml", "voxel_m": 0.05, "origin_m": (-0.0233, 0.0107, 0.0071), "yaw_deg": 7.3,
         "trajectory": {"waypoints_m_deg": [[-1.963, 0.613, -17], [-2.427, 0.317, -8], [-2.573, -0.113, 2],
                                             [-2.317, -0.497, 11]], "frames_per_s": 1.1},
         "misregistration_m": (-0.0211, 0.0043, 0.0017), "rotation_deg": (-0.23, 0.47, 0.19),
@@ -63,7 +65,8 @@ def study_file(study, recording, unit, K, methods, folder):
     file = os.path.join(folder, f"{unit}-{K}-{len(methods)}.yaml")
     with open(file, "w", encoding="utf-8") as text:
         yaml.safe_dump({
-            "recording": recording, "map_origin_m": list(study["origin_m"]), "map_yaw_deg": study["yaw_deg"],
+            "recording": recording, "voxel_m": study["voxel_m"],
+            "map_origin_m": list(study["origin_m"]), "map_yaw_deg": study["yaw_deg"],
             "methods": {method: {"segmentation": segmentations[method.split("-")[0]], "place": method.split("-")[1]}
                         for method in methods},
             "fusion": {"blend": {"K": K}}, "score": {"unit": unit},
@@ -72,19 +75,24 @@ def study_file(study, recording, unit, K, methods, folder):
     return file
 
 
+def lattice_flags(study):
+    return {"voxel_m": (study["voxel_m"],), "origin_m": study["origin_m"], "yaw_deg": (study["yaw_deg"],)}
+
+
+def words(flags):
+    return [word for key, values in flags.items() for word in (f"--{key}", *map(str, values))]
+
+
 def ruler_options(study, recording, role, method, unit, K):
     name, place = method.split("-")
-    flags = {"origin_m": study["origin_m"], "yaw_deg": (study["yaw_deg"],), "unit": (unit,), "K": (K,)}
+    flags = {**lattice_flags(study), "unit": (unit,), "K": (K,)}
     if role == "trial":
         flags.update(misregistration_m=study["misregistration_m"], rotation_deg=study["rotation_deg"])
     if role == "lattice_ceiling":
         flags.update(labels=("depth_label",))
     else:
         flags.update(place=(place,), **{key: (value,) for key, value in METHODS[name].items()})
-    arguments = [recording]
-    for key, values in flags.items():
-        arguments += [f"--{key}", *map(str, values)]
-    return ruler.parse(arguments)[1]
+    return ruler.parse([recording, *words(flags)])[1]
 
 
 def compare_scores(mapscore, study, recording, folder):
@@ -114,12 +122,11 @@ def compare_each_frame(mapscore, study, recording, folder):
 def compare_truth(mapscore, study, recording, folder):
     """Rows of the truth, i, j, k, class, touch_only, samples, in any order."""
     file = os.path.join(folder, "truth.csv")
-    origin = [str(value) for value in study["origin_m"]]
-    program(mapscore, "truth", recording, "--origin_m", *origin, "--yaw_deg", str(study["yaw_deg"]), "-o", file)
+    lattice = words(lattice_flags(study))
+    program(mapscore, "truth", recording, *lattice, "-o", file)
     with open(file, encoding="utf-8", newline="") as text:
         ours = {tuple(row) for row in csv.reader(text)}
-    arguments = ["truth", recording, "--origin_m", *origin, "--yaw_deg", str(study["yaw_deg"])]
-    rows = ruler.truth_rows(Recording(recording), ruler.parse(arguments)[1])
+    rows = ruler.truth_rows(Recording(recording), ruler.parse(["truth", recording, *lattice])[1])
     theirs = {tuple(map(str, row)) for row in rows}
     lines = [f"  truth: only the program has {','.join(row)}" for row in sorted(ours - theirs)]
     lines += [f"  truth: only the ruler has {','.join(row)}" for row in sorted(theirs - ours)]
