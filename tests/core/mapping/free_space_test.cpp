@@ -73,6 +73,13 @@ struct Case {
   int points, scans;
   double max_range_m;  ///< below 0: none
 };
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << "edge " << c.edge_m << " m, reach " << c.reach_m << " m, range ";
+  if (c.max_range_m < 0)
+    *out << "unlimited";
+  else
+    *out << c.max_range_m << " m";
+}
 
 class AgainstOctomap : public testing::TestWithParam<Case> {};
 

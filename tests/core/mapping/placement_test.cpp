@@ -54,6 +54,9 @@ std::vector<Pose> random_draws(RandomStream& stream, int draws, double sigma_m, 
 struct Spread {
   double sigma_m, sigma_rad;
 };
+void PrintTo(const Spread& spread, std::ostream* out) {
+  *out << spread.sigma_m << " m, " << spread.sigma_rad << " rad";
+}
 
 class ManyDraws : public ::testing::TestWithParam<Spread> {};
 

@@ -102,6 +102,10 @@ struct Variant {
   CrfFilter filter;
   bool normalised;
 };
+void PrintTo(const Variant& variant, std::ostream* out) {
+  *out << (variant.filter == CrfFilter::lattice ? "lattice" : "neighbours")
+       << (variant.normalised ? ", normalised" : ", unnormalised");
+}
 
 class CrfFilters : public ::testing::TestWithParam<Variant> {
  protected:

@@ -133,6 +133,10 @@ void expect_recovered(const Scene& scene, const Calibration& believed,
 struct Error6 {
   Eigen::Vector3d shift_m, turn_deg;
 };
+void PrintTo(const Error6& error, std::ostream* out) {
+  *out << "shift " << error.shift_m.transpose() << " m, turn " << error.turn_deg.transpose()
+       << " deg";
+}
 
 class EdgeAlignedErrors : public ::testing::TestWithParam<Error6> {};
 

@@ -22,6 +22,9 @@ struct Variant {
   double factor;
   bool released;
 };
+void PrintTo(const Variant& variant, std::ostream* out) {
+  *out << "factor " << variant.factor << (variant.released ? ", as released" : "");
+}
 
 class FastRegionGrowing : public ::testing::TestWithParam<Variant> {};
 

@@ -15,8 +15,16 @@
 namespace mapscore {
 namespace {
 
+struct Method {
+  const char* name;
+  SegmentationParams params;
+};
+void PrintTo(const Method& method, std::ostream* out) {
+  *out << method.name;
+}
+
 /// A plate before a plane at 2 m, seen by cameras of 64 x 48 pixels.
-class FrameSegmentation : public ::testing::TestWithParam<SegmentationParams> {
+class FrameSegmentation : public ::testing::TestWithParam<Method> {
  protected:
   FrameSegmentation() {
     pair_.color = pair_.depth = CameraModel{64, 48, 50, 50, 31.5, 23.5};
@@ -31,7 +39,7 @@ class FrameSegmentation : public ::testing::TestWithParam<SegmentationParams> {
     return detections_of(label, table_);
   }
   [[nodiscard]] std::vector<Segment> segments(const std::vector<Detection>& detections) const {
-    return segment_frame(detections, depth_, pair_, 0.05, GetParam(), false);
+    return segment_frame(detections, depth_, pair_, 0.05, GetParam().params, false);
   }
   /// Refused with one line that says so.
   void expect_refused(const std::function<void()>& act, const std::string& why) const {
@@ -56,9 +64,9 @@ TEST_P(FrameSegmentation, TakesImagesOfTheColourCamerasSizeAlone) {
   EXPECT_FALSE(segmented[0].points.empty());
   expect_refused([&] { (void)segments(found_in(32, 24)); }, "32 x 24");
   expect_refused([&] { (void)segments(found_in(128, 96)); }, "128 x 96");
-  if (std::holds_alternative<EdgeAlignedParams>(GetParam())) return;
+  if (std::holds_alternative<EdgeAlignedParams>(GetParam().params)) return;
   const RegisteredCloud cloud = register_depth(depth_, pair_);
-  expect_refused([&] { (void)segment(found_in(32, 24)[0], cloud, 0.05, GetParam(), false); },
+  expect_refused([&] { (void)segment(found_in(32, 24)[0], cloud, 0.05, GetParam().params, false); },
                  "32 x 24");
 }
 
@@ -103,8 +111,10 @@ TEST_P(FrameSegmentation, HandMadeDetectionsNeedNotKnowTheirImage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, FrameSegmentation,
-                         ::testing::Values(DirectParams{}, ErosionParams{1}, RegionGrowingParams{},
-                                           EdgeAlignedParams{}));
+                         ::testing::Values(Method{"direct", DirectParams{}},
+                                           Method{"erosion", ErosionParams{1}},
+                                           Method{"region_growing", RegionGrowingParams{}},
+                                           Method{"edge_aligned", EdgeAlignedParams{}}));
 
 }  // namespace
 }  // namespace mapscore

@@ -65,6 +65,9 @@ struct Variant {
   double factor;
   bool released;
 };
+void PrintTo(const Variant& variant, std::ostream* out) {
+  *out << "factor " << variant.factor << (variant.released ? ", as released" : "");
+}
 
 class RegionGrowing : public ::testing::TestWithParam<Variant> {
  protected:

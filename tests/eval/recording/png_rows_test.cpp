@@ -17,6 +17,9 @@ struct Case {
   const char* name;
   std::vector<std::uint8_t> second;  ///< filter, three differences
 };
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
 
 class EveryFilter : public ::testing::TestWithParam<Case> {};
 
@@ -36,8 +39,7 @@ INSTANTIATE_TEST_SUITE_P(
         // average: 13 - 10/2, 19 - (13 + 20)/2, 44 - (19 + 30)/2
         Case{"average", {3, 8, 3, 20}},
         // paeth: above 10; p = 13 + 20 - 10 = 23 is nearest 20; p = 19 + 30 - 20 = 29, 30
-        Case{"paeth", {4, 3, 255, 14}}),
-    [](const auto& test) { return std::string(test.param.name); });
+        Case{"paeth", {4, 3, 255, 14}}));
 
 TEST(PngRows, UnknownFilterIsNoticed) {
   std::vector<std::uint8_t> rows{5, 1, 2, 3};

@@ -104,10 +104,14 @@ TEST_F(BrokenRecording, OtherFormatVersion) {
 }
 
 struct YamlCase {
+  const char* name;
   const char* from;
   const char* to;
   const char* what;
 };
+void PrintTo(const YamlCase& c, std::ostream* out) {
+  *out << c.name;
+}
 class BrokenYaml : public BrokenRecording, public ::testing::WithParamInterface<YamlCase> {};
 
 TEST_P(BrokenYaml, IsRefusedWithKeyAndReason) {
@@ -118,31 +122,40 @@ TEST_P(BrokenYaml, IsRefusedWithKeyAndReason) {
 INSTANTIATE_TEST_SUITE_P(
     Every, BrokenYaml,
     ::testing::Values(
-        YamlCase{"seed: 7\n", "", "key 'seed' is missing"},
-        YamlCase{"seed: 7", "seed: -7", "recording.yaml:5: seed: expected a whole number"},
-        YamlCase{"seed: 7", "seed: 7\nspeed: 1", "unknown key 'speed'"},
-        YamlCase{"seed: 7", "seed: 7\nseed: 8", "key 'seed' stands twice"},
-        YamlCase{"has_truth: true", "has_truth: maybe", "has_truth: expected true or false"},
-        YamlCase{"rate_hz: 2}", "rate_hz: 0}", "color.rate_hz: 0 is not above 0"},
-        YamlCase{"width_px: 64", "width_px: 1e9", "color.width_px: expected a whole number"},
-        YamlCase{"cx_px: 31.5", "cx_px: .nan", "color.cx_px: expected a finite number"},
-        YamlCase{"cy_px: 23.5", "cy_px: .inf", "color.cy_px: expected a finite number"},
-        YamlCase{"cy_px: 23.5", "cy_px: nan", "color.cy_px: expected a finite number"},
-        YamlCase{"cy_px: 23.5, ", "", "color: key 'cy_px' is missing"},
-        YamlCase{"cy_px: 23.5", "cy_px: 23.5, k1: 0", "color: unknown key 'k1'"},
-        YamlCase{"range_min_m: 0.6", "range_min_m: 9", "depth: expected 0 <= range_min_m"},
-        YamlCase{"T_color_depth: [0.025, 0", "T_color_depth: [0.025",
+        YamlCase{"no_seed", "seed: 7\n", "", "key 'seed' is missing"},
+        YamlCase{"seed_below_0", "seed: 7", "seed: -7",
+                 "recording.yaml:5: seed: expected a whole number"},
+        YamlCase{"key_of_no_meaning", "seed: 7", "seed: 7\nspeed: 1", "unknown key 'speed'"},
+        YamlCase{"key_twice", "seed: 7", "seed: 7\nseed: 8", "key 'seed' stands twice"},
+        YamlCase{"truth_neither_true_nor_false", "has_truth: true", "has_truth: maybe",
+                 "has_truth: expected true or false"},
+        YamlCase{"rate_0", "rate_hz: 2}", "rate_hz: 0}", "color.rate_hz: 0 is not above 0"},
+        YamlCase{"width_in_powers_of_ten", "width_px: 64", "width_px: 1e9",
+                 "color.width_px: expected a whole number"},
+        YamlCase{"cx_nan", "cx_px: 31.5", "cx_px: .nan", "color.cx_px: expected a finite number"},
+        YamlCase{"cy_infinite", "cy_px: 23.5", "cy_px: .inf",
+                 "color.cy_px: expected a finite number"},
+        YamlCase{"cy_the_word_nan", "cy_px: 23.5", "cy_px: nan",
+                 "color.cy_px: expected a finite number"},
+        YamlCase{"no_cy", "cy_px: 23.5, ", "", "color: key 'cy_px' is missing"},
+        YamlCase{"camera_key_of_no_meaning", "cy_px: 23.5", "cy_px: 23.5, k1: 0",
+                 "color: unknown key 'k1'"},
+        YamlCase{"range_from_beyond_its_end", "range_min_m: 0.6", "range_min_m: 9",
+                 "depth: expected 0 <= range_min_m"},
+        YamlCase{"pose_of_six_numbers", "T_color_depth: [0.025, 0", "T_color_depth: [0.025",
                  "T_color_depth: expected [tx"},
-        YamlCase{"T_color_depth: [0.025", "T_color_depth: [x",
+        YamlCase{"pose_with_a_letter", "T_color_depth: [0.025", "T_color_depth: [x",
                  "T_color_depth[0]: expected a finite"},
-        YamlCase{"0, 0, 0, 1]", "0, 0, 0, 2]", "T_color_depth: quaternion"},
-        YamlCase{"classes:\n", "classes: 3\nold:\n", "unknown key 'old'"},
-        YamlCase{"{id: 1, name: \"crate\"", "{id: 3, name: \"crate\"", "classes[1].id: expected"},
-        YamlCase{"\"wall\"", "\"crate\"", "two classes have this name"},
-        YamlCase{"\"FF0000\"", "\"red\"", "classes[1].colour: expected a colour"},
-        YamlCase{"class: 2", "class: 3", "instances[2].class: expected a whole number from 0 to 2"},
-        YamlCase{"class: 0", "class: 1", "instance 0 is background"},
-        YamlCase{"frame_count: 4", "frame_count: 5",
+        YamlCase{"quaternion_too_long", "0, 0, 0, 1]", "0, 0, 0, 2]", "T_color_depth: quaternion"},
+        YamlCase{"classes_no_list", "classes:\n", "classes: 3\nold:\n", "unknown key 'old'"},
+        YamlCase{"class_left_out", "{id: 1, name: \"crate\"", "{id: 3, name: \"crate\"",
+                 "classes[1].id: expected"},
+        YamlCase{"class_name_twice", "\"wall\"", "\"crate\"", "two classes have this name"},
+        YamlCase{"colour_by_name", "\"FF0000\"", "\"red\"", "classes[1].colour: expected a colour"},
+        YamlCase{"class_beyond_the_table", "class: 2", "class: 3",
+                 "instances[2].class: expected a whole number from 0 to 2"},
+        YamlCase{"background_with_a_class", "class: 0", "class: 1", "instance 0 is background"},
+        YamlCase{"frame_too_many", "frame_count: 4", "frame_count: 5",
                  "color.txt: 4 lines, recording.yaml says frame_count 5"}));
 
 TEST_F(BrokenRecording, MissingLists) {

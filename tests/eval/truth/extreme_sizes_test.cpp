@@ -126,8 +126,7 @@ TEST_P(ExtremeSizes, OnRoundNumbers) {
   for (int round = 0; round < 24; ++round) check(decimal_shape(GetParam(), random), random, round);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, ExtremeSizes, testing::ValuesIn(test::kAllKinds),
-                         [](const auto& kind) { return std::string(name_of(kind.param)); });
+INSTANTIATE_TEST_SUITE_P(Kinds, ExtremeSizes, testing::ValuesIn(test::kAllKinds));
 
 }  // namespace
 }  // namespace mapscore::eval

@@ -15,6 +15,13 @@
 #include <numbers>
 #include <vector>
 
+namespace mapscore {
+/// The name by which GoogleTest prints a kind.
+inline void PrintTo(ShapeKind kind, std::ostream* out) {
+  *out << name_of(kind);
+}
+}  // namespace mapscore
+
 /// Surfaces as parametrised patches: what the exact tests are held against. Shares no code with
 /// them.
 namespace mapscore::eval::test {

@@ -16,6 +16,9 @@ struct RoundShape {
   ShapeKind kind;
   Eigen::Vector3d size;
 };
+void PrintTo(const RoundShape& shape, std::ostream* out) {
+  *out << name_of(shape.kind) << " " << shape.size.transpose();
+}
 
 class FacetsTest : public ::testing::TestWithParam<RoundShape> {
  protected:

@@ -21,13 +21,20 @@ Pose random_pose(RandomStream& random) {
   return pose;
 }
 
-class ShapeBoundsTest : public ::testing::TestWithParam<ShapeKind> {};
+struct Kind {
+  ShapeKind kind;
+};
+void PrintTo(const Kind& param, std::ostream* out) {
+  *out << name_of(param.kind);
+}
+
+class ShapeBoundsTest : public ::testing::TestWithParam<Kind> {};
 
 TEST_P(ShapeBoundsTest, AreTightAboutItsFacets) {
   RandomStream random(7, "bounds");
   for (int i = 0; i < 20; ++i) {
     Shape shape;
-    shape.kind = GetParam();
+    shape.kind = GetParam().kind;
     shape.T_world_shape = random_pose(random);
     shape.size = {0.2 + random.uniform(), 0.2 + random.uniform(), 0.2 + random.uniform()};
     Eigen::AlignedBox3d touched;
@@ -42,8 +49,8 @@ TEST_P(ShapeBoundsTest, AreTightAboutItsFacets) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Round, ShapeBoundsTest,
-                         ::testing::Values(ShapeKind::sphere, ShapeKind::capsule,
-                                           ShapeKind::ellipsoid, ShapeKind::cylinder));
+                         ::testing::Values(Kind{ShapeKind::sphere}, Kind{ShapeKind::capsule},
+                                           Kind{ShapeKind::ellipsoid}, Kind{ShapeKind::cylinder}));
 
 TEST(ShapeBounds, OfFlatThings) {
   Shape box;
