@@ -25,6 +25,10 @@ Rule rule_of() {
   return {};
 }
 template <>
+BlendRule rule_of<BlendRule>() {
+  return {0.3};
+}
+template <>
 BayesRule rule_of<BayesRule>() {
   return {{0.4, 0.1, 0.2, 0.05, 0.05, 0.2}, 0.05};
 }
@@ -75,23 +79,43 @@ TYPED_TEST(EveryRule, StaysNormalisedOverAHundredThousandUpdates) {
   }
 }
 
-TYPED_TEST(EveryRule, SameHitsGiveTheSameBits) {
+TYPED_TEST(EveryRule, AVoxelAmongOthersInAMapBelievesWhatItWouldAlone) {
+  constexpr int kVoxels = 30;
   const FusionRule rule = rule_of<TypeParam>();
-  RandomStream one(5, "bits"), two(5, "bits");
-  ClassBeliefs a, b;
-  for (int update = 0; update < 100; ++update) {
-    fuse(rule, random_hits(one), 10, a);
-    fuse(rule, random_hits(two), 10, b);
+  RandomStream stream(5, "bits");
+  SemanticMap map(0.05);
+  std::vector<ClassBeliefs> alone(kVoxels);
+  for (int frame = 0; frame < 40; ++frame) {
+    std::vector<VoxelHit> of_frame;
+    for (int i = 0; i < kVoxels; ++i) {
+      if (stream.uniform() < 0.5) continue;
+      std::vector<VoxelHit> hits = random_hits(stream);
+      fuse(rule, hits, 10, alone[i]);
+      for (VoxelHit& hit : hits) hit.key = {i, 0, 0};
+      of_frame.insert(of_frame.end(), hits.begin(), hits.end());
+    }
+    map.fuse(of_frame, 10, rule);
   }
-  EXPECT_EQ(a, b);
+  ASSERT_EQ(map.voxels().size(), alone.size());
+  for (const MapVoxel& voxel : map.voxels()) {
+    const ClassProbability expected = alone[voxel.key.i].best();
+    EXPECT_EQ(voxel.best_class, expected.class_id) << voxel.key.i;
+    EXPECT_EQ(voxel.probability, expected.probability) << voxel.key.i;
+  }
 }
 
-TYPED_TEST(EveryRule, AFirstFullHitIsTwiceTheDefaultThreshold) {
+TYPED_TEST(EveryRule, AFirstFullHitGivesWhatTheRulesFormulaSays) {
   const FusionRule rule = rule_of<TypeParam>();
+  // Blend: 1 - K. Bayes and top-3: a score of 1 less their doubt, 0.05. The others: all of it.
+  double expected = 1.0;
+  if constexpr (std::is_same_v<TypeParam, BlendRule>) expected = 0.7;
+  if constexpr (std::is_same_v<TypeParam, BayesRule> || std::is_same_v<TypeParam, Top3Rule>)
+    expected = 0.95;
   ClassBeliefs beliefs;
   fuse(rule, std::vector<VoxelHit>{{{}, 3, 10, 10.0}}, 10, beliefs);
   EXPECT_EQ(beliefs.best().class_id, 3);
-  EXPECT_NEAR(beliefs.best().probability, first_full_hit(rule), 1e-15);
+  EXPECT_NEAR(beliefs.best().probability, expected, 1e-15);
+  EXPECT_NEAR(first_full_hit(rule), expected, 1e-15);
 }
 
 TYPED_TEST(EveryRule, TheClassSeenMostOftenIsBelieved) {

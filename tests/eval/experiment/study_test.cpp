@@ -27,7 +27,7 @@ trajectory: {waypoints_m_deg: [[0.5, 0.5, 0]]}
 methods: {direct: {segmentation: {direct: {}}}}
 )";
 
-/// Differs from the default in every leaf.
+/// A long file, though not every leaf there is; what it writes differs from the defaults.
 constexpr const char* kFull = R"(
 name: "a: full \"study\""
 seed: 18446744073709551615
@@ -97,7 +97,7 @@ TEST(Study, MinimalFileTakesDefaults) {
   EXPECT_EQ(study, expected);
 }
 
-TEST(Study, ReadsEveryLeaf) {
+TEST(Study, ReadsLeavesOfEveryTypeFromALongFile) {
   const Study s = parse(kFull);
   EXPECT_EQ(s.name, "a: full \"study\"");
   EXPECT_EQ(s.seed, 18446744073709551615u);

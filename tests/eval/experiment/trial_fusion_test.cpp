@@ -51,6 +51,8 @@ TEST(TrialFusion, EachRuleHasItsOwnThreshold) {
     return default_threshold(trial_fusion(settings, four_classes()).rule);
   };
   EXPECT_EQ(threshold(BlendSettings{}), 0.25);
+  EXPECT_EQ(threshold(BlendSettings{0.0}), 0.5);
+  EXPECT_DOUBLE_EQ(threshold(BlendSettings{0.8}), 0.1);
   EXPECT_EQ(threshold(MaxConfidenceSettings{}), 0.5);
   EXPECT_EQ(threshold(VoteSettings{}), 0.5);
   EXPECT_NEAR(threshold(BayesSettings{}), 0.475, 1e-15);

@@ -61,14 +61,5 @@ TEST(Prediction, RefusesWhatIsNoMap) {
               ThrowsMessage<Error>(HasSubstr("class 5")));
 }
 
-TEST(Prediction, DefaultThresholdIsHalfOfAFirstFullHit) {
-  EXPECT_DOUBLE_EQ(default_threshold(0.5), 0.25);
-  EXPECT_DOUBLE_EQ(default_threshold(0.0), 0.5);
-  EXPECT_DOUBLE_EQ(default_threshold(0.8), 0.1);
-  EXPECT_THROW(static_cast<void>(default_threshold(1.0)), Error);
-  EXPECT_THROW(static_cast<void>(default_threshold(-0.1)), Error);
-  EXPECT_THROW(static_cast<void>(default_threshold(std::nan(""))), Error);
-}
-
 }  // namespace
 }  // namespace mapscore::eval
