@@ -21,12 +21,15 @@ struct VoxelKey {
   auto operator<=>(const VoxelKey&) const = default;
 };
 
-/// floor(x / r) on each axis. The only place where a coordinate becomes an index. Asks for finite
-/// positions within +-2^31 voxels.
+/// The voxel that holds a position: floor(x / r) on each axis. For finite positions within +-2^31
+/// voxels.
 [[nodiscard]] inline VoxelKey voxel_of(const Eigen::Vector3d& p, double edge_m) {
-  return {static_cast<std::int32_t>(std::floor(p.x() / edge_m)),
-          static_cast<std::int32_t>(std::floor(p.y() / edge_m)),
-          static_cast<std::int32_t>(std::floor(p.z() / edge_m))};
+  // std::floor is a function call unless the processor is known to have SSE 4.1.
+  const auto floor_of = [](double x) {
+    const auto towards_zero = static_cast<std::int32_t>(x);
+    return towards_zero - (towards_zero > x ? 1 : 0);
+  };
+  return {floor_of(p.x() / edge_m), floor_of(p.y() / edge_m), floor_of(p.z() / edge_m)};
 }
 
 /// Centre of a voxel in metres.
