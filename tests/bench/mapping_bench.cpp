@@ -11,9 +11,9 @@
 #include "core/mapping/free_space.hpp"
 #include "core/mapping/placement.hpp"
 #include "core/mapping/semantic_map.hpp"
-#include "core/mapping/voxel_filter.hpp"
 #include "eval/recording/recording.hpp"
 #include "tests/bench/peak_memory.hpp"
+#include "tests/core/mapping/voxel_filter.hpp"
 
 #include <benchmark/benchmark.h>
 #include <octomap/OcTree.h>
@@ -183,7 +183,8 @@ class WholeMap {
     map_.see(T_map_sensor.translation(), points, hits);
     map_.fuse(hits, 1, BlendRule{});
     std::vector<ColouredPoint> kept;
-    for (const std::size_t n : voxel_filter(points, map_.edge_m())) kept.push_back(coloured[n]);
+    for (const std::size_t n : mapscore::testing::voxel_filter(points, map_.edge_m()))
+      kept.push_back(coloured[n]);
     map_.add_colours(kept);
     raw_points_ += points.size();
   }

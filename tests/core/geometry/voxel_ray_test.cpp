@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/geometry/voxel_ray.hpp"
+#include "tests/core/geometry/voxel_ray.hpp"
 
 #include "core/error.hpp"
 #include "core/random_stream.hpp"

@@ -6,9 +6,9 @@
 #include "core/mapping/free_space.hpp"
 
 #include "core/error.hpp"
-#include "core/geometry/voxel_ray.hpp"
 #include "core/mapping/semantic_octree.hpp"
 #include "core/random_stream.hpp"
+#include "tests/core/geometry/voxel_ray.hpp"
 
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>

@@ -5,9 +5,9 @@
 #include "core/mapping/map_query.hpp"
 #include "core/mapping/map_resolution.hpp"
 #include "core/mapping/semantic_map.hpp"
-#include "core/mapping/voxel_filter.hpp"
 #include "core/random_stream.hpp"
 #include "tests/core/mapping/carved_map.hpp"
+#include "tests/core/mapping/voxel_filter.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -139,10 +139,10 @@ TEST(VoxelFilter, KeepsThePointNearestToEachCentre) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Eigen::Vector3d> points{{0.01, 0.01, 0.01}, {0.04, 0.05, 0.05}, {nan, 0, 0},
                                             {0.04, 0.05, 0.05}, {-0.01, 0, 0},      {0, 1e9, 0}};
-  EXPECT_THAT(voxel_filter(points, kEdge), ::testing::ElementsAre(1, 4))
+  EXPECT_THAT(testing::voxel_filter(points, kEdge), ::testing::ElementsAre(1, 4))
       << "a tie goes to the first";
-  EXPECT_TRUE(voxel_filter({}, kEdge).empty());
-  EXPECT_THROW((void)voxel_filter(points, 0.0), Error);
+  EXPECT_TRUE(testing::voxel_filter({}, kEdge).empty());
+  EXPECT_THROW((void)testing::voxel_filter(points, 0.0), Error);
 }
 
 TEST(Export, AtAnyResolutionInEitherColour) {

@@ -1,18 +1,26 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/mapping/voxel_filter.hpp"
+#pragma once
 
 #include "core/error.hpp"
 #include "core/geometry/voxel.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <tuple>
+#include <vector>
 
-namespace mapscore {
+namespace mapscore::testing {
 
-std::vector<std::size_t> voxel_filter(std::span<const Eigen::Vector3d> points, double edge_m) {
+/// One point a voxel [R, section 3.4]: the indices, ascending, of the points nearest to the centres
+/// of their voxels, ties to the lower index. Metres. Points that are not finite or beyond +-2^20
+/// voxels are left out. Throws Error unless the edge is positive.
+inline std::vector<std::size_t> voxel_filter(std::span<const Eigen::Vector3d> points,
+                                             double edge_m) {
   if (!(edge_m > 0.0) || !std::isfinite(edge_m))
     throw Error("voxel_m: must be a positive length in metres");
   struct Candidate {
@@ -39,4 +47,4 @@ std::vector<std::size_t> voxel_filter(std::span<const Eigen::Vector3d> points, d
   return kept;
 }
 
-}  // namespace mapscore
+}  // namespace mapscore::testing
