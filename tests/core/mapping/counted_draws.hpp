@@ -5,26 +5,26 @@
 
 #include "core/geometry/pose.hpp"
 #include "core/mapping/observation.hpp"
-#include "core/mapping/semantic_octree.hpp"
 #include "core/mapping/voxel_hit.hpp"
 
 #include <algorithm>
 #include <span>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace mapscore::testing {
 
-/// Winners of one draw: every position is moved into its voxel; runs of positions in one voxel are
-/// counted, sorted and added up.
-inline std::vector<VoxelHit> counted_draw(const Observation& observation, const Pose& T_map_sensor,
-                                          double edge_m) {
-  struct Run {
-    std::uint64_t voxel;
-    ClassId class_id;
-    int count;
-    double score;
-  };
+/// Points of one object in one voxel.
+struct Run {
+  std::uint64_t voxel;  ///< packed key
+  ClassId class_id;
+  int points;
+  double score;
+};
+
+/// Every point of one draw in its voxel; neighbours in one voxel are counted together.
+inline std::vector<Run> runs_of(const Observation& observation, const Pose& T_map_sensor,
+                                double edge_m) {
   std::vector<Run> runs;
   const Eigen::Matrix3d R = T_map_sensor.linear();
   const Eigen::Vector3d t = T_map_sensor.translation();
@@ -32,61 +32,62 @@ inline std::vector<VoxelHit> counted_draw(const Observation& observation, const 
     const std::size_t first = runs.size();
     for (const Eigen::Vector3d& p_sensor : object.positions) {
       const Eigen::Vector3d p_map = R * p_sensor + t;
-      const std::uint64_t voxel = pack(voxel_of(p_map, edge_m));
-      if (runs.size() > first && runs.back().voxel == voxel)
-        ++runs.back().count;
+      const auto key = packable_voxel_of(p_map, edge_m);
+      if (!key) continue;
+      if (runs.size() > first && runs.back().voxel == pack(*key))
+        ++runs.back().points;
       else
-        runs.push_back({voxel, object.class_id, 1, object.score});
+        runs.push_back({pack(*key), object.class_id, 1, object.score});
     }
   }
+  return runs;
+}
+
+/// Sorts the runs of one draw and gives each voxel to the class with most points, ties to the lower
+/// id.
+inline void append_winners(std::vector<Run> runs, std::vector<VoxelHit>& wins) {
   std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) {
-    return a.voxel != b.voxel ? a.voxel < b.voxel : a.class_id < b.class_id;
+    return std::tie(a.voxel, a.class_id) < std::tie(b.voxel, b.class_id);
   });
-  std::vector<VoxelHit> winners;
   for (auto run = runs.begin(); run != runs.end();) {
     VoxelHit winner{unpack(run->voxel), kBackground, 1, 0.0};
     int most = 0;
     for (const std::uint64_t voxel = run->voxel; run != runs.end() && run->voxel == voxel;) {
       const ClassId class_id = run->class_id;
-      int count = 0;
+      int points = 0;
       double best = 0.0;
       for (; run != runs.end() && run->voxel == voxel && run->class_id == class_id; ++run) {
-        count += run->count;
+        points += run->points;
         best = std::max(best, run->score);
       }
-      if (count <= most) continue;
-      most = count;
+      if (points <= most) continue;
+      most = points;
       winner.class_id = class_id;
       winner.score_sum = best;
     }
-    winners.push_back(winner);
+    wins.push_back(winner);
   }
-  return winners;
 }
 
-/// N passes over an octree, a draw each, that spare it the positions: only the winners of a draw
-/// enter it. The octree's beliefs hold the draws of class c under 2 c and their scores under
-/// 2 c + 1. Quicker than plain_place, and a second reference beside it.
+/// Plain passes, one a draw: every point is looked at in every draw, and everything is sorted. What
+/// place() must equal to the bit, far points included.
 inline std::vector<VoxelHit> counted_place(const Observation& observation,
                                            std::span<const Pose> T_map_sensor, double edge_m) {
-  SemanticOcTree tally(edge_m);
-  for (const Pose& pose : T_map_sensor)
-    for (const VoxelHit& hit : counted_draw(observation, pose, edge_m)) {
-      constexpr bool kLazy = true;
-      ClassBeliefs& beliefs = tally.updateNode(octree_key(hit.key), true, kLazy)->mutable_beliefs();
-      beliefs.weight_of(static_cast<ClassId>(2 * hit.class_id)) += 1.0;
-      beliefs.weight_of(static_cast<ClassId>(2 * hit.class_id + 1)) += hit.score_sum;
-    }
+  std::vector<VoxelHit> wins;
+  for (const Pose& pose : T_map_sensor) append_winners(runs_of(observation, pose, edge_m), wins);
+  const auto before = [](const VoxelHit& a, const VoxelHit& b) {
+    return std::tie(a.key, a.class_id) < std::tie(b.key, b.class_id);
+  };
+  if (T_map_sensor.size() > 1) std::stable_sort(wins.begin(), wins.end(), before);
   std::vector<VoxelHit> hits;
-  for (auto leaf = tally.begin_leafs(), end = tally.end_leafs(); leaf != end; ++leaf) {
-    const std::span<const ClassProbability> entries = leaf->beliefs().entries();
-    for (std::size_t n = 0; n + 1 < entries.size(); n += 2)
-      hits.push_back({voxel_key(leaf.getIndexKey()), static_cast<ClassId>(entries[n].class_id / 2),
-                      static_cast<int>(entries[n].probability), entries[n + 1].probability});
+  for (const VoxelHit& win : wins) {
+    if (hits.empty() || before(hits.back(), win)) {
+      hits.push_back(win);
+      continue;
+    }
+    ++hits.back().draws;
+    hits.back().score_sum += win.score_sum;
   }
-  std::sort(hits.begin(), hits.end(), [](const VoxelHit& a, const VoxelHit& b) {
-    return a.key != b.key ? a.key < b.key : a.class_id < b.class_id;
-  });
   return hits;
 }
 

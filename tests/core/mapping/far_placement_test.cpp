@@ -17,7 +17,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr int kLow = -(1 << 20), kHigh = (1 << 20) - 1;
 
-/// Few draws are placed position by position, many by cells.
+/// Few draws are placed point by point, many by parts.
 class FarPlacement : public ::testing::TestWithParam<int> {
  protected:
   [[nodiscard]] std::vector<VoxelHit> placed(const std::vector<Eigen::Vector3d>& positions,
