@@ -3,8 +3,8 @@
 
 // Recording and replaying the demo's apartment at 640 x 480. One evaluation of a frame: corrupt,
 // register, segment all detections, place, fuse (5 cm, N = 1, misregistration of 20 mm), on one
-// thread; then the same with 100 draws, and what these cost against 100 plain passes over an octree
-// and against passes that count runs of positions first.
+// thread; then the same with 100 draws. What placing alone costs against plain passes, for 1 to 100
+// draws and three sizes of voxels.
 
 #include "core/mapping/placement.hpp"
 #include "core/mapping/pose_belief.hpp"
@@ -15,7 +15,6 @@
 #include "eval/recording/frame_cache.hpp"
 #include "sim/faults/label_noise.hpp"
 #include "tests/core/mapping/counted_draws.hpp"
-#include "tests/core/mapping/plain_draws.hpp"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -44,7 +43,6 @@ std::filesystem::path temporary_folder(const std::string& name) {
 }
 
 constexpr double kEdge_m = 0.05;
-constexpr int kDraws = 100;
 
 /// A recording of 18 frames spread over the demo's drive, made once and removed at the end.
 class Replay {
@@ -71,6 +69,19 @@ class Replay {
   }
   [[nodiscard]] std::unique_ptr<TrialRun> start(const Task& task) {
     return std::make_unique<TrialRun>(task, recording_, table_, truths_, poses_);
+  }
+  /// Every pixel with depth and its class, background included.
+  [[nodiscard]] Observation observe_all(int index) {
+    const auto frame = frames_.get(index);
+    Observation observation;
+    for (std::size_t id = 0; id < table_.classes.size(); ++id)
+      observation.push_back({static_cast<ClassId>(id), 1.0, {}});
+    for (int v = 0; v < frame->depth.rows; ++v)
+      for (int u = 0; u < frame->depth.cols; ++u)
+        if (const double z = frame->depth(v, u) / kDepthUnitsPerMetre; z > 0)
+          observation[table_.class_of(frame->depth_label(v, u))].positions.push_back(
+              calibration().depth.back_project(u, v, z));
+    return observation;
   }
   /// What the method `direct` sees without faults.
   [[nodiscard]] Observation observe(int index) {
@@ -142,62 +153,52 @@ double cpu_s() {
 }
 
 /// Poses of the depth camera, 2 cm and 1 degree apart, somewhere on the drive.
-std::vector<Pose> sensor_draws(int frame, const Calibration& calibration) {
+std::vector<Pose> sensor_draws(int frame, int draws, const Calibration& calibration) {
   PoseBelief belief;
   belief.T_odom_base = planar_pose(0.3 * frame, 2.0 - 0.1 * frame, 0.4 * frame);
   belief.covariance.diagonal() << 4e-4, 4e-4, 0, 0, 0, 3.046e-4;
   RandomStream stream(1, "bench", {static_cast<std::uint64_t>(frame)});
-  auto poses = draw_poses(belief, kDraws, NoiseAt::base, CovarianceUse::diagonal, stream);
+  auto poses = draw_poses(belief, draws, NoiseAt::base, CovarianceUse::diagonal, stream);
   for (Pose& pose : poses) pose = pose * calibration.T_base_depth;
   return poses;
 }
 
-bool equal(const std::vector<MapVoxel>& some, const std::vector<MapVoxel>& others) {
-  return std::equal(some.begin(), some.end(), others.begin(), others.end(),
-                    [](const MapVoxel& a, const MapVoxel& b) {
-                      return a.key == b.key && a.best_class == b.best_class &&
-                             a.probability == b.probability;
-                    });
-}
-
-/// Placing and fusing alone, by cells, against two other ways in the same run, fusing included:
-/// `ratio_to_plain_passes` is the time of 100 passes that look every position up in an octree, and
-/// `ratio_to_counted_runs` that of 100 passes that count runs of positions in one voxel, sort them
-/// and enter only the winners. `equal` is 1 where all three maps agreed to the bit.
-void draws(benchmark::State& state) {
+/// Placing alone, of detected objects or of all that is seen, N draws on voxels of some
+/// millimetres, in turn with plain passes in the same run: `plain_to_place` is how many times
+/// longer the passes take, in processor time, and `equal` is 1 where all hits agreed to the bit.
+void place_draws(benchmark::State& state, bool all_classes) {
   Replay& replay = the_replay();
-  std::vector<Observation> observations;
-  std::vector<std::vector<Pose>> poses;
-  for (int index = 0; index < replay.frame_count(); ++index) {
-    observations.push_back(replay.observe(index));
-    poses.push_back(sensor_draws(index, replay.calibration()));
-  }
-  const auto run = [&](const auto& place_all) {
-    SemanticMap map(kEdge_m);
-    for (std::size_t n = 0; n < observations.size(); ++n)
-      map.fuse(place_all(observations[n], poses[n], kEdge_m), kDraws, BlendRule{0.5});
-    return map.voxels();
-  };
-  double begin = cpu_s();
-  const auto plain = run([](const auto&... all) { return mapscore::testing::plain_place(all...); });
-  const double plain_s = cpu_s() - begin;
-  begin = cpu_s();
-  const auto counted =
-      run([](const auto&... all) { return mapscore::testing::counted_place(all...); });
-  const double counted_s = cpu_s() - begin;
-  std::vector<MapVoxel> voxels;
-  begin = cpu_s();
-  for (auto _ : state) voxels = run([](const auto&... all) { return place(all...); });
-  const double fast_s = (cpu_s() - begin) / static_cast<double>(state.iterations());
-  const auto frames = static_cast<double>(observations.size());
-  state.counters["ratio_to_plain_passes"] = plain_s / fast_s;
-  state.counters["ratio_to_counted_runs"] = counted_s / fast_s;
-  state.counters["equal"] = equal(voxels, plain) && equal(voxels, counted) ? 1 : 0;
+  const int draws = static_cast<int>(state.range(0)), step = all_classes ? 6 : 1;
+  const double edge_m = 1e-3 * static_cast<double>(state.range(1));
+  double place_s = 0.0, plain_s = 0.0;
+  int frames = 0;
+  bool equal = true;
+  for (auto _ : state)
+    for (int index = 0; index < replay.frame_count(); index += step, ++frames) {
+      const Observation observation =
+          all_classes ? replay.observe_all(index) : replay.observe(index);
+      const std::vector<Pose> poses = sensor_draws(index, draws, replay.calibration());
+      const double before_s = cpu_s();
+      const auto placed = place(observation, poses, edge_m);
+      const double between_s = cpu_s();
+      const auto plain = mapscore::testing::counted_place(observation, poses, edge_m);
+      plain_s += cpu_s() - between_s;
+      place_s += between_s - before_s;
+      equal = equal && placed == plain;
+    }
+  state.counters["place_ms_a_frame"] = 1e3 * place_s / frames;
   state.counters["plain_ms_a_frame"] = 1e3 * plain_s / frames;
-  state.counters["counted_ms_a_frame"] = 1e3 * counted_s / frames;
-  state.counters["fast_ms_a_frame"] = 1e3 * fast_s / frames;
+  state.counters["plain_to_place"] = plain_s / place_s;
+  state.counters["equal"] = equal ? 1 : 0;
 }
-BENCHMARK(draws)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(place_draws, objects, false)
+    ->ArgNames({"N", "mm"})
+    ->ArgsProduct({{1, 4, 10, 30, 100}, {50, 20, 10}})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(place_draws, all_classes, true)
+    ->ArgNames({"N", "mm"})
+    ->ArgsProduct({{1, 5, 10}, {50, 20, 10}})
+    ->Unit(benchmark::kMillisecond);
 
 /// Both cameras, all files, PNGs encoded, on all cores; loading the scene included.
 void record(benchmark::State& state, bool shadows) {
