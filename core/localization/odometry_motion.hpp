@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/localization/planar_pose.hpp"
+#include "core/parameters.hpp"
 #include "core/random_stream.hpp"
 
 #include <Eigen/Core>
@@ -14,12 +15,21 @@ namespace mapscore {
 /// section 5.4. Each squares to a variance: the model's alphas are those of the book's text, which
 /// multiply squares (sigma^2 = alpha u^2).
 struct OdometryNoise {
-  double alpha1 = 0.003;   ///< of a turn, per turn squared: rad^2 / rad^2
-  double alpha2 = 0.0003;  ///< of a turn, per way squared: rad^2 / m^2
-  double alpha3 = 0.003;   ///< of the way, per way squared: m^2 / m^2
-  double alpha4 = 0.001;   ///< of the way, per turn squared: m^2 / rad^2
+  double alpha1 = 0.003;   ///< rad^2 / rad^2
+  double alpha2 = 0.0003;  ///< rad^2 / m^2
+  double alpha3 = 0.003;   ///< m^2 / m^2
+  double alpha4 = 0.001;   ///< m^2 / rad^2
   /// Below this way the direction of travel says nothing: the motion counts as a turn on the spot.
   double least_way_m = 0.005;
+
+  static void fields(auto& s, auto&& visit) {
+    constexpr Range kAlpha{0, 100};
+    visit(s.alpha1, Field{"alpha1", "variance of a turn by turn squared", kAlpha});
+    visit(s.alpha2, Field{"alpha2", "variance of a turn by way squared", kAlpha});
+    visit(s.alpha3, Field{"alpha3", "variance of the way by way squared", kAlpha});
+    visit(s.alpha4, Field{"alpha4", "variance of the way by turn squared", kAlpha});
+  }
+  bool operator==(const OdometryNoise&) const = default;
 };
 
 /// A motion in the frame of the robot before it: turn by rot1, drive by trans, turn by rot2.

@@ -31,8 +31,8 @@ void check(const ParticleFilterParams& params) {
         "resample_below is a share; give 0 to 1");
   check(params.least_effective >= 0 && params.least_effective < 1,
         "least_effective is a share; give 0 to below 1");
-  check(params.update_way_m >= 0 && params.update_turn_rad >= 0,
-        "give update_way_m and update_turn_rad of at least 0");
+  check(params.update_way_m >= 0 && params.update_turn_deg.deg >= 0,
+        "give update_way_m and update_turn_deg of at least 0");
   check(params.jobs >= 1, "give at least 1 job");
 }
 
@@ -149,7 +149,7 @@ bool ParticleFilter::step(const PlanarPose& T_odom_base, const LaserScan& scan) 
   const PlanarPose T_before_after = inverse(T_odom_base_updated_) * T_odom_base;
   const bool has_moved =
       std::hypot(T_before_after.x_m, T_before_after.y_m) >= params_.update_way_m ||
-      std::abs(T_before_after.yaw_rad) >= params_.update_turn_rad;
+      std::abs(T_before_after.yaw_rad) >= params_.update_turn_deg.rad();
   if (has_odometry_ && !has_moved) {
     estimate_ = moved(updated_, T_before_after, params_.noise);
     return false;

@@ -8,6 +8,7 @@
 #include "core/localization/resampling.hpp"
 #include "core/localization/scan_likelihood.hpp"
 #include "core/mapping/pose_belief.hpp"
+#include "core/parameters.hpp"
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -31,8 +32,16 @@ struct ParticleFilterParams {
   double least_effective = 0.2;
   /// A step updates the particles when the robot has moved this far, or turned this much, since the
   /// last update; a standing robot would take the same scan for ever more news.
-  double update_way_m = 0.05, update_turn_rad = 0.05;
-  int jobs = 1;  ///< threads; the result does not depend on them
+  double update_way_m = 0.05;
+  Degrees update_turn_deg{2.864788975654116};  ///< 0.05 rad
+  int jobs = 1;                                ///< threads; the result does not depend on them
+
+  /// Those of the filter itself; `noise` and `kld` have their own.
+  static void fields(auto& s, auto&& visit) {
+    visit(s.update_way_m, Field{"update_way_m", "way after which a scan is used", {0, 10}});
+    visit(s.update_turn_deg, Field{"update_turn_deg", "turn after which a scan is used", {0, 360}});
+  }
+  bool operator==(const ParticleFilterParams&) const = default;
 };
 
 /// Monte Carlo localisation on a 2D grid: Thrun, Burgard, Fox (2005), tables 8.2 and 8.4. Between

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/localization/planar_pose.hpp"
+#include "core/parameters.hpp"
 #include "core/random_stream.hpp"
 
 #include <cstddef>
@@ -20,6 +21,16 @@ struct KldParams {
       2.33;  ///< of the standard normal: the bound holds with this probability (99 %)
   double bin_m = 0.1, bin_rad = 0.0873;  ///< edges of the bins (5 degrees)
   std::size_t min_particles = 500, max_particles = 20000;
+
+  static void fields(auto& s, auto&& visit) {
+    constexpr Range kCount{1, 1000000};
+    visit(s.min_particles, Field{"least_particles", "however narrow the belief is", kCount});
+    visit(s.max_particles,
+          Field{"most_particles", "however wide it is; those of a global start", kCount});
+    visit(s.epsilon, Field{"kld_epsilon", "error of the belief that sets the number of particles",
+                           above(0, 1)});
+  }
+  bool operator==(const KldParams&) const = default;
 };
 
 /// Equation 14: (k-1)/(2 epsilon) (1 - 2/(9(k-1)) + sqrt(2/(9(k-1))) z)^3 for k bins with support,

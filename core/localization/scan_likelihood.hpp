@@ -5,6 +5,7 @@
 
 #include "core/localization/laser_scan.hpp"
 #include "core/localization/occupancy_grid.hpp"
+#include "core/parameters.hpp"
 
 #include <cstddef>
 #include <span>
@@ -12,6 +13,16 @@
 #include <vector>
 
 namespace mapscore {
+
+/// What both models have in common.
+void scan_model_fields(auto& s, auto&& visit) {
+  visit(s.beams, Field{"beams", "of a scan that are used, at most", {1, 100000}});
+  visit(s.sigma_hit_m,
+        Field{"sigma_hit_m", "standard deviation of a beam that hits what the grid shows",
+              above(0, 10)});
+  visit(s.temper, Field{"temper", "exponent of a scan's probability: its beams are not independent",
+                        above(0, 1)});
+}
 
 /// Likelihood field: Thrun, Burgard, Fox (2005), section 6.4, table 6.3.
 struct LikelihoodFieldParams {
@@ -22,6 +33,9 @@ struct LikelihoodFieldParams {
   /// does not hold and where in their cells its surfaces lie. `temper` times the beams is how many
   /// independent ones a scan is worth. What no number of beams makes smaller is in map_sigma.
   double temper = 0.8;
+
+  static void fields(auto& s, auto&& visit) { scan_model_fields(s, visit); }
+  bool operator==(const LikelihoodFieldParams&) const = default;
 };
 
 /// Beam model: the same, section 6.3, table 6.1.
@@ -31,6 +45,9 @@ struct BeamModelParams {
   double lambda_short_per_m = 1.0;  ///< rate at which unexpected obstacles end a beam
   double z_hit = 0.8, z_short = 0.05, z_max = 0.05, z_rand = 0.1;  ///< shares; sum 1
   double temper = 0.1;
+
+  static void fields(auto& s, auto&& visit) { scan_model_fields(s, visit); }
+  bool operator==(const BeamModelParams&) const = default;
 };
 
 /// Standard deviation, on each axis, of the offset that a grid's cells give a position, metres. A

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
+#include <type_traits>
 
 namespace mapscore {
 namespace {
@@ -16,19 +18,8 @@ namespace {
 /// Below this a decayed class is forgotten; no threshold in use comes near it.
 constexpr double kForgotten = 1e-6;
 
-void check_doubt(double doubt) {
-  if (!(doubt > 0.0 && doubt < 0.5))
-    throw Error("doubt: must lie above 0 and below 0.5; scores are kept that far from 0 and 1");
-}
-
-void check_rule(const BlendRule& rule) {
-  if (!(rule.K >= 0.0 && rule.K <= 1.0))
-    throw Error("K: must lie in [0, 1]; it is the weight of what the map held before");
-}
-void check_rule(const MaxConfidenceRule&) {}
-void check_rule(const VoteRule&) {}
-void check_rule(const BayesRule& rule) {
-  check_doubt(rule.doubt);
+void check_classes(const auto&) {}
+void check_classes(const BayesRule& rule) {
   if (rule.priors.size() < 2 || rule.priors.size() >= kOtherClasses)
     throw Error("priors: need one for each class of the table, at least two");
   for (const double prior : rule.priors)
@@ -38,12 +29,9 @@ void check_rule(const BayesRule& rule) {
   const double sum = std::accumulate(rule.priors.begin(), rule.priors.end(), 0.0);
   if (std::abs(sum - 1.0) > 1e-9) throw Error("priors: must add up to 1; divide them by their sum");
 }
-void check_rule(const Top3Rule& rule) {
-  check_doubt(rule.doubt);
+void check_classes(const Top3Rule& rule) {
   if (rule.classes < 2 || rule.classes >= kOtherClasses)
     throw Error("classes: need at least two in the class table");
-  if (!(rule.lambda > 0.0 && rule.lambda < 1.0))
-    throw Error("lambda: must lie above 0 and below 1; near 1 in the paper");
 }
 
 /// Whether a is the class to keep of two: the more confident, ties to the lower id.
@@ -92,6 +80,25 @@ ClassBeliefs mean_of(std::span<const ClassBeliefs* const> children) {
   return mean;
 }
 
+/// By class id: the given ones for detected classes, the rest in equal shares for the others.
+std::vector<double> priors_of(const std::vector<double>& given, const ClassTable& table) {
+  const auto detected = static_cast<std::size_t>(
+      std::ranges::count_if(table.classes, [](const SemanticClass& c) { return c.detect; }));
+  if (given.size() != detected)
+    throw Error("fusion.bayes.priors: has " + std::to_string(given.size()) + " numbers, but " +
+                std::to_string(detected) + " classes are detected; write one for each");
+  const double rest = 1.0 - std::accumulate(given.begin(), given.end(), 0.0);
+  if (!(rest > 0.0))
+    throw Error(
+        "fusion.bayes.priors: add up to 1 or more; leave a share for the classes that are not "
+        "detected");
+  std::vector<double> priors;
+  auto next = given.begin();
+  const auto others = static_cast<double>(table.classes.size() - detected);
+  for (const SemanticClass& c : table.classes) priors.push_back(c.detect ? *next++ : rest / others);
+  return priors;
+}
+
 }  // namespace
 
 std::vector<double> uniform_priors(int classes) {
@@ -99,8 +106,27 @@ std::vector<double> uniform_priors(int classes) {
   return std::vector<double>(static_cast<std::size_t>(classes), 1.0 / classes);
 }
 
+Fusion for_classes(const DrawnFusion& fusion, const ClassTable& table) {
+  Fusion fitted = std::visit(
+      [](const auto& kind) {
+        return Fusion{kind.rule, kind.draws};
+      },
+      fusion);
+  const auto classes = static_cast<int>(table.classes.size());
+  if (auto* top3 = std::get_if<Top3Rule>(&fitted.rule)) top3->classes = classes;
+  if (auto* bayes = std::get_if<BayesRule>(&fitted.rule))
+    bayes->priors =
+        bayes->priors.empty() ? uniform_priors(classes) : priors_of(bayes->priors, table);
+  return fitted;
+}
+
 void check(const FusionRule& rule) {
-  std::visit([](const auto& kind) { check_rule(kind); }, rule);
+  std::visit(
+      [](const auto& kind) {
+        check_ranges(Drawn<std::remove_cvref_t<decltype(kind)>>{kind, {}});
+        check_classes(kind);
+      },
+      rule);
 }
 
 void decay(const BlendRule& rule, ClassBeliefs& beliefs) {

@@ -3,22 +3,59 @@
 
 #pragma once
 
+#include "core/parameters.hpp"
+
+#include <optional>
+
 namespace mapscore {
 
 /// How one frame changes the occupancy of a voxel, as probabilities, with OctoMap's defaults: the
 /// log-odds l = log(p / (1 - p)) of a hit or a miss is added and the sum clamped [R, eq. 9, 10].
 /// Single precision, as OctoMap has it. Log-odds of 0 and more are occupied.
 struct OccupancyModel {
-  double hit = 0.7;           ///< above 0.5
-  double miss = 0.4;          ///< below 0.5
-  double clamp_min = 0.1192;  ///< below 0.5
-  double clamp_max = 0.971;   ///< above 0.5
+  double hit = 0.7, miss = 0.4, clamp_min = 0.1192, clamp_max = 0.971;
 
+  static void fields(auto& s, auto&& visit) {
+    constexpr Range kOccupied{.low = 0.5, .high = 1, .open_low = true, .open_high = true};
+    constexpr Range kFree{.low = 0, .high = 0.5, .open_low = true, .open_high = true};
+    visit(s.hit, Field{.key = "hit",
+                       .meaning = "carving: occupancy that a point in the voxel says",
+                       .range = kOccupied,
+                       .later = true});
+    visit(s.miss, Field{.key = "miss",
+                        .meaning = "carving: occupancy that a ray through the voxel says",
+                        .range = kFree,
+                        .later = true});
+    visit(s.clamp_min, Field{.key = "clamp_min",
+                             .meaning = "carving: least occupancy of a voxel",
+                             .range = kFree,
+                             .later = true});
+    visit(s.clamp_max, Field{.key = "clamp_max",
+                             .meaning = "carving: greatest occupancy of a voxel",
+                             .range = kOccupied,
+                             .later = true});
+  }
   bool operator==(const OccupancyModel&) const = default;
 };
 
-/// Throws Error naming the number that is out of range: hit and clamp_max must lie in (0.5, 1),
-/// miss and clamp_min in (0, 0.5).
-void check(const OccupancyModel& model);
+/// Whether and how rays of the depth image free the space that they pass.
+struct Carving {
+  bool carve = false;
+  OccupancyModel model{};
+  std::optional<double> max_range_m{};  ///< rays free no farther and hit nothing beyond
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.carve,
+          Field{.key = "carve",
+                .meaning = "rays of the depth image free what they pass; default: what is in the "
+                           "map is occupied (as the paper)",
+                .later = true});
+    OccupancyModel::fields(s.model, visit);
+    visit(s.max_range_m,
+          Field{"max_range_m", "carving: rays end here and hit nothing beyond; default: no limit",
+                above(0, 1000)});
+  }
+  bool operator==(const Carving&) const = default;
+};
 
 }  // namespace mapscore

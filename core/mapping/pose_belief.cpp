@@ -36,19 +36,18 @@ Covariance6 covariance_root(const Covariance6& covariance) {
   return ldlt.transpositionsP().transpose() * root;
 }
 
-std::vector<Pose> draw_poses(const PoseBelief& belief, int draws, NoiseAt noise_at,
-                             CovarianceUse use, RandomStream& stream) {
-  if (draws < 1) throw Error("N: the number of draws must be at least 1");
+std::vector<Pose> draw_poses(const PoseBelief& belief, const Draws& draws, RandomStream& stream) {
+  if (draws.N < 1) throw Error("N: the number of draws must be at least 1");
   Covariance6 root = covariance_root(belief.covariance);  // no use of it excuses a bad one
-  if (use == CovarianceUse::diagonal)
+  if (draws.covariance == CovarianceUse::diagonal)
     root = belief.covariance.diagonal().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   const Pose mean = belief.T_map_odom * belief.T_odom_base;
-  std::vector<Pose> poses(static_cast<std::size_t>(draws), mean);
+  std::vector<Pose> poses(static_cast<std::size_t>(draws.N), mean);
   if (root.isZero(0.0)) return poses;
   for (Pose& pose : poses) {
     const Pose noise = exp_pose(draw(root, stream));
-    pose =
-        noise_at == NoiseAt::base ? mean * noise : belief.T_map_odom * noise * belief.T_odom_base;
+    pose = draws.noise_at == NoiseAt::base ? mean * noise
+                                           : belief.T_map_odom * noise * belief.T_odom_base;
   }
   return poses;
 }

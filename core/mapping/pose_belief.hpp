@@ -4,8 +4,11 @@
 #pragma once
 
 #include "core/geometry/pose.hpp"
+#include "core/parameters.hpp"
 #include "core/random_stream.hpp"
 
+#include <array>
+#include <string_view>
 #include <vector>
 
 namespace mapscore {
@@ -26,14 +29,34 @@ enum class NoiseAt { base, odom };
 /// `diagonal` draws each axis by itself [M]; `full` uses the whole covariance.
 enum class CovarianceUse { diagonal, full };
 
+template <>
+inline constexpr auto kNames<NoiseAt> = std::to_array<std::string_view>({"base", "odom"});
+template <>
+inline constexpr auto kNames<CovarianceUse> = std::to_array<std::string_view>({"diagonal", "full"});
+
+/// How poses are drawn from the belief for an observation.
+struct Draws {
+  int N = 1;
+  NoiseAt noise_at = NoiseAt::base;
+  CovarianceUse covariance = CovarianceUse::diagonal;
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.N, Field{"N", "draws from the pose belief for an observation", {1, 100000}, "N"});
+    visit(s.noise_at,
+          Field{"noise_at", "draw about the robot (base) or the odom origin (as the paper)"});
+    visit(s.covariance, Field{"covariance", "part of the pose covariance that is drawn from"});
+  }
+  bool operator==(const Draws&) const = default;
+};
+
 /// A root L with L L^T = covariance, not triangular in general; works for semi-definite matrices,
 /// zero gives zero. Throws Error when the matrix is not symmetric positive semi-definite.
 [[nodiscard]] Covariance6 covariance_root(const Covariance6& covariance);
 
 /// N poses T_map_base drawn from the belief. A zero covariance gives N copies of the mean, bit for
-/// bit. Throws Error, nothing drawn, when `draws` < 1 or the covariance, however it is used, is not
+/// bit. Throws Error, nothing drawn, when N < 1 or the covariance, however it is used, is not
 /// symmetric positive semi-definite. Safe from several threads, each with a stream of its own.
-[[nodiscard]] std::vector<Pose> draw_poses(const PoseBelief& belief, int draws, NoiseAt noise_at,
-                                           CovarianceUse use, RandomStream& stream);
+[[nodiscard]] std::vector<Pose> draw_poses(const PoseBelief& belief, const Draws& draws,
+                                           RandomStream& stream);
 
 }  // namespace mapscore

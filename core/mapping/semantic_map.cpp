@@ -32,10 +32,13 @@ void for_each_finest(const SemanticOcTree::leaf_iterator& leaf, const SemanticOc
 
 }  // namespace
 
-SemanticMap::SemanticMap(double edge_m) : edge_m_(edge_m) {
+SemanticMap::SemanticMap(double edge_m, const Carving& carving)
+    : edge_m_(edge_m), carving_(carving) {
   if (!(edge_m > 0.0) || !std::isfinite(edge_m))
     throw Error("voxel_m: must be a positive length in metres");
+  if (carving.carve) check_ranges(carving);
   tree_ = std::make_unique<SemanticOcTree>(edge_m);
+  if (carving.carve) tree_->set_model(carving.model);
 }
 
 SemanticMap::SemanticMap(std::unique_ptr<SemanticOcTree> tree)
@@ -54,28 +57,20 @@ void SemanticMap::fuse(std::span<const VoxelHit> hits, int draws, const FusionRu
           }
           // Inner nodes are brought up to date in what is saved.
           SemanticOcTreeNode& voxel =
-              carving_ ? tree_->finest(octree_key(key)) : tree_->hit(octree_key(key));
+              carves() ? tree_->finest(octree_key(key)) : tree_->hit(octree_key(key));
           mapscore::fuse(kind, of_voxel, draws, voxel.mutable_beliefs());
         });
       },
       rule);
 }
 
-void SemanticMap::set_carving(const Carving& carving) {
-  check(carving.model);
-  if (carving.max_range_m && !(*carving.max_range_m > 0.0))
-    throw Error("max_range_m: must be a positive length in metres");
-  carving_ = carving;
-  tree_->set_model(carving.model);
-}
-
 void SemanticMap::see(const Eigen::Vector3d& origin, std::span<const Eigen::Vector3d> points,
                       std::span<const VoxelHit> hits) {
-  if (!carving_) throw Error("map: does not carve; set its carving before the first frame");
+  if (!carves()) throw Error("map: does not carve; make it with a Carving that does");
   std::vector<VoxelKey> hit_voxels;
   hit_voxels.reserve(hits.size());
   for (const VoxelHit& hit : hits) hit_voxels.push_back(hit.key);
-  const SeenSpace seen = seen_space(origin, points, edge_m_, carving_->max_range_m, hit_voxels);
+  const SeenSpace seen = seen_space(origin, points, edge_m_, carving_.max_range_m, hit_voxels);
   hits_beyond_span_ += seen.points_left_out;
   tree_->observe(seen.blocks);
 }

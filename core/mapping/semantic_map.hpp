@@ -35,14 +35,6 @@ struct BelievedVoxel {
   std::optional<Colour> colour;  ///< mean; none where no colour was seen
 };
 
-/// Free space by rays, where a map carves.
-struct Carving {
-  OccupancyModel model;
-  std::optional<double> max_range_m;  ///< rays free no farther and hit nothing beyond
-
-  bool operator==(const Carving&) const = default;
-};
-
 /// A point with its colour, in frame `map` (metres).
 struct ColouredPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -54,8 +46,10 @@ struct ColouredPoint {
 /// not.
 class SemanticMap {
  public:
-  /// Throws Error unless the voxel edge is positive.
-  explicit SemanticMap(double edge_m);
+  /// Where `carving` says so, occupancy comes from see() alone, by its model, and fuse() leaves
+  /// it as it is; else each voxel that a frame hits gets one hit of OctoMap's defaults [M]. Throws
+  /// Error unless the voxel edge is positive and the numbers of the model lie within their ranges.
+  explicit SemanticMap(double edge_m, const Carving& carving = {});
 
   [[nodiscard]] double edge_m() const { return edge_m_; }
 
@@ -66,10 +60,7 @@ class SemanticMap {
   void fuse(std::span<const VoxelHit> hits, int draws, const FusionRule& rule,
             std::size_t class_count = kOtherClasses);
 
-  /// From now on occupancy comes from see() alone, by this model; fuse() leaves it as it is.
-  /// Without it each voxel that a frame hits gets one hit of OctoMap's defaults [M]. Throws Error.
-  void set_carving(const Carving& carving);
-  [[nodiscard]] bool carves() const { return carving_.has_value(); }
+  [[nodiscard]] bool carves() const { return carving_.carve; }
   /// One miss for every voxel that a frame at `origin` saw through to `points`, one hit for every
   /// voxel with a point in it or with one of `hits` (seen_space). Call it before the frame's
   /// fuse(). Points that are not finite or beyond the octree's span are left out and counted in
@@ -118,7 +109,7 @@ class SemanticMap {
 
   double edge_m_;
   std::unique_ptr<SemanticOcTree> tree_;
-  std::optional<Carving> carving_;
+  Carving carving_;
   std::size_t hits_beyond_span_ = 0;
 };
 

@@ -107,11 +107,11 @@ void check_sizes(std::size_t centres, std::size_t colours, std::size_t beliefs) 
 
 std::vector<ClassBeliefs> refine_beliefs(std::span<const Eigen::Vector3d> centres_m,
                                          std::span<const Colour> colours,
-                                         std::span<const ClassBeliefs> beliefs, CrfRest rest,
-                                         const CrfParams& params, int jobs) {
+                                         std::span<const ClassBeliefs> beliefs, const Crf& crf,
+                                         int jobs) {
   check_sizes(centres_m.size(), colours.size(), beliefs.size());
-  const CrfTask task = task_of(centres_m, colours, beliefs, rest);
-  const CrfResult result = refine(task.voxels, params, jobs);
+  const CrfTask task = task_of(centres_m, colours, beliefs, crf.rest);
+  const CrfResult result = refine(task.voxels, crf, jobs);
   std::vector<ClassBeliefs> refined(beliefs.begin(), beliefs.end());
   for (std::size_t column = 0; column < task.voxel_of.size(); ++column) {
     ClassBeliefs& voxel = refined[task.voxel_of[column]];

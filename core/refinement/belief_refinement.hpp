@@ -11,12 +11,6 @@
 
 namespace mapscore {
 
-/// What a voxel's beliefs leave over for classes that it does not name (1 - their sum).
-enum class CrfRest {
-  apart,  ///< stays as much in each voxel; the CRF shares out only what is named
-  label,  ///< a label like any class: `unknown` spreads and is outvoted too
-};
-
 /// The beliefs of a map's voxels after the dense CRF (docs/refinement.md), in the same order.
 /// Labels are the classes that some voxel names, background among them where it is named. Under
 /// `apart` voxels that name no class say nothing and stay as they are; under `label` they are
@@ -25,7 +19,6 @@ enum class CrfRest {
 [[nodiscard]] std::vector<ClassBeliefs> refine_beliefs(std::span<const Eigen::Vector3d> centres_m,
                                                        std::span<const Colour> colours,
                                                        std::span<const ClassBeliefs> beliefs,
-                                                       CrfRest rest, const CrfParams& params,
-                                                       int jobs = 1);
+                                                       const Crf& crf, int jobs = 1);
 
 }  // namespace mapscore

@@ -23,7 +23,7 @@ void check_in(double value, double least, double most, const char* name) {
                 "; give a number from " + std::to_string(least) + " to " + std::to_string(most));
 }
 
-void check_sizes(const CrfVoxels& voxels, const CrfParams& params) {
+void check_sizes(const CrfVoxels& voxels, const Crf& params) {
   const auto count = static_cast<std::size_t>(voxels.probability.cols());
   if (voxels.centres_m.size() != count)
     throw Error("crf: " + std::to_string(voxels.centres_m.size()) + " centres for " +
@@ -72,7 +72,7 @@ float normalised_step(const Eigen::MatrixXf& log_p, const Eigen::MatrixXf& messa
 }
 
 template <class Messages>
-CrfResult mean_field(const Eigen::MatrixXf& log_p, const Messages& pairs, const CrfParams& params,
+CrfResult mean_field(const Eigen::MatrixXf& log_p, const Messages& pairs, const Crf& params,
                      int jobs) {
   CrfResult result;
   Eigen::MatrixXf messages = Eigen::MatrixXf::Zero(log_p.rows(), log_p.cols());
@@ -89,20 +89,19 @@ CrfResult mean_field(const Eigen::MatrixXf& log_p, const Messages& pairs, const 
 
 }  // namespace
 
-void check_parameters(const CrfParams& params) {
-  constexpr double kLeastSigma_m = 1e-4, kMostSigma_m = 100.0;
-  check_in(params.smoothness_weight, 0, 1000, "smoothness_weight");
-  check_in(params.appearance_weight, 0, 1000, "appearance_weight");
-  check_in(params.smoothness_sigma_m, kLeastSigma_m, kMostSigma_m, "smoothness_sigma_m");
-  check_in(params.appearance_sigma_m, kLeastSigma_m, kMostSigma_m, "appearance_sigma_m");
-  check_in(params.appearance_sigma_colour, 0.1, 1000, "appearance_sigma_colour");
-  check_in(params.iterations, 0, 1000, "iterations");
+void check_parameters(const Crf& params) {
+  check_ranges(params);
+  constexpr double kLeastSigma_m = 1e-4,
+                   kLeastSigmaOfColour = 0.1;  // the lattices' keys are 32 bits
+  check_in(params.smoothness_sigma_m, kLeastSigma_m, 10, "smoothness_sigma_m");
+  check_in(params.appearance_sigma_m, kLeastSigma_m, 10, "appearance_sigma_m");
+  check_in(params.appearance_sigma_colour, kLeastSigmaOfColour, 1000, "appearance_sigma_colour");
   check_in(params.tolerance, 0, 1, "tolerance");
   check_in(params.probability_floor, 1e-9, 0.5, "probability_floor");
   check_in(params.cutoff_sigmas, 0.5, 6, "cutoff_sigmas");
 }
 
-CrfResult refine(const CrfVoxels& voxels, const CrfParams& params, int jobs) {
+CrfResult refine(const CrfVoxels& voxels, const Crf& params, int jobs) {
   check_parameters(params);
   check_sizes(voxels, params);
   check_values(voxels);

@@ -34,7 +34,7 @@ std::vector<std::array<float, 3>> places(const CrfVoxels& voxels, double sigma_m
   return features;
 }
 
-std::vector<std::array<float, 6>> appearances(const CrfVoxels& voxels, const CrfParams& params) {
+std::vector<std::array<float, 6>> appearances(const CrfVoxels& voxels, const Crf& params) {
   const auto sigma = static_cast<float>(params.appearance_sigma_colour);
   std::vector<std::array<float, 6>> features;
   for (const std::array<float, 3>& p : places(voxels, params.appearance_sigma_m)) {
@@ -74,7 +74,7 @@ void LatticeMessages::add(const std::optional<Kernel<D>>& kernel, const Eigen::M
   messages -= q * kernel->scale.cwiseProduct(kernel->own).asDiagonal();
 }
 
-LatticeMessages::LatticeMessages(const CrfVoxels& voxels, const CrfParams& params, int jobs) {
+LatticeMessages::LatticeMessages(const CrfVoxels& voxels, const Crf& params, int jobs) {
   if (params.smoothness_weight > 0)
     smoothness_ = kernel<3>(places(voxels, params.smoothness_sigma_m), params.smoothness_weight,
                             params.normalised, jobs);

@@ -13,7 +13,7 @@ namespace mapscore {
 /// The CRF's messages by permutohedral lattices, one a kernel. Safe to share between threads.
 class LatticeMessages {
  public:
-  LatticeMessages(const CrfVoxels& voxels, const CrfParams& params, int jobs);
+  LatticeMessages(const CrfVoxels& voxels, const Crf& params, int jobs);
 
   /// As NeighbourMessages::send, without a cut-off and approximately.
   void send(const Eigen::MatrixXf& q, Eigen::MatrixXf& messages, int jobs) const;

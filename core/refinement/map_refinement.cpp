@@ -27,7 +27,7 @@ Colour mean_colour(const std::vector<BelievedVoxel>& voxels) {
 
 }  // namespace
 
-void refine(SemanticMap& map, CrfRest rest, const CrfParams& params, int jobs) {
+void refine(SemanticMap& map, const Crf& crf, int jobs) {
   std::vector<BelievedVoxel> voxels = map.believed_voxels();
   const Colour elsewhere = mean_colour(voxels);
   std::vector<Eigen::Vector3d> centres_m;
@@ -38,8 +38,7 @@ void refine(SemanticMap& map, CrfRest rest, const CrfParams& params, int jobs) {
     colours.push_back(voxel.colour.value_or(elsewhere));
     beliefs.push_back(std::move(voxel.beliefs));
   }
-  std::vector<ClassBeliefs> refined =
-      refine_beliefs(centres_m, colours, beliefs, rest, params, jobs);
+  std::vector<ClassBeliefs> refined = refine_beliefs(centres_m, colours, beliefs, crf, jobs);
   for (std::size_t n = 0; n < voxels.size(); ++n)
     map.set_beliefs(voxels[n].key, std::move(refined[n]));
 }

@@ -26,7 +26,7 @@ float per_square(double sigma) {
 }
 
 /// The farthest pair that any kernel in use joins.
-double reach_m(const CrfParams& params) {
+double reach_m(const Crf& params) {
   const double smoothness = params.smoothness_weight > 0 ? params.smoothness_sigma_m : 0.0;
   const double appearance = params.appearance_weight > 0 ? params.appearance_sigma_m : 0.0;
   const double sigma = std::max(smoothness, appearance);
@@ -43,7 +43,7 @@ TruncatedGaussian::TruncatedGaussian(float limit) : limit_(limit) {
     table_[step] = static_cast<float>(std::exp(-0.5 * limit * static_cast<double>(step) / kSteps));
 }
 
-NeighbourMessages::NeighbourMessages(const CrfVoxels& voxels, const CrfParams& params, int jobs)
+NeighbourMessages::NeighbourMessages(const CrfVoxels& voxels, const Crf& params, int jobs)
     : smoothness_weight_(static_cast<float>(params.smoothness_weight)),
       appearance_weight_(static_cast<float>(params.appearance_weight)),
       per_smoothness_m2_(per_square(params.smoothness_sigma_m)),

@@ -32,7 +32,7 @@ class TruncatedGaussian {
 class NeighbourMessages {
  public:
   /// Throws Error where the cells would be more than 2^20 on an axis.
-  NeighbourMessages(const CrfVoxels& voxels, const CrfParams& params, int jobs);
+  NeighbourMessages(const CrfVoxels& voxels, const Crf& params, int jobs);
 
   /// messages(l, i) = sum_m w_m sum_{j != i} k_m(i, j) q(l, j); both labels x voxels.
   void send(const Eigen::MatrixXf& q, Eigen::MatrixXf& messages, int jobs) const;

@@ -3,7 +3,6 @@
 
 #include "core/segmentation/edge_aligned.hpp"
 
-#include "core/error.hpp"
 #include "core/geometry/depth_rays.hpp"
 #include "core/segmentation/depth_edges.hpp"
 #include "core/segmentation/occupied_centres.hpp"
@@ -17,16 +16,11 @@
 
 namespace mapscore {
 
-LabelledDepth label_surfaces(const std::vector<Detection>& detections, const cv::Mat1w& depth,
-                             const Calibration& believed, const EdgeAlignedParams& params) {
-  if (depth.cols != believed.depth.width_px || depth.rows != believed.depth.height_px)
-    throw Error(
-        "depth image: not of the depth camera's size; give the intrinsics it was taken with");
-  if (!(params.search_px >= 0.0) || !std::isfinite(params.search_px))
-    throw Error("search_px: must not be negative");
-  if (!(params.reach_px > 0.0) || !std::isfinite(params.reach_px))
-    throw Error("reach_px: must be positive");
-  const DepthEdges edges = find_depth_edges(depth, believed);
+LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
+  check_ranges(params);
+  const Calibration& believed = sight.believed();
+  const std::vector<Detection>& detections = sight.detections();
+  const DepthEdges edges = find_depth_edges(sight.depth(), believed);
   const int reach_px = static_cast<int>(std::ceil(1.3 * params.search_px)) + 16;
   const OutlineField field =
       outline_field(detections, believed.color.width_px, believed.color.height_px, reach_px);
@@ -39,31 +33,23 @@ LabelledDepth label_surfaces(const std::vector<Detection>& detections, const cv:
   return labelled;
 }
 
-cv::Mat1w label_depth(const std::vector<Detection>& detections, const cv::Mat1w& depth,
-                      const Calibration& believed, const EdgeAlignedParams& params) {
-  return label_surfaces(detections, depth, believed, params).labels;
-}
-
-std::vector<Segment> segment_edge_aligned(const std::vector<Detection>& detections,
-                                          const cv::Mat1w& depth, const Calibration& believed,
-                                          double voxel_m, const EdgeAlignedParams& params,
-                                          bool with_voxels) {
-  if (!(voxel_m > 0.0) || !std::isfinite(voxel_m))
-    throw Error("voxel_m: must be a positive length in metres");
-  const auto [labels, inverse_depth] = label_surfaces(detections, depth, believed, params);
+std::vector<Segment> EdgeAligned::segment(const Sight& sight, double voxel_m,
+                                          bool with_voxels) const {
+  const auto [labels, inverse_depth] = label_surfaces(sight, *this);
+  const cv::Mat1w& depth = sight.depth();
   const auto z_m = [&](int v, int u) {
     return inverse_depth.empty() ? depth(v, u) / kDepthUnitsPerMetre
                                  : 1.0 / static_cast<double>(inverse_depth(v, u));
   };
   std::vector<Segment> segments;
-  segments.reserve(detections.size());
-  for (const Detection& detection : detections) {
+  segments.reserve(sight.detections().size());
+  for (const Detection& detection : sight.detections()) {
     Segment& segment = segments.emplace_back();
     segment.class_id = detection.class_id;
     segment.instance = detection.instance;
     segment.score = detection.score;
   }
-  const DepthRays rays(believed.depth);
+  const DepthRays rays(sight.believed().depth);
   for (int v = 0; v < depth.rows; ++v)
     for (int u = 0; u < depth.cols; ++u)
       if (labels(v, u) != 0)

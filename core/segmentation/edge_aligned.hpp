@@ -4,13 +4,36 @@
 #pragma once
 
 #include "core/geometry/camera.hpp"
-#include "core/segmentation/segmentation.hpp"
+#include "core/parameters.hpp"
+#include "core/segmentation/detection.hpp"
+#include "core/segmentation/segment.hpp"
+#include "core/segmentation/sight.hpp"
 
 #include <opencv2/core.hpp>
 
 #include <vector>
 
 namespace mapscore {
+
+/// Outlines of a frame's masks fitted to its depth edges, then votes on the depth surface
+/// (docs/methods.md). Segments a whole frame at once.
+struct EdgeAligned {
+  static constexpr std::string_view kKind = "edge_aligned";
+  static constexpr std::string_view kMeaning =
+      "fit a frame's masks to its depth edges, then vote on the depth surface";
+  double search_px = 40, reach_px = 3;
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.search_px,
+          Field{"search_px", "largest displacement of the masks that is looked for", {0, 200}});
+    visit(s.reach_px,
+          Field{"reach_px", "how far votes spread over a depth surface", above(0, 100)});
+  }
+  /// Segments of all detections, in their order; points in row-major order of their depth pixels.
+  [[nodiscard]] std::vector<Segment> segment(const Sight& sight, double voxel_m,
+                                             bool with_voxels) const;
+  bool operator==(const EdgeAligned&) const = default;
+};
 
 /// Depth pixels with the detections they belong to.
 struct LabelledDepth {
@@ -19,23 +42,7 @@ struct LabelledDepth {
 };
 
 /// Labels a frame's depth pixels; of a noisy depth image settles them on their surfaces too
-/// (settled_depth.hpp). Throws Error on a depth image of another size than its camera's and on bad
-/// parameters.
-[[nodiscard]] LabelledDepth label_surfaces(const std::vector<Detection>& detections,
-                                           const cv::Mat1w& depth, const Calibration& believed,
-                                           const EdgeAlignedParams& params);
-
-/// The labels alone.
-[[nodiscard]] cv::Mat1w label_depth(const std::vector<Detection>& detections,
-                                    const cv::Mat1w& depth, const Calibration& believed,
-                                    const EdgeAlignedParams& params);
-
-/// Segments of all detections of one frame, in their order; points in row-major order of their
-/// depth pixels.
-[[nodiscard]] std::vector<Segment> segment_edge_aligned(const std::vector<Detection>& detections,
-                                                        const cv::Mat1w& depth,
-                                                        const Calibration& believed, double voxel_m,
-                                                        const EdgeAlignedParams& params,
-                                                        bool with_voxels);
+/// (settled_depth.hpp). Throws Error on parameters out of range.
+[[nodiscard]] LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params);
 
 }  // namespace mapscore

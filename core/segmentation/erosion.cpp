@@ -4,6 +4,7 @@
 #include "core/segmentation/erosion.hpp"
 
 #include "core/error.hpp"
+#include "core/segmentation/direct.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -91,6 +92,13 @@ cv::Mat1b erode_mask(const Detection& detection, int radius_px, int image_width_
     }
   }
   return eroded;
+}
+
+Segment Erosion::segment(const Detection& detection, const RegisteredCloud& cloud, double voxel_m,
+                         bool with_voxels) const {
+  const cv::Mat1b eroded = erode_mask(detection, radius_px, cloud.width_px(), cloud.height_px());
+  if (cv::countNonZero(eroded) == 0) return Segment::nothing(SkipReason::eroded_away);
+  return segment_of(eroded, detection.box, cloud, voxel_m, with_voxels);
 }
 
 }  // namespace mapscore

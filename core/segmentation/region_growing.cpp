@@ -4,6 +4,7 @@
 #include "core/segmentation/region_growing.hpp"
 
 #include "core/error.hpp"
+#include "core/segmentation/direct.hpp"
 #include "core/segmentation/growing_workspace.hpp"
 #include "core/segmentation/lattice_bits.hpp"
 #include "core/segmentation/point_extent.hpp"
@@ -30,12 +31,12 @@ template <class Scalar>
 class FastGrowing {
  public:
   FastGrowing(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& seed, double pitch_m,
-              double radius_factor)
+              double factor)
       : points_(points),
         seed_(seed),
         pitch_m_(pitch_m),
-        factor_(radius_factor),
-        radius_squared_(static_cast<Scalar>(radius_factor * pitch_m * (radius_factor * pitch_m))) {}
+        factor_(factor),
+        radius_squared_(static_cast<Scalar>(factor * pitch_m * (factor * pitch_m))) {}
 
   /// False when the points do not fit a dense grid; nothing can be grown then.
   [[nodiscard]] bool lay_grid(const PointExtent& extent) {
@@ -258,17 +259,16 @@ class FastGrowing {
 
 template <class Scalar>
 Region grow_finite(std::span<const Eigen::Vector3d> points, const PointExtent& extent,
-                   const Eigen::Vector3d& seed, double pitch_m, double radius_factor) {
-  FastGrowing<Scalar> growing(points, seed, pitch_m, radius_factor);
+                   const Eigen::Vector3d& seed, double pitch_m, double factor) {
+  FastGrowing<Scalar> growing(points, seed, pitch_m, factor);
   constexpr bool kReleased = std::is_same_v<Scalar, float>;
-  return growing.lay_grid(extent)
-             ? growing.grow()
-             : grow_region_reference(points, seed, pitch_m, radius_factor, kReleased);
+  return growing.lay_grid(extent) ? growing.grow()
+                                  : grow_region_reference(points, seed, pitch_m, factor, kReleased);
 }
 
 /// Without the points that are not finite; indices as in the full list.
 Region grow_without_gaps(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& seed,
-                         double pitch_m, double radius_factor, bool released) {
+                         double pitch_m, double factor, bool released) {
   std::vector<Eigen::Vector3d> finite;
   std::vector<int> indices;
   for (std::size_t n = 0; n < points.size(); ++n) {
@@ -276,7 +276,7 @@ Region grow_without_gaps(std::span<const Eigen::Vector3d> points, const Eigen::V
     finite.push_back(points[n]);
     indices.push_back(static_cast<int>(n));
   }
-  Region region = grow_region(finite, seed, pitch_m, radius_factor, released);
+  Region region = grow_region(finite, seed, pitch_m, factor, released);
   for (int& point : region.points) point = indices[static_cast<std::size_t>(point)];
   return region;
 }
@@ -284,16 +284,35 @@ Region grow_without_gaps(std::span<const Eigen::Vector3d> points, const Eigen::V
 }  // namespace
 
 Region grow_region(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& seed,
-                   double pitch_m, double radius_factor, bool released) {
+                   double pitch_m, double factor, bool released) {
   if (!(pitch_m > 0.0) || !std::isfinite(pitch_m))
     throw Error("voxel_m: must be a positive length in metres");
-  if (!(radius_factor > 0.0) || !std::isfinite(radius_factor))
-    throw Error("radius_factor: must be positive; 1 is the paper's, 0.5 the released code's");
+  if (!(factor > 0.0) || !std::isfinite(factor))
+    throw Error("search radius: must be a positive multiple of the voxel edge");
   if (points.empty() || !seed.allFinite()) return {};
   const PointExtent extent = extent_of(points);
-  if (!extent.finite) return grow_without_gaps(points, seed, pitch_m, radius_factor, released);
-  return released ? grow_finite<float>(points, extent, seed, pitch_m, radius_factor)
-                  : grow_finite<double>(points, extent, seed, pitch_m, radius_factor);
+  if (!extent.finite) return grow_without_gaps(points, seed, pitch_m, factor, released);
+  return released ? grow_finite<float>(points, extent, seed, pitch_m, factor)
+                  : grow_finite<double>(points, extent, seed, pitch_m, factor);
+}
+
+Segment RegionGrowing::segment(const Detection& detection, const RegisteredCloud& cloud,
+                               double voxel_m, bool with_voxels) const {
+  const std::vector<Eigen::Vector3d> points = points_behind(detection.mask, detection.box, cloud);
+  const auto start = seed_point(detection, cloud, seed);
+  if (points.empty() || !start)
+    return Segment::nothing(points.empty() ? SkipReason::no_points : SkipReason::no_seed_point);
+  const auto grow = kd_tree ? grow_region_reference : grow_region;
+  const Region region = grow(points, *start, voxel_m, radius_factor, released);
+  Segment segment;
+  if (region.points.empty()) segment.skipped = SkipReason::seed_off_object;
+  segment.points.reserve(region.points.size());
+  for (const int index : region.points)
+    segment.points.push_back(points[static_cast<std::size_t>(index)]);
+  if (with_voxels)
+    for (const VoxelKey& key : region.positions)
+      segment.voxel_centres.push_back(lattice_position(*start, voxel_m, key));
+  return segment;
 }
 
 }  // namespace mapscore

@@ -42,7 +42,7 @@ struct Cloud {
 
 template <class Scalar>
 Region grow(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& seed, double pitch_m,
-            double radius_factor) {
+            double factor) {
   using Tree =
       nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<Scalar, Cloud<Scalar>>,
                                           Cloud<Scalar>, 3>;
@@ -51,7 +51,7 @@ Region grow(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& seed
   if (cloud.points.empty()) return region;
   Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(10));
   tree.buildIndex();
-  const double radius_m = radius_factor * pitch_m;
+  const double radius_m = factor * pitch_m;
   const auto radius_squared = static_cast<Scalar>(radius_m * radius_m);
   // The tree adds up its bounds in another order than the distance, so that its pruning may cost a
   // point within the last bits of the radius (seen with leaves of one point): search a little
@@ -90,9 +90,9 @@ Region grow(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& seed
 }  // namespace
 
 Region grow_region_reference(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& seed,
-                             double pitch_m, double radius_factor, bool released) {
-  return released ? grow<float>(points, seed, pitch_m, radius_factor)
-                  : grow<double>(points, seed, pitch_m, radius_factor);
+                             double pitch_m, double factor, bool released) {
+  return released ? grow<float>(points, seed, pitch_m, factor)
+                  : grow<double>(points, seed, pitch_m, factor);
 }
 
 }  // namespace mapscore

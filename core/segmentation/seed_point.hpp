@@ -3,11 +3,14 @@
 
 #pragma once
 
+#include "core/parameters.hpp"
 #include "core/segmentation/detection.hpp"
 #include "core/segmentation/registered_cloud.hpp"
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
+#include <string_view>
 
 namespace mapscore {
 
@@ -19,6 +22,10 @@ enum class SeedRule {
   largest_piece,  ///< likewise, of the largest piece of the mask that is continuous in depth
   depth_mode      ///< deepest inside the mask, of the depth that most of the medial axis has
 };
+
+template <>
+inline constexpr auto kNames<SeedRule> =
+    std::to_array<std::string_view>({"box_centre", "mask_centroid", "largest_piece", "depth_mode"});
 
 /// Pixels side by side (4 neighbours) belong to one piece when their depths differ by at most this
 /// share of the nearer one.

@@ -5,8 +5,10 @@
 
 #include "core/error.hpp"
 #include "eval/cli/options.hpp"
+#include "eval/cli/trial_maps.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/cli/view_flag.hpp"
+#include "eval/experiment/bench.hpp"
 #include "eval/experiment/study_store.hpp"
 #include "eval/report/believed_figures.hpp"
 #include "eval/report/contact_sheet.hpp"
@@ -73,7 +75,11 @@ void draw_from_recording(const FigureFlags& flags, const PictureChoice& choice,
   print({write_picture(folder / "contact_sheet.png",
                        contact_sheet(record.study, record.table, *recording))});
   print(draw_believed(record.study, *recording, choice, folder));
-  const Pictures pictures = draw_pictures(record.study, record.table, *recording, choice, folder);
+  const Pictures pictures =
+      draw_pictures(record.study, record.table, *recording, choice, folder, [&] {
+        Bench bench(*recording, record.table, reads_colour(record.study), choice.memory_bytes);
+        return map_trials(record.study, bench, choice);
+      });
   print(pictures.files);
   if (!pictures.skipped.empty())
     std::cerr << "mapscore: no pictures of the map: " << shown(pictures.skipped) << '\n';

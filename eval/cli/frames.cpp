@@ -8,12 +8,10 @@
 #include "eval/cli/recording_progress.hpp"
 #include "eval/cli/truth_size.hpp"
 #include "eval/cli/verbs.hpp"
+#include "eval/experiment/bench.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
-#include "eval/experiment/trial_refinement.hpp"
-#include "eval/experiment/trial_run.hpp"
-#include "eval/recording/frame_cache.hpp"
 #include "eval/report/frames_figure.hpp"
 #include "files/folder_lock.hpp"
 #include "files/text.hpp"
@@ -64,22 +62,18 @@ std::vector<Task> tasks_of(const Study& study, int seed, const std::string& reco
 std::vector<MethodFrames> walk(const Study& study, const std::vector<Task>& tasks,
                                const Recording& recording, const ClassTable& table,
                                const FramesFlags& flags) {
-  FrameCache frames(
-      recording, {.color = reads_colour(study), .label = true, .depth = true, .depth_label = true},
-      flags.work.memory_bytes);
-  TruthCache truths(recording, table, frames, 1);
-  PoseSources poses(recording);
+  Bench bench(recording, table, reads_colour(study), flags.work.memory_bytes);
   std::vector<std::unique_ptr<TrialRun>> runs;
   std::vector<MethodFrames> methods;
   for (const Task& task : tasks) {
-    runs.push_back(std::make_unique<TrialRun>(task, recording, table, truths, poses));
+    runs.push_back(bench.start(task));
     runs.back()->keep_frames();
     methods.push_back({task.config.methods.front().name, {}});
   }
   Progress progress("frames", "frames", flags.work.quiet);
   for (int frame = 0; frame < recording.frame_count(); ++frame) {
     for (std::size_t m = 0; m < runs.size(); ++m) {
-      runs[m]->advance(*frames.get(frame, runs[m]->depth_of(frame)));
+      runs[m]->advance(*bench.frame(frame, runs[m]->depth_of(frame)));
       for (const FrameResult& result : runs[m]->take_frames())
         methods[m].frames.push_back(figures_of(result, table));
     }
@@ -132,7 +126,7 @@ void add_frames(CLI::App& program) {
       "Examples:\n"
       "  mapscore frames configs/person_sequence.yaml\n"
       "  mapscore frames configs/person_sequence.yaml --set 'sweep={}' --set "
-      "faults.misregistration.magnitude_m=0.02 --format csv");
+      "faults.depth.preset=astra --format csv");
   verb->callback([flags] { compare_frames(*flags); });
 }
 

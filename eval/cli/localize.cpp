@@ -48,7 +48,7 @@ Study study_of(const LocalizeFlags& flags) {
   study.name =
       shown((fs::absolute(flags.recording) / "").lexically_normal().parent_path().filename());
   study.recording = flags.recording;
-  study.methods = {{"direct", DirectSettings{}, {}}};  // a study has one; nothing is mapped here
+  study.methods = {{"direct", Direct{}}};  // a study has one; nothing is mapped here
   study.seed = flags.seed;
   study.seeds = flags.seeds;
   set_leaf(study, "localization.source", flags.source);

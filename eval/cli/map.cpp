@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "eval/cli/choice_flags.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/output_check.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/experiment/doses.hpp"
 #include "eval/experiment/folder_mapping.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/study_store.hpp"
-#include "eval/experiment/trial_fusion.hpp"
 #include "eval/map_files/voxel_ply.hpp"
 #include "eval/recording/frame_selection.hpp"
 #include "eval/score/prediction.hpp"
@@ -28,15 +27,20 @@
 namespace mapscore::eval {
 namespace {
 
+/// As the authors' released code has it, where neither a study nor flags say otherwise.
+const Segmentation kReleasedGrowing = RegionGrowing{.radius_factor = 0.5};
+
 struct MapVerbFlags {
+  explicit MapVerbFlags(CLI::App& verb)
+      : segmentation(verb, "--segmentation", kReleasedGrowing, "Mapping") {}
+
   std::string folder, file, color_file, ply_file;
   LabelledFolderOptions reading;
   std::vector<double> range_m;
-  std::string study, method, segmentation, frames, masks;
+  std::string study, method, frames, masks;
+  ChoiceFlags<Segmentation> segmentation;
   std::vector<std::string> detect, overrides;
   std::optional<double> voxel_m, K, threshold;
-  std::optional<int> radius_px;
-  std::optional<double> radius_factor;
   std::vector<double> origin_m{0, 0, 0};
   double yaw_deg = 0.0;
   bool quiet = false;
@@ -64,10 +68,10 @@ std::optional<Study> study_of(const MapVerbFlags& flags) {
 
 /// What a folder cannot do as a trial does it.
 void check_mappable(const Study& study, const MethodSettings& method) {
-  if (!std::holds_alternative<LabelPerceptionSettings>(study.perception))
+  if (!std::holds_alternative<LabelPerception>(study.perception))
     throw Error("perception: `map` takes the folder's labels; leave the key out, or use `run`");
-  const auto refinement = trial_refinement(method.refinement);
-  if (refinement && refinement->reads_colour())
+  const auto* crf = std::get_if<Crf>(&method.refinement);
+  if (crf != nullptr && crf->reads_colour())
     throw Error(
         fmt::format("methods.{0}.refinement.crf.appearance_weight: `map` reads no colours; --set "
                     "methods.{0}.refinement.crf.appearance_weight=0, or use `run`",
@@ -78,39 +82,20 @@ void take_from_study(const Study& study, const MapVerbFlags& flags, const ClassT
                      FolderMapping& mapping) {
   const MethodSettings& method = method_of(study, flags.method);
   check_mappable(study, method);
-  mapping.segmentation = segmentation_params(method.segmentation);
-  mapping.place_voxels = place_of(study, method) == Place::voxels;
-  mapping.voxel_m = study.voxel_m;
-  mapping.fusion = trial_fusion(fusion_of(study.fusion, method.fusion), table).rule;
-  mapping.occupancy = study.occupancy;
-  mapping.refinement = trial_refinement(method.refinement);
+  mapping.mapping = mapping_of(with_method(study, method.name), table);
+  mapping.mapping.fusion.draws = {};  // a pose that is known is drawn once
+  mapping.refinement = method.refinement;
 }
 
-void take_segmentation(const MapVerbFlags& flags, FolderMapping& mapping) {
-  const bool own_default = flags.segmentation.empty() && flags.study.empty();
-  const std::string kind = own_default ? "region_growing" : flags.segmentation;
-  if (flags.radius_px && kind != "erosion")
-    throw Error("--radius_px: is erosion's; give --segmentation erosion, or leave it out");
-  if (flags.radius_factor && kind != "region_growing")
-    throw Error(
-        "--radius_factor: is region growing's; give --segmentation region_growing, or leave it "
-        "out");
-  if (kind == "direct") mapping.segmentation = DirectParams{};
-  if (kind == "erosion")
-    mapping.segmentation = ErosionParams{flags.radius_px.value_or(ErosionParams{}.radius_px)};
-  if (kind == "edge_aligned") mapping.segmentation = EdgeAlignedParams{};
-  if (kind == "region_growing")
-    mapping.segmentation = RegionGrowingParams{.radius_factor = flags.radius_factor.value_or(0.5)};
-}
-
-FolderMapping mapping_of(const std::optional<Study>& study, const MapVerbFlags& flags,
-                         const ClassTable& table) {
+FolderMapping folder_mapping(const std::optional<Study>& study, const MapVerbFlags& flags,
+                             const ClassTable& table) {
   FolderMapping mapping;
   if (study) take_from_study(*study, flags, table, mapping);
-  take_segmentation(flags, mapping);
-  if (flags.voxel_m) mapping.voxel_m = *flags.voxel_m;
+  if (!study || flags.segmentation.given())
+    mapping.mapping.segmentation = flags.segmentation.value();
+  if (flags.voxel_m) mapping.mapping.voxel_m = *flags.voxel_m;
   if (flags.K) {
-    auto* blend = std::get_if<BlendRule>(&mapping.fusion);
+    auto* blend = std::get_if<BlendRule>(&mapping.mapping.fusion.rule);
     if (blend == nullptr)
       throw Error("--K: is the blend's, and the study fuses by another rule; leave it out");
     blend->K = *flags.K;
@@ -158,7 +143,7 @@ void map_recording(const MapVerbFlags& flags) {
     folder.detect_as(detected_table(flags.detect, folder.table()).classes);
   else if (study)
     folder.detect_as(detected_table(*study, folder.table()).classes);
-  const FolderMapping mapping = mapping_of(study, flags, folder.table());
+  const FolderMapping mapping = folder_mapping(study, flags, folder.table());
   const std::vector<int> frames =
       (flags.frames.empty() ? FrameSelection() : FrameSelection(flags.frames))
           .of(folder.frame_count());
@@ -166,7 +151,7 @@ void map_recording(const MapVerbFlags& flags) {
   Progress progress("map", "frames", flags.quiet);
   const SemanticMap map = map_folder(folder, frames, mapping, counts,
                                      [&](int done, int all) { progress.show(done, all); });
-  const double threshold = flags.threshold.value_or(first_full_hit(mapping.fusion) / 2);
+  const double threshold = flags.threshold.value_or(default_threshold(mapping.mapping.fusion.rule));
   if (map.voxels().empty() && !flags.quiet)
     std::cerr << "mapscore: note: the map has no voxel; do the classes occur in the labels, and do "
                  "poses, depth and --origin_m fit?\n";
@@ -221,13 +206,6 @@ void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
   add("--set", flags.overrides, "A key of the study, path=value; may be repeated")
       ->allow_extra_args(false);
   add("--method", flags.method, "Name of its method [the first]");
-  add("--segmentation", flags.segmentation,
-      "direct, erosion, region_growing or edge_aligned [region_growing]")
-      ->check(CLI::IsMember(
-          std::set<std::string>{"direct", "erosion", "region_growing", "edge_aligned"}));
-  add("--radius_px", flags.radius_px, "Of erosion [5]")->check(CLI::Range(0, 1000));
-  add("--radius_factor", flags.radius_factor, "Of region growing, in voxel edges [0.5]")
-      ->check(finite_within(0.01, 10));
   add("--voxel_m", flags.voxel_m, "Voxel edge in metres [0.05]")->check(finite_within(1e-3, 10));
   add("--K", flags.K, "Weight of what the map held before, in the blend [0.5]")
       ->check(finite_within(0, 0.999));
@@ -244,7 +222,7 @@ void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
 
 void add_map(CLI::App& program) {
   auto* verb = program.add_subcommand("map", "Map a recording of any origin, truth or not");
-  const auto flags = std::make_shared<MapVerbFlags>();
+  const auto flags = std::make_shared<MapVerbFlags>(*verb);
   verb->add_option("FOLDER", flags->folder,
                    "Folder with depth.txt, groundtruth.txt, color.txt or rgb.txt, and label/ or "
                    "label.txt")

@@ -44,10 +44,8 @@ Study study_of_recording(const fs::path& folder, const std::vector<std::string>&
   Study study;
   study.name = folder.filename().string();
   study.recording = fs::absolute(folder).string();
-  study.methods = {{"direct", DirectSettings{}, {}},
-                   {"erosion", ErosionSettings{}, {}},
-                   {"region_growing", RegionGrowingSettings{}, {}},
-                   {"edge_aligned", EdgeAlignedSettings{}, {}}};
+  for (const Segmentation& kind : each_kind<Segmentation>())
+    study.methods.push_back({std::string(kind_of(kind)), kind});
   study.map_origin_m = {0, 0, 0};
   set_leaves(study, overrides);
   check(study);
@@ -195,7 +193,7 @@ void add_objects(CLI::App& program) {
       "Examples:\n"
       "  mapscore objects results/demo/recordings/apartment-* -o objects\n"
       "  mapscore objects configs/demo.yaml -o results/demo --method erosion "
-      "--set faults.misregistration.magnitude_m=0.02\n"
+      "--set faults.labels.preset=typical\n"
       "  mapscore objects /data/tuesday -o tuesday --start monday/objects.yaml --format csv\n"
       "  mapscore info objects/objects.xml");
   verb->callback([flags] { map_objects(*flags); });

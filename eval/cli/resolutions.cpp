@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "core/mapping/fusion_rule.hpp"
 #include "core/mapping/map_resolution.hpp"
 #include "eval/cli/map_score.hpp"
 #include "eval/cli/options.hpp"
@@ -10,7 +11,6 @@
 #include "eval/cli/truth_source.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/cli/view_flag.hpp"
-#include "eval/experiment/trial_fusion.hpp"
 #include "eval/report/map_pictures.hpp"
 #include "eval/report/pictures_view.hpp"
 #include "eval/report/resolution_picture.hpp"
@@ -41,12 +41,9 @@ struct ResolutionFlags {
 /// How the voxels of a cube are put together; its numbers beyond the kind do not matter there, but
 /// for the priors, which are equal.
 FusionRule rule_of(const std::string& name, const ClassTable& table) {
-  FusionSettings settings;
-  if (name == VoteSettings::kKind) settings = VoteSettings{};
-  if (name == MaxConfidenceSettings::kKind) settings = MaxConfidenceSettings{};
-  if (name == BayesSettings::kKind) settings = BayesSettings{};
-  if (name == Top3Settings::kKind) settings = Top3Settings{};
-  return trial_fusion(settings, table).rule;
+  for (const DrawnFusion& kind : each_kind<DrawnFusion>())
+    if (kind_of(kind) == name) return for_classes(kind, table).rule;
+  throw Error("--rule: no rule '" + name + "'");
 }
 
 /// The map with voxels of `times` its size, as a map to score.

@@ -6,17 +6,16 @@
 #include "eval/cli/options.hpp"
 #include "eval/cli/progress.hpp"
 #include "eval/cli/recording_progress.hpp"
+#include "eval/cli/trial_maps.hpp"
 #include "eval/cli/truth_size.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/cli/view_flag.hpp"
+#include "eval/experiment/bench.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/replay_check.hpp"
 #include "eval/experiment/study_recording.hpp"
 #include "eval/experiment/study_store.hpp"
-#include "eval/experiment/trial_refinement.hpp"
-#include "eval/experiment/trial_run.hpp"
-#include "eval/recording/frame_cache.hpp"
 #include "eval/report/pictures.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/report/table.hpp"
@@ -124,18 +123,12 @@ void run(const RunFlags& flags) {
   check_truth_size(task.config, recording, 1, flags.yes);
   const bool by_frame = task.config.score.unit == ScoreUnit::frame;
 
-  FrameCache frames(
-      recording, {.color = reads_colour(study), .label = true, .depth = true, .depth_label = true},
-      flags.work.memory_bytes);
-  TruthCache truths(recording, table, frames, 1);
-  PoseSources poses(recording);
-  TrialRun trial(task, recording, table, truths, poses);
+  Bench bench(recording, table, reads_colour(study), flags.work.memory_bytes);
+  const std::unique_ptr<TrialRun> run_trial = bench.start(task);
+  TrialRun& trial = *run_trial;
   trial.keep_frames();
   Progress progress("run", "frames", flags.work.quiet);
-  for (int frame = 0; frame < recording.frame_count(); ++frame) {
-    trial.advance(*frames.get(frame, trial.depth_of(frame)));
-    progress.show(frame + 1, recording.frame_count());
-  }
+  bench.run(trial, [&](int done, int all) { progress.show(done, all); });
   const std::filesystem::path folder =
       results / "runs" /
       fmt::format("{}-seed{}-{}", spec.method, spec.seed_index, task.key.substr(0, 8));
@@ -153,9 +146,12 @@ void run(const RunFlags& flags) {
             << '\n'
             << score_command(folder / "map.ot", study, recording, table, task, trial.threshold());
   write_frames(trial, table, folder / "frames.csv");
-  print_pictures(draw_pictures(
-      study, table, recording,
-      {spec.cell.doses, spec.method, spec.seed_index, flags.work.memory_bytes, view}, folder));
+  const PictureChoice choice{spec.cell.doses, spec.method, spec.seed_index, flags.work.memory_bytes,
+                             view};
+  print_pictures(draw_pictures(study, table, recording, choice, folder, [&] {
+    return by_frame ? map_trials(study, bench, choice)  // of the fullest frame, not the last
+                    : std::vector{judged_trial(study, trial, task, table, spec, {})};
+  }));
 }
 
 }  // namespace
@@ -174,8 +170,7 @@ void add_run(CLI::App& program) {
       "Examples:\n"
       "  mapscore run configs/demo.yaml --method region_growing\n"
       "  mapscore run configs/demo.yaml --view 4 1 2.2 5.5 3 0.8\n"
-      "  mapscore run configs/demo.yaml --set 'sweep={}' --set "
-      "faults.misregistration.magnitude_m=0.04");
+      "  mapscore run configs/demo.yaml --set 'sweep={}' --set faults.depth.preset=astra");
   verb->callback([flags] { run(*flags); });
 }
 

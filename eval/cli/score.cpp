@@ -25,7 +25,6 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr double kDefaultThreshold = 0.25;  // half of what a first full hit gives under the blend
 constexpr std::size_t kListedLeftovers = 10;
 
 struct ScoreFlags {
@@ -119,7 +118,8 @@ void score_map(const ScoreFlags& flags) {
   if (!map.leftovers.empty())
     note(flags, "labels without a meaning: " + text_of(map.leftovers, kListedLeftovers) +
                     "; --legend can give them one");
-  const double threshold = flags.threshold.value_or(map.geometry ? 0.0 : kDefaultThreshold);
+  const double threshold =
+      flags.threshold.value_or(map.geometry ? 0.0 : default_threshold(BlendRule{}));
   const MapScore score = score_input(map, flags.map, threshold, source, flags.work.jobs);
   if (!score.note.empty()) note(flags, score.note);
   write_errors(flags, map, score, source);

@@ -3,11 +3,11 @@
 
 #include "core/error.hpp"
 #include "core/geometry/oriented_box.hpp"
-#include "core/segmentation/frame_segmentation.hpp"
+#include "core/segmentation/segmentation.hpp"
 #include "core/whole_file.hpp"
+#include "eval/cli/choice_flags.hpp"
 #include "eval/cli/options.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/experiment/study_fields.hpp"
 #include "eval/map_files/cloud_file.hpp"
 #include "eval/recording/recording.hpp"
 #include "files/csv.hpp"
@@ -16,13 +16,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <tuple>
 
 namespace mapscore::eval {
 namespace {
@@ -30,38 +28,13 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SegmentFlags {
-  std::string recording, output, method = "direct";
-  std::optional<std::string> seed;
+  explicit SegmentFlags(CLI::App& verb) : segmentation(verb, "--method", Direct{}) {}
+
+  std::string recording, output;
+  ChoiceFlags<Segmentation> segmentation;
   int frame = 0;
-  std::optional<int> radius_px;
   double voxel_m = 0.05;
-  std::optional<double> radius_factor;
-  bool released = false;
 };
-
-/// Flags of another method would do nothing.
-void check_method_flags(const SegmentFlags& flags) {
-  const std::tuple<bool, const char*, const char*> owned[] = {
-      {flags.radius_px.has_value(), "--radius_px", "erosion"},
-      {flags.radius_factor.has_value(), "--radius_factor", "region_growing"},
-      {flags.seed.has_value(), "--seed", "region_growing"},
-      {flags.released, "--released", "region_growing"}};
-  for (const auto& [given, flag, method] : owned)
-    if (given && flags.method != method)
-      throw Error(fmt::format("{}: belongs to --method {}; leave it out of {}", flag, method,
-                              flags.method));
-}
-
-SegmentationParams params_of(const SegmentFlags& flags) {
-  if (flags.method == "direct") return DirectParams{};
-  if (flags.method == "erosion") return ErosionParams{flags.radius_px.value_or(5)};
-  if (flags.method == "edge_aligned") return EdgeAlignedParams{};
-  const auto& names = kNames<SeedRule>;
-  const auto rule =
-      std::find(names.begin(), names.end(), flags.seed.value_or("box_centre")) - names.begin();
-  return RegionGrowingParams{flags.radius_factor.value_or(1.0), flags.released,
-                             static_cast<SeedRule>(rule)};
-}
 
 Frame frame_of(const Recording& recording, int frame) {
   if (frame < 0 || frame >= recording.frame_count())
@@ -137,15 +110,13 @@ void write_all(const std::vector<Segment>& segments, const ClassTable& table,
 }
 
 void write_segments(const SegmentFlags& flags) {
-  check_method_flags(flags);
-  const SegmentationParams params = params_of(flags);
+  const Segmentation segmentation = flags.segmentation.value();
   const Recording recording = Recording::open(flags.recording);
   const Frame frame = frame_of(recording, flags.frame);
   const Calibration& calibration = recording.info().calibration;
   const ClassTable& table = recording.info().table;
-  const std::vector<Detection> detections = detections_of(frame.label, table);
-  const std::vector<Segment> segments =
-      segment_frame(detections, frame.depth, calibration, flags.voxel_m, params, true);
+  const Sight sight(calibration, frame.depth, detections_of(frame.label, table));
+  const std::vector<Segment> segments = segment(sight, segmentation, flags.voxel_m, true);
   const fs::path folder = flags.output;
   const FolderLock lock(folder);
   if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
@@ -167,24 +138,13 @@ void write_segments(const SegmentFlags& flags) {
 void add_segment(CLI::App& program) {
   auto* verb =
       program.add_subcommand("segment", "Write the points, voxels and boxes of a frame's objects");
-  const auto flags = std::make_shared<SegmentFlags>();
-  const auto& rules = kNames<SeedRule>;
+  const auto flags = std::make_shared<SegmentFlags>(*verb);
   verb->add_option("RECORDING", flags->recording, "Folder of a recording")->required();
   verb->add_option("-o,--output", flags->output, "Folder for the files, new or empty")->required();
   verb->add_option("--frame", flags->frame, "Index of the frame [0]");
-  verb->add_option("--method", flags->method, "direct, erosion, region_growing or edge_aligned")
-      ->check(CLI::IsMember({"direct", "erosion", "region_growing", "edge_aligned"}))
-      ->capture_default_str();
   verb->add_option("--voxel_m", flags->voxel_m, "Edge of a voxel")
       ->check(finite_within(1e-4, 10))
       ->capture_default_str();
-  verb->add_option("--radius_px", flags->radius_px, "Of erosion [5]")->check(CLI::Range(0, 1000));
-  verb->add_option("--radius_factor", flags->radius_factor,
-                   "Of region growing: search radius over voxel edge [1]")
-      ->check(finite_within(1e-3, 10));
-  verb->add_flag("--released", flags->released, "Region growing in single precision");
-  verb->add_option("--seed", flags->seed, "Where region growing starts [box_centre]")
-      ->check(CLI::IsMember(std::vector<std::string>(rules.begin(), rules.end())));
   verb->footer(
       "Writes for each instance its points and voxels' centres in depth_optical (.pcd and .ply), "
       "and\nsegments.csv: axis-aligned box in depth_optical, upright box in base_footprint.\n"

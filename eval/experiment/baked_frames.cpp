@@ -4,9 +4,7 @@
 #include "eval/experiment/baked_frames.hpp"
 
 #include "core/error.hpp"
-#include "eval/experiment/fault_fields.hpp"
 #include "eval/experiment/leaf.hpp"
-#include "eval/experiment/sensor_doses.hpp"
 #include "eval/experiment/study_store.hpp"
 #include "eval/experiment/trial_seed.hpp"
 #include "sim/faults/depth_noise.hpp"
@@ -17,26 +15,17 @@
 namespace mapscore::eval {
 namespace {
 
-LabelFaultSettings masks_alone(LabelFaultSettings settings) {
-  settings.confusion.reset();
-  settings.confusion_matrix.reset();
-  settings.scores.reset();
-  settings.score_mean.reset();
-  settings.score_concentration.reset();
-  return resolved(settings);
-}
-
-/// `key: value, ...` of the keys that differ from their defaults.
-template <class Settings>
-std::string text_of(const Settings& settings) {
+/// `key: value, ...` of the keys that differ from the ideal.
+template <class Dose>
+std::string text_of(const Dose& dose) {
   std::string text;
-  const auto add = [&]<class T>(const Field& field, const T& member) {
-    const std::string value = Leaf<T>::text(member);
-    if (value == "-" || value == field.unkeyed) return;
+  const auto own = canonical(dose).own;
+  own.fields(own, [&](const auto& member, const Field& field) {
+    const std::string value = Leaf<std::remove_cvref_t<decltype(member)>>::text(member);
+    if (value == "-") return;
     if (!text.empty()) text += ", ";
     text += fmt::format("{}: {}", field.key, value);
-  };
-  fields(add, settings);
+  });
   return text;
 }
 
@@ -55,16 +44,14 @@ BakedFrames::BakedFrames(const Study& study, const ClassTable& table, const Came
     : study_seed_(study.seed),
       seed_(trial_seed(study.seed, 0)),
       camera_(depth),
-      depth_settings_(resolved(study.faults.depth)),
-      label_settings_(masks_alone(resolved(study.faults.labels))),
-      depth_dose_(dose_of(depth_settings_)),
-      label_dose_(dose_of(label_settings_)) {
+      depth_dose_(study.faults.depth.dose()),
+      label_dose_(sim::masks_alone(study.faults.labels.dose())) {
   refuse_sweep(study);
   table_ = detected_table(study, table);
 }
 
 std::optional<BakedFaults> BakedFrames::faults() const {
-  BakedFaults baked{study_seed_, text_of(depth_settings_), text_of(label_settings_)};
+  BakedFaults baked{study_seed_, text_of(depth_dose_), text_of(label_dose_)};
   if (baked.depth.empty() && baked.labels.empty()) return std::nullopt;
   return baked;
 }
@@ -82,7 +69,7 @@ Frame BakedFrames::depth(const Frame& exact) const {
 }
 
 bool has_verdict_faults(const Study& study) {
-  const sim::LabelDose dose = dose_of(study.faults.labels);
+  const sim::LabelDose dose = study.faults.labels.dose();
   return dose.confusion > 0.0 || !dose.confusion_matrix.empty() || dose.scores > 0.0;
 }
 

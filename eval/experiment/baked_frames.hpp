@@ -35,8 +35,6 @@ class BakedFrames {
   std::uint64_t study_seed_, seed_;
   ClassTable table_;  ///< with the study's `detect`
   CameraModel camera_;
-  DepthFaultSettings depth_settings_;  ///< resolved
-  LabelFaultSettings label_settings_;  ///< resolved, masks alone
   sim::DepthDose depth_dose_;
   sim::LabelDose label_dose_;
 };

@@ -4,29 +4,22 @@
 #pragma once
 
 #include "core/geometry/pose.hpp"
-#include "core/mapping/fusion_rule.hpp"
+#include "core/mapping/mapper.hpp"
 #include "core/mapping/semantic_map.hpp"
-#include "core/segmentation/segmentation.hpp"
-#include "eval/experiment/occupancy_settings.hpp"
-#include "eval/experiment/trial_refinement.hpp"
+#include "eval/experiment/study.hpp"
 #include "eval/recording/labelled_folder.hpp"
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 namespace mapscore::eval {
 
 /// How a folder is mapped, without any fault: its calibration and poses are believed as they are.
 struct FolderMapping {
-  double voxel_m = 0.05;
+  Mapping mapping;                      ///< of one draw a frame: poses are known
   Pose T_map_world = Pose::Identity();  ///< world: the frame of groundtruth.txt
-  SegmentationParams segmentation = RegionGrowingParams{.radius_factor = 0.5};
-  bool place_voxels = false;
-  FusionRule fusion = BlendRule{};
-  OccupancySettings occupancy;
-  std::optional<TrialRefinement> refinement;  ///< of the finished map; without colours
+  Refinement refinement;                ///< of the finished map; without colours
 };
 
 /// What came of the frames.

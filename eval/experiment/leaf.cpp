@@ -51,15 +51,6 @@ void refuse_outside(const YamlAt& at, double value, const std::string& text, con
 
 }  // namespace
 
-std::string Range::text() const {
-  const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
-  const std::string from = fmt::format("{} {}", open_low ? "above" : "from", low);
-  const std::string to = fmt::format("{} {}", open_high ? "below" : "up to", high);
-  if (has_low && has_high) return from + ", " + to;
-  if (has_low) return open_low ? from : from + " up";
-  return has_high ? to : "any";
-}
-
 double Leaf<double>::read(const YamlAt& at, const Range& range) {
   double number = 0;
   const std::string text = at.plain_scalar("a number");
@@ -83,8 +74,10 @@ int Leaf<int>::read(const YamlAt& at, const Range& range) {
   return number;
 }
 
-std::uint64_t Leaf<std::uint64_t>::read(const YamlAt& at, const Range&) {
-  return read_whole<std::uint64_t>(at);
+std::uint64_t Leaf<std::uint64_t>::read(const YamlAt& at, const Range& range) {
+  const auto number = read_whole<std::uint64_t>(at);
+  refuse_outside(at, static_cast<double>(number), text(number), range);
+  return number;
 }
 
 bool Leaf<bool>::read(const YamlAt& at, const Range&) {

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "eval/experiment/fields.hpp"
+#include "core/parameters.hpp"
 #include "eval/experiment/study.hpp"
 #include "eval/experiment/yaml_at.hpp"
 
@@ -34,6 +34,15 @@ struct Leaf<double> {
 };
 
 template <>
+struct Leaf<Degrees> {
+  [[nodiscard]] static Degrees read(const YamlAt& at, const Range& range) {
+    return {Leaf<double>::read(at, range)};
+  }
+  [[nodiscard]] static std::string text(Degrees value) { return Leaf<double>::text(value.deg); }
+  [[nodiscard]] static std::string type() { return Leaf<double>::type(); }
+};
+
+template <>
 struct Leaf<int> {
   [[nodiscard]] static int read(const YamlAt& at, const Range& range);
   [[nodiscard]] static std::string text(int value) { return fmt::format("{}", value); }
@@ -42,9 +51,9 @@ struct Leaf<int> {
 
 template <>
 struct Leaf<std::uint64_t> {
-  [[nodiscard]] static std::uint64_t read(const YamlAt& at, const Range&);
+  [[nodiscard]] static std::uint64_t read(const YamlAt& at, const Range& range);
   [[nodiscard]] static std::string text(std::uint64_t value) { return fmt::format("{}", value); }
-  [[nodiscard]] static std::string type() { return "whole number, 64 bits"; }
+  [[nodiscard]] static std::string type() { return "whole number"; }
 };
 
 template <>
@@ -143,5 +152,39 @@ struct Leaf<std::optional<T>> {
   }
   [[nodiscard]] static std::string type() { return Leaf<T>::type(); }
 };
+
+/// Absent where it is not given, as an optional one.
+template <class T, class Keys>
+struct Leaf<Given<T, Keys>> {
+  using Value = Leaf<std::remove_const_t<T>>;
+  [[nodiscard]] static std::string text(const Given<T, Keys>& leaf) {
+    return leaf.is_given() ? Value::text(leaf.value) : "-";
+  }
+  [[nodiscard]] static std::string type() { return Value::type(); }
+};
+
+template <class List>
+struct Leaf<UnlessEmpty<List>> {
+  using Value = Leaf<std::remove_const_t<List>>;
+  [[nodiscard]] static std::string text(const UnlessEmpty<List>& leaf) {
+    return leaf.list.empty() ? "-" : Value::text(leaf.list);
+  }
+  [[nodiscard]] static std::string type() { return Value::type(); }
+};
+
+/// Sets a leaf from YAML. Throws Error when the type or the range is wrong.
+template <class T>
+void read_leaf(const YamlAt& at, const Range& range, T& leaf) {
+  leaf = Leaf<T>::read(at, range);
+}
+template <class T, class Keys>
+void read_leaf(const YamlAt& at, const Range& range, Given<T, Keys>& leaf) {
+  leaf.give(Leaf<T>::read(at, range));
+}
+template <class List>
+void read_leaf(const YamlAt& at, const Range& range, UnlessEmpty<List>& leaf) {
+  leaf.list = Leaf<List>::read(at, range);
+  if (leaf.list.empty()) at.fail("is empty; write its numbers, or leave the key out");
+}
 
 }  // namespace mapscore::eval

@@ -3,13 +3,21 @@
 
 #pragma once
 
+#include "core/localization/odometry_motion.hpp"
+#include "core/localization/particle_filter.hpp"
+#include "core/localization/resampling.hpp"
+#include "core/localization/scan_likelihood.hpp"
+#include "core/parameters.hpp"
+#include "eval/localization/filter_run.hpp"
+#include "sim/faults/lidar_noise.hpp"
+
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace mapscore::eval {
-
-// Part of a study, in its units; see study.hpp. Keys, ranges and meanings stand in
-// localization_fields.hpp.
 
 /// Where a trial's believed poses come from.
 enum class PoseSource {
@@ -25,48 +33,93 @@ enum class FilterStart { tracking, global };
 
 enum class ScanModelKind { likelihood_field, beam };
 
-/// What is not set is as the core's OdometryNoise has it.
-struct OdometryNoiseSettings {
-  std::optional<double> alpha1, alpha2, alpha3, alpha4;
+}  // namespace mapscore::eval
 
-  bool operator==(const OdometryNoiseSettings&) const = default;
-};
+namespace mapscore {
+template <>
+inline constexpr auto kNames<eval::PoseSource> = std::to_array<std::string_view>(
+    {"gaussian", "truth", "odometry", "particle_filter", "trajectory"});
+template <>
+inline constexpr auto kNames<eval::FilterStart> = std::to_array<std::string_view>({"tracking",
+                                                                                   "global"});
+template <>
+inline constexpr auto kNames<eval::ScanModelKind> =
+    std::to_array<std::string_view>({"likelihood_field", "beam"});
+}  // namespace mapscore
 
-/// What is not set is as FilterSettings has it.
+namespace mapscore::eval {
+
+/// The particle filter of a study; what is not given is as the core has it.
 struct ParticleFilterSettings {
   FilterStart start = FilterStart::tracking;
-  std::optional<double> start_sigma_xy_m, start_sigma_yaw_deg;
-  std::optional<int> least_particles, most_particles;
-  std::optional<double> kld_epsilon;
-  std::optional<double> update_way_m, update_turn_deg;
+  Overrides<StartSpread> spread;
+  Overrides<KldParams> kld;
+  Overrides<ParticleFilterParams> filter;
   ScanModelKind scan_model = ScanModelKind::likelihood_field;
-  std::optional<int> beams;
-  std::optional<double> sigma_hit_m, temper;
+  Overrides<LikelihoodFieldParams> model;  ///< keys that the beam model has too
 
+  static void fields(auto& s, auto&& visit) {
+    visit(s.start, Field{.key = "start",
+                         .meaning = "about the true pose (tracking), or anywhere on the grid "
+                                    "(global)",
+                         .later = true});
+    Overrides<StartSpread>::fields(s.spread, visit);
+    Overrides<KldParams>::fields(s.kld, visit);
+    Overrides<ParticleFilterParams>::fields(s.filter, visit);
+    visit(s.scan_model,
+          Field{.key = "scan_model", .meaning = "probability of a scan", .later = true});
+    Overrides<LikelihoodFieldParams>::fields(s.model, visit);
+  }
   bool operator==(const ParticleFilterSettings&) const = default;
 };
 
+/// Where the robot of a study believes it is.
 struct LocalizationSettings {
   PoseSource source = PoseSource::gaussian;
   std::optional<std::string> trajectory;  ///< of source trajectory
   std::optional<std::string> grid;        ///< empty: cut from the truth at the lidar's height
   std::optional<double> grid_resolution_m;
-  OdometryNoiseSettings odometry_noise;
+  Overrides<OdometryNoise> odometry_noise;
   ParticleFilterSettings filter;
 
+  static void fields(auto& s, auto&& visit) {
+    visit(s.source, Field{.key = "source",
+                          .meaning = "of the believed poses; gaussian: the true pose under "
+                                     "faults.pose",
+                          .figure = "pose source",
+                          .later = true});
+    visit(s.trajectory,
+          Field{"trajectory",
+                "TUM lines of base_footprint in the scene's world, a 6x6 covariance behind each "
+                "if known; for source trajectory"});
+    visit(s.grid, Field{"grid",
+                        "grid of ROS's map_server (YAML) in the scene's world; default: cut from "
+                        "the scene at the lidar's height"});
+    visit(s.grid_resolution_m, Field{"grid_resolution_m",
+                                     "edge of a cell of a grid that is cut; default 0.02",
+                                     {0.005, 1}});
+    visit(s.odometry_noise,
+          Field{.key = "odometry_noise",
+                .meaning = "of the odometry, as sources odometry and particle_filter believe it",
+                .later = true});
+    visit(s.filter, Field{.key = "filter", .meaning = "the particle filter", .later = true});
+  }
   bool operator==(const LocalizationSettings&) const = default;
 };
 
-/// A lidar that a study may use as it is.
-enum class LidarPreset { ideal, rplidar_a2 };
+/// Edge of a cell of a grid that is cut from the truth, metres.
+[[nodiscard]] double grid_resolution_m(const LocalizationSettings& settings);
 
-/// A ready-made lidar, and what differs from it; members as those of sim::LidarNoise.
-struct LidarFaultSettings {
-  LidarPreset preset = LidarPreset::ideal;
-  double scale = 1;  ///< of every dose
-  std::optional<double> sigma_m, sigma_per_metre, dropout_rate;
+/// The filter of a study, with the lidar's noise.
+[[nodiscard]] FilterSettings filter_of(const LocalizationSettings& settings,
+                                       const Dosed<sim::LidarNoise>& lidar);
 
-  bool operator==(const LidarFaultSettings&) const = default;
-};
+struct FaultSettings;
+
+/// Canonical settings of the poses of a study, equal exactly where the poses are: every default
+/// that the source uses is written out, and nothing that it does not use. `content`: hash of what
+/// the file holds that the source reads.
+void resolve_localization(LocalizationSettings& localization, FaultSettings& faults,
+                          const std::string& content);
 
 }  // namespace mapscore::eval

@@ -4,25 +4,13 @@
 #include "eval/experiment/object_run.hpp"
 
 #include "core/error.hpp"
+#include "core/mapping/mapper.hpp"
 #include "core/objects/solid_piece.hpp"
-#include "core/segmentation/frame_segmentation.hpp"
-#include "eval/experiment/doses.hpp"
-#include "eval/experiment/sensor_doses.hpp"
-#include "eval/experiment/trial_run.hpp"
-#include "sim/faults/depth_noise.hpp"
-#include "sim/faults/label_noise.hpp"
 
 #include <numbers>
 
 namespace mapscore::eval {
 namespace {
-
-std::vector<int> paired_depth(const Recording& recording, const Study& config) {
-  std::vector<int> depth;
-  for (int frame = 0; frame < recording.frame_count(); ++frame)
-    depth.push_back(recording.depth_of(frame, config.faults.time_offset_ms / 1000.0));
-  return depth;
-}
 
 Eigen::AlignedBox3d bounds_of(const std::vector<Eigen::Vector3d>& points,
                               const Pose& T_map_points) {
@@ -35,18 +23,13 @@ Eigen::AlignedBox3d bounds_of(const std::vector<Eigen::Vector3d>& points,
 
 ObjectRun::ObjectRun(const Task& task, const Recording& recording, const ClassTable& table,
                      PoseSources& poses, const ObjectRunOptions& options)
-    : task_(task),
-      recording_(recording),
+    : recording_(recording),
       table_(table),
-      believed_(believed_calibration(recording.info().calibration, task)),
-      depth_of_(paired_depth(recording, task.config)),
-      beliefs_(poses.beliefs(task, depth_of_)),
-      depth_dose_(dose_of(task.config.faults.depth)),
-      label_dose_(dose_of(task.config.faults.labels)),
-      segmentation_(segmentation_params(task.config.methods.front().segmentation)),
+      sights_(task, recording, table),
+      beliefs_(poses.beliefs(task, sights_.depth_of_frames())),
+      segmentation_(task.config.methods.front().segmentation),
       map_frame_(map_frame(task.config, task.seed_index)),
       options_(options),
-      simulated_(simulated_labels(task.config, recording, table)),
       map_(table.classes.size(), options.map),
       seen_(table.instances.size()) {}
 
@@ -58,14 +41,8 @@ void ObjectRun::start_from(const ObjectFile& known) {
   }
 }
 
-std::vector<ObjectDetection> ObjectRun::detect(const Frame& frame, const cv::Mat1w& depth,
-                                               const Pose& T_map_depth) const {
-  const cv::Mat1w label = simulated_ ? simulated_->of(frame) : frame.label;
-  const std::vector<Detection> detections =
-      sim::corrupt_detections(label, simulated_ ? simulated_->table() : table_, label_dose_,
-                              trial_seed(task_), frame.index);
-  const std::vector<Segment> segments =
-      segment_frame(detections, depth, believed_, map_frame_.edge_m, segmentation_, false);
+std::vector<ObjectDetection> ObjectRun::detect(const Sight& sight, const Pose& T_map_depth) const {
+  const std::vector<Segment> segments = segment(sight, segmentation_, map_frame_.edge_m, false);
   std::vector<ObjectDetection> found;
   for (const Segment& segment : segments) {
     const std::vector<Eigen::Vector3d> solid =
@@ -78,14 +55,15 @@ std::vector<ObjectDetection> ObjectRun::detect(const Frame& frame, const cv::Mat
 
 ObjectChanges ObjectRun::advance(const Frame& frame) {
   const Calibration& truth = recording_.info().calibration;
-  const PoseBelief& belief = beliefs_.at(static_cast<std::size_t>(frame.index));
-  const Pose T_map_depth = belief.T_map_odom * belief.T_odom_base * believed_.T_base_depth;
-  const PosedDepth view{believed_.depth, T_map_depth, believed_.range_min_m, believed_.range_max_m,
-                        sim::corrupt_depth(frame.depth, truth.depth, depth_dose_, trial_seed(task_),
-                                           frame.depth_index)};
+  const Sight sight = sights_.of(frame);
+  const Calibration& believed = sight.believed();
+  const Pose T_map_depth =
+      mean_sensor_pose(beliefs_.at(static_cast<std::size_t>(frame.index)), believed);
+  const PosedDepth view{believed.depth, T_map_depth, believed.range_min_m, believed.range_max_m,
+                        sight.depth()};
   if (!frame.depth_label.empty())
     seen_.add(frame, truth, map_frame_.T_map_world() * frame.T_world_base);
-  return map_.integrate(detect(frame, view.depth, T_map_depth), frame.stamp_s, &view);
+  return map_.integrate(detect(sight, T_map_depth), frame.stamp_s, &view);
 }
 
 ObjectFile ObjectRun::file() const {

@@ -5,19 +5,16 @@
 
 #include "core/classes.hpp"
 #include "core/frame.hpp"
-#include "core/geometry/camera.hpp"
 #include "core/mapping/pose_belief.hpp"
 #include "core/objects/object_map.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/pose_sources.hpp"
-#include "eval/experiment/simulated_labels.hpp"
+#include "eval/experiment/sights.hpp"
 #include "eval/objects/object_file.hpp"
 #include "eval/objects/true_objects.hpp"
 #include "eval/recording/recording.hpp"
-#include "sim/faults/depth_dose.hpp"
-#include "sim/faults/label_dose.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -32,7 +29,7 @@ struct ObjectRunOptions {
 };
 
 /// One object map under way over the frames of a recording: what TrialRun does for voxels, under
-/// the same faults. Used by one thread at a time; `task`, `recording` and `table` must outlive it.
+/// the same faults. Used by one thread at a time; `recording` and `table` must outlive it.
 class ObjectRun {
  public:
   /// Throws Error as PoseSources and SimulatedLabels.
@@ -44,9 +41,7 @@ class ObjectRun {
   void start_from(const ObjectFile& known);
 
   /// The depth image that a frame is paired with under the task's time offset.
-  [[nodiscard]] int depth_of(int frame) const {
-    return depth_of_.at(static_cast<std::size_t>(frame));
-  }
+  [[nodiscard]] int depth_of(int frame) const { return sights_.depth_of(frame); }
 
   /// Register, segment, put boxes about what was kept, and take them into the map. It is read with
   /// the depth image that `depth_of` names, and with depth_label where it is to be scored.
@@ -60,21 +55,16 @@ class ObjectRun {
   [[nodiscard]] std::vector<TrueObject> truth(bool seen) const;
 
  private:
-  [[nodiscard]] std::vector<ObjectDetection> detect(const Frame& frame, const cv::Mat1w& depth,
+  [[nodiscard]] std::vector<ObjectDetection> detect(const Sight& sight,
                                                     const Pose& T_map_depth) const;
 
-  const Task& task_;
   const Recording& recording_;
   const ClassTable& table_;
-  Calibration believed_;
-  std::vector<int> depth_of_;        ///< by frame
+  Sights sights_;
   std::vector<PoseBelief> beliefs_;  ///< by frame
-  sim::DepthDose depth_dose_;
-  sim::LabelDose label_dose_;
-  SegmentationParams segmentation_;
+  Segmentation segmentation_;
   MapFrame map_frame_;
   ObjectRunOptions options_;
-  std::optional<SimulatedLabels> simulated_;
   ObjectMap map_;
   SeenInstances seen_;
 };

@@ -4,9 +4,6 @@
 #include "eval/experiment/plan.hpp"
 
 #include "core/error.hpp"
-#include "eval/experiment/localization_doses.hpp"
-#include "eval/experiment/sensor_doses.hpp"
-#include "eval/experiment/trial_fusion.hpp"
 #include "eval/localization/believed_file.hpp"
 #include "eval/recording/file_bytes.hpp"
 #include "eval/recording/grid_file.hpp"
@@ -29,7 +26,7 @@ class PoseFiles {
   /// Hash of the object map that perception is simulated from; empty without one. Throws Error when
   /// it is missing.
   std::string objects(const Study& config) {
-    const auto* simulated = std::get_if<SimulatedPerceptionSettings>(&config.perception);
+    const auto* simulated = std::get_if<SimulatedPerception>(&config.perception);
     if (!simulated || !simulated->objects) return "";
     return of(resolve_path(config, *simulated->objects),
               [](const std::filesystem::path& file) { return read_file(file); });
@@ -85,10 +82,10 @@ Study determining(Study config, const std::string& pose_file, const std::string&
   config.lidar = none.lidar;
   config.sweep.clear();
   config.picture_view.reset();
-  config.faults.depth = resolved(config.faults.depth);
-  config.faults.labels = resolved(config.faults.labels);
+  config.faults.depth = canonical(config.faults.depth.dose());
+  config.faults.labels = canonical(config.faults.labels.dose());
   resolve_localization(config.localization, config.faults, pose_file);
-  if (auto* simulated = std::get_if<SimulatedPerceptionSettings>(&config.perception);
+  if (auto* simulated = std::get_if<SimulatedPerception>(&config.perception);
       simulated && simulated->objects)
     simulated->objects = objects;
   config.base_folder.clear();
@@ -96,18 +93,7 @@ Study determining(Study config, const std::string& pose_file, const std::string&
   return config;
 }
 
-/// With one method, whose fusion becomes the study's.
-Study with_method(Study config, const std::string& name) {
-  std::erase_if(config.methods, [&](const MethodSettings& method) { return method.name != name; });
-  config.sweep.clear();
-  for (MethodSettings& method : config.methods) {
-    config.fusion = fusion_of(config.fusion, method.fusion);
-    method.fusion = StudyFusionSettings{};
-  }
-  return config;
-}
-
-/// A true pose is part of it.
+/// The study with true poses and no fault.
 Study without_faults(Study config) {
   config.localization = {};
   config.faults = {};
@@ -117,7 +103,7 @@ Study without_faults(Study config) {
 Study for_lattice_ceiling(Study config) {
   config = without_faults(std::move(config));
   config.perception = {};  // true labels, whatever the methods see
-  config.methods = {{"lattice", DirectSettings{}, Place::points}};
+  config.methods = {{"lattice", Direct{}, Place::points}};
   config.place = Place::points;
   return config;
 }

@@ -4,8 +4,6 @@
 #include "eval/experiment/pose_sources.hpp"
 
 #include "core/error.hpp"
-#include "eval/experiment/doses.hpp"
-#include "eval/experiment/localization_doses.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/localization/believed_file.hpp"
 #include "eval/localization/filter_run.hpp"
@@ -21,7 +19,7 @@ namespace mapscore::eval {
 namespace {
 
 bool looks_up_at_depth(const Task& task) {
-  return task.config.faults.pose.stamp == PoseStamp::depth;
+  return task.config.faults.pose.stamp == sim::PoseStamp::depth;
 }
 
 std::vector<double> stamps_of(const Recording& recording, const Task& task,
@@ -62,16 +60,17 @@ void lift(BelievedTrajectory& believed, double z_m) {
 /// The true poses under the doses of faults.pose; those of source truth under none.
 std::vector<PoseBelief> gaussian(const Recording& recording, const Task& task,
                                  const std::vector<int>& depth_of, const Pose& T_map_world) {
-  PoseNoiseSettings noise = task.config.faults.pose;
+  sim::PoseNoise noise = task.config.faults.pose;
   if (task.config.localization.source == PoseSource::truth) noise = {};
   std::vector<Pose> poses;
   for (int frame = 0; frame < recording.frame_count(); ++frame)
     poses.push_back(looks_up_at_depth(task)
                         ? recording.T_world_base_of_depth(depth_of[static_cast<std::size_t>(frame)])
                         : recording.T_world_base_of_color(frame));
-  const Covariance6 covariance = reported_covariance(noise);
+  const Covariance6 covariance = sim::reported_covariance(noise);
   std::vector<PoseBelief> beliefs;
-  for (const Pose& pose : sim::believe_poses(poses, dose_of(noise), trial_seed(task)))
+  for (const Pose& pose :
+       sim::believe_poses(poses, sim::covariance_of(noise), noise.kind, trial_seed(task)))
     beliefs.push_back({Pose::Identity(), T_map_world * pose, covariance});
   return beliefs;
 }
@@ -119,7 +118,7 @@ BelievedTrajectory believed_trajectory(const Recording& recording, const Task& t
   const Pose start = start_of(recording, odometry);
   BelievedTrajectory believed =
       settings.source == PoseSource::odometry
-          ? odometry_only(odometry, planar(start), noise_of(settings.odometry_noise))
+          ? odometry_only(odometry, planar(start), settings.odometry_noise.values)
           : run_filter(odometry, recording.read_scans(),
                        grid ? *grid : grid_of(recording, task.config),
                        filter_of(settings, task.config.faults.lidar), planar(start),

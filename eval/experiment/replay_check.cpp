@@ -4,10 +4,9 @@
 #include "eval/experiment/replay_check.hpp"
 
 #include "core/error.hpp"
+#include "core/mapping/fusion_rule.hpp"
 #include "eval/experiment/grid.hpp"
-#include "eval/experiment/sensor_doses.hpp"
 #include "eval/experiment/study_store.hpp"
-#include "eval/experiment/trial_fusion.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,24 +14,25 @@
 namespace mapscore::eval {
 namespace {
 
-void check_matrix(const LabelFaultSettings& labels, const Study& study, const ClassTable& table) {
-  if (!labels.confusion_matrix) return;
+void check_matrix(const Overrides<sim::LabelDose>& labels, const Study& study,
+                  const ClassTable& table) {
+  if (!labels.given.contains("confusion_matrix")) return;
   std::vector<std::string> names;
   for (const SemanticClass& c : detected_table(study, table).classes)
     if (c.detect) names.push_back(c.name);
-  if (labels.confusion_matrix->size() != names.size())
+  if (labels.values.confusion_matrix.size() != names.size())
     throw Error(fmt::format(
         "faults.labels.confusion_matrix: has {} rows, but {} classes are detected ({}); write a "
         "row and a column for each, in this order",
-        labels.confusion_matrix->size(), names.size(), fmt::join(names, ", ")));
+        labels.values.confusion_matrix.size(), names.size(), fmt::join(names, ", ")));
 }
 
 /// By the very functions of a trial.
 void check_fusion(const Study& study, const ClassTable& table) {
   const ClassTable detected = detected_table(study, table);
-  static_cast<void>(trial_fusion(study.fusion, detected));
+  static_cast<void>(for_classes(study.fusion, detected));
   for (const MethodSettings& method : study.methods) try {
-      static_cast<void>(trial_fusion(fusion_of(study.fusion, method.fusion), detected));
+      static_cast<void>(for_classes(fusion_of(study.fusion, method.fusion), detected));
     } catch (const Error& error) {
       throw Error("methods." + method.name + "." + error.what());
     }
@@ -46,9 +46,9 @@ void check_baked(const Study& study, const RecordingInfo& info) {
                     "recording, or set {}={{}}",
                     section, baked, section));
   };
-  if (!info.baked->depth.empty() && !is_zero(dose_of(study.faults.depth)))
+  if (!info.baked->depth.empty() && !is_zero(study.faults.depth.dose()))
     refuse("faults.depth", info.baked->depth);
-  if (!info.baked->labels.empty() && !is_zero(dose_of(study.faults.labels)))
+  if (!info.baked->labels.empty() && !is_zero(study.faults.labels.dose()))
     refuse("faults.labels", info.baked->labels);
 }
 
@@ -57,7 +57,7 @@ void check_baked(const Study& study, const RecordingInfo& info) {
 void check_classes(const Study& study, const ClassTable& table) {
   for (const Cell& cell : cells(study)) {
     const Study point = resolve(study, cell);
-    check_matrix(point.faults.labels, point, table);
+    check_matrix(point.faults.labels.own, point, table);
     check_fusion(point, table);
   }
 }

@@ -5,17 +5,18 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "eval/experiment/lattice_truth.hpp"
-#include "eval/experiment/trial_refinement.hpp"
-#include "eval/experiment/trial_run.hpp"
-#include "eval/recording/frame_cache.hpp"
+#include "eval/experiment/bench.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,9 @@ namespace {
 
 /// Maps that are under way at once when the frames do not all fit into memory.
 constexpr std::size_t kTrialsAtOnce = 64;
+
+/// Maps of a strand at most.
+constexpr std::size_t kTrialsOfAStrand = 16;
 
 /// Frames of a block where each is scored by itself: their truths are shared by the trials that
 /// walk them together, and let go then.
@@ -54,15 +58,69 @@ std::vector<std::size_t> missing_tasks(const TaskList& tasks, const ResultStore&
   return missing;
 }
 
-/// A trial under way, with its task, which must stay where it is.
-struct RunningTask {
-  RunningTask(Task of, const Recording& recording, const ClassTable& table, TruthCache& truths,
-              PoseSources& poses)
-      : task(std::move(of)), trial(task, recording, table, truths, poses) {}
+/// Trials whose methods see the same, under way together: what they see of a frame is made once.
+class Strand {
+ public:
+  explicit Strand(std::vector<std::size_t> positions) : positions_(std::move(positions)) {}
 
-  const Task task;
-  TrialRun trial;
+  [[nodiscard]] std::size_t size() const { return positions_.size(); }
+
+  void start(const TaskList& tasks, Bench& bench) {
+    std::shared_ptr<const Sights> sights;
+    for (const std::size_t position : positions_) {
+      const Task& task = *tasks_.emplace_back(std::make_unique<const Task>(tasks[position]));
+      trials_.push_back(bench.start(task, sights));
+      sights = trials_.back()->sights();
+    }
+  }
+  [[nodiscard]] bool started() const { return !trials_.empty(); }
+
+  void advance(Bench& bench, int index) {
+    const Sights& sights = *trials_.front()->sights();
+    const std::shared_ptr<const Frame> frame = bench.frame(index, sights.depth_of(index));
+    const Sight sight = sights.of(*frame);
+    for (const auto& trial : trials_) trial->advance(*frame, sight);
+  }
+
+  /// Scores the maps and lets go of them: done(task, result) for each trial.
+  void finish(const auto& done) {
+    for (std::size_t n = 0; n < trials_.size(); ++n) {
+      done(*tasks_[n], trials_[n]->finish());
+      trials_[n].reset();
+    }
+    trials_.clear();
+    tasks_.clear();
+  }
+
+ private:
+  std::vector<std::size_t> positions_;
+  std::vector<std::unique_ptr<const Task>> tasks_;
+  std::vector<std::unique_ptr<TrialRun>> trials_;
 };
+
+/// Strands of at most `most` trials, in the order of the first of each.
+std::vector<Strand> strands_of(const TaskList& tasks, const std::vector<std::size_t>& missing,
+                               std::size_t most) {
+  std::map<const Study*, std::string> keys;  // of configurations, each of which serves all seeds
+  std::map<std::string, std::size_t> open;
+  std::vector<std::vector<std::size_t>> strands;
+  for (const std::size_t position : missing) {
+    const Study& config = tasks.config(position);
+    const auto [entry, is_new] = keys.try_emplace(&config);
+    if (is_new)
+      entry->second =
+          fmt::format("{} {}", config.voxel_m, Sights::key(config, tasks.labels(position)));
+    const std::string key = fmt::format("{} {}", tasks.seed_index(position), entry->second);
+    const auto strand = open.find(key);
+    if (strand != open.end() && strands[strand->second].size() < most) {
+      strands[strand->second].push_back(position);
+    } else {
+      open[key] = strands.size();
+      strands.push_back({position});
+    }
+  }
+  return {strands.begin(), strands.end()};
+}
 
 /// Everything that the trials of one recording share.
 class Sweep {
@@ -72,30 +130,35 @@ class Sweep {
         ResultStore& store, const RunnerOptions& options, bool colour)
       : tasks_(tasks),
         recording_(recording),
-        table_(table),
         store_(store),
         options_(options),
         colour_(colour),
-        frames_(recording,
-                Channels{.color = colour, .label = true, .depth = true, .depth_label = true},
-                options.memory_bytes),
-        truths_(recording, table, frames_, static_cast<std::size_t>(std::max(1, options.jobs)) + 1),
-        poses_(recording) {}
+        bench_(recording, table, colour, options.memory_bytes,
+               static_cast<std::size_t>(std::max(1, options.jobs)) + 1) {}
 
-  /// `missing`: positions of tasks.
-  void run(const std::vector<std::size_t>& missing) {
+  /// `missing`: positions of tasks. Gives how many frames were made under faults.
+  [[nodiscard]] std::size_t run(const std::vector<std::size_t>& missing) {
     const int block = block_of_frames(missing);
     const bool all_fit = block == recording_.frame_count();
-    const std::size_t batch = all_fit ? missing.size() : kTrialsAtOnce;
+    std::vector<Strand> strands = strands_of(tasks_, missing, trials_of_a_strand(missing.size()));
     total_ = static_cast<std::int64_t>(missing.size()) * recording_.frame_count();
-    for (std::span rest(missing); !rest.empty();) {
-      const std::size_t count = std::min(rest.size(), batch);
+    for (std::span rest(strands); !rest.empty();) {
+      std::size_t count = 0, trials = 0;
+      while (count < rest.size() && (all_fit || trials < kTrialsAtOnce))
+        trials += rest[count++].size();
       run_batch(rest.first(count), block);
       rest = rest.subspan(count);
     }
+    return sights_;
   }
 
  private:
+  /// So few that every job has a strand.
+  [[nodiscard]] std::size_t trials_of_a_strand(std::size_t trials) const {
+    const auto jobs = static_cast<std::size_t>(std::max(1, options_.jobs));
+    return std::clamp<std::size_t>(trials / jobs, 1, kTrialsOfAStrand);
+  }
+
   [[nodiscard]] int block_of_frames(const std::vector<std::size_t>& missing) const {
     std::size_t fitting = options_.memory_bytes / bytes_of_a_frame(recording_, colour_);
     if (std::ranges::any_of(missing, [this](std::size_t position) {
@@ -106,49 +169,45 @@ class Sweep {
         std::clamp<std::size_t>(fitting, 1, static_cast<std::size_t>(recording_.frame_count())));
   }
 
-  /// All trials of the batch take one block of frames after the other; a trial is made with the
-  /// first block, and finished, stored and let go with the last.
-  void run_batch(std::span<const std::size_t> batch, int block) {
-    std::vector<std::unique_ptr<RunningTask>> running(batch.size());
+  /// All strands of the batch take one block of frames after the other; a strand is started with
+  /// the first block, and finished, stored and let go with the last.
+  void run_batch(std::span<Strand> batch, int block) {
     for (int first = 0; first < recording_.frame_count(); first += block) {
       const int end = std::min(first + block, recording_.frame_count());
       for_each_in_parallel(batch.size(), options_.jobs, [&](std::size_t i) {
-        if (!running[i])
-          running[i] =
-              std::make_unique<RunningTask>(tasks_[batch[i]], recording_, table_, truths_, poses_);
-        advance(running[i]->trial, first, end);
+        Strand& strand = batch[i];
+        if (!strand.started()) strand.start(tasks_, bench_);
+        for (int index = first; index < end; ++index) {
+          strand.advance(bench_, index);
+          ++sights_;
+          report(strand.size());
+        }
         if (end < recording_.frame_count()) return;
-        finish(*running[i]);
-        running[i].reset();
+        strand.finish([this](const Task& task, const TrialResult& result) {
+          const std::scoped_lock lock(store_mutex_);
+          store_.add(task.key, task.description, result);
+        });
       });
     }
   }
 
-  void advance(TrialRun& run, int first, int end) {
-    for (int index = first; index < end; ++index) {
-      run.advance(*frames_.get(index, run.depth_of(index)));
+  /// Tells of a frame that so many trials took.
+  void report(std::size_t trials) {
+    for (std::size_t n = 0; n < trials; ++n) {
       const std::int64_t done = ++done_;
       if (options_.progress) options_.progress(done, total_);
     }
   }
 
-  void finish(RunningTask& running) {
-    const TrialResult result = running.trial.finish();
-    const std::scoped_lock lock(store_mutex_);
-    store_.add(running.task.key, running.task.description, result);
-  }
-
   const TaskList& tasks_;
   const Recording& recording_;
-  const ClassTable& table_;
   ResultStore& store_;
   const RunnerOptions& options_;
   bool colour_;
-  FrameCache frames_;
-  TruthCache truths_;
-  PoseSources poses_;
+  Bench bench_;
   std::mutex store_mutex_;
   std::atomic<std::int64_t> done_{0};
+  std::atomic<std::size_t> sights_{0};
   std::int64_t total_ = 0;
 };
 
@@ -160,14 +219,15 @@ RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const Class
   const std::vector<std::size_t> missing = missing_tasks(tasks, store, options);
   const bool colour = std::ranges::any_of(
       missing, [&](std::size_t position) { return reads_colour(tasks.config(position)); });
+  std::size_t sights = 0;
   if (!missing.empty()) try {
-      Sweep(tasks, recording, table, store, options, colour).run(missing);
+      sights = Sweep(tasks, recording, table, store, options, colour).run(missing);
     } catch (const std::bad_alloc&) {
       throw Error(
           "out of memory in a trial; use fewer --jobs, less --memory or larger voxels; what is "
           "done stays in the store");
     }
-  return {missing.size(), tasks.size() - missing.size()};
+  return {missing.size(), tasks.size() - missing.size(), sights};
 }
 
 }  // namespace mapscore::eval

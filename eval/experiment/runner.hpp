@@ -24,6 +24,7 @@ struct RunnerOptions {
 struct RunnerOutcome {
   std::size_t computed = 0;  ///< tasks done now
   std::size_t reused = 0;    ///< tasks that the store had
+  std::size_t sights = 0;  ///< frames under faults that were made, each for all trials that see it
 };
 
 /// Computes the tasks of a plan that the store does not hold and adds each to it as soon as it is

@@ -36,7 +36,7 @@ std::vector<PerceivedModel> models_of_file(const std::filesystem::path& path, Cl
 
 }  // namespace
 
-SimulatedLabels::SimulatedLabels(const SimulatedPerceptionSettings& settings, const Study& config,
+SimulatedLabels::SimulatedLabels(const SimulatedPerception& settings, const Study& config,
                                  const Recording& recording, const ClassTable& table)
     : settings_(settings), calibration_(recording.info().calibration), table_(table) {
   if (settings.objects) {
@@ -70,7 +70,7 @@ cv::Mat1w SimulatedLabels::of(const Frame& frame) const {
 
 std::optional<SimulatedLabels> simulated_labels(const Study& config, const Recording& recording,
                                                 const ClassTable& table) {
-  const auto* settings = std::get_if<SimulatedPerceptionSettings>(&config.perception);
+  const auto* settings = std::get_if<SimulatedPerception>(&config.perception);
   if (!settings) return std::nullopt;
   return std::optional<SimulatedLabels>(std::in_place, *settings, config, recording, table);
 }

@@ -26,7 +26,7 @@ class SimulatedLabels {
  public:
   /// Throws Error when the file of the objects is refused, holds too many, or there is neither file
   /// nor truth.
-  SimulatedLabels(const SimulatedPerceptionSettings& settings, const Study& config,
+  SimulatedLabels(const SimulatedPerception& settings, const Study& config,
                   const Recording& recording, const ClassTable& table);
 
   /// The recording's table; where a file is given, with its objects as further instances.
@@ -37,7 +37,7 @@ class SimulatedLabels {
  private:
   [[nodiscard]] std::vector<PerceivedModel> models_at(double stamp_s) const;
 
-  SimulatedPerceptionSettings settings_;
+  SimulatedPerception settings_;
   Calibration calibration_;
   ClassTable table_;
   RecordedShapes shapes_;               ///< of the truth, where they move

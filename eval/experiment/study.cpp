@@ -26,10 +26,7 @@ namespace {
 struct Setter {
   const YamlAt& at;
 
-  template <class T>
-  void operator()(const Field& field, T& leaf) const {
-    leaf = Leaf<T>::read(at, field.range);
-  }
+  void operator()(const Field& field, auto& leaf) const { read_leaf(at, field.range, leaf); }
   void choice(Choice auto& choice) const { read_choice(at, choice); }
 };
 
@@ -76,7 +73,7 @@ Place place_of(const Study& study, const MethodSettings& method) {
 }
 
 bool on_wheels(const Study& study) {
-  return std::holds_alternative<WheelDriveSettings>(study.trajectory.drive);
+  return std::holds_alternative<WheelDrive>(study.trajectory.drive);
 }
 
 double depth_rate(const Study& study) {
@@ -90,10 +87,57 @@ double depth_rate(const Study& study) {
   return is_dosed ? kDepthCameraFps : study.trajectory.frames_per_s;
 }
 
+DrawnFusion fusion_of(const DrawnFusion& of_study, const MethodFusion& of_method) {
+  return std::visit(
+      [&]<class Kind>(const Kind& kind) -> DrawnFusion {
+        if constexpr (std::same_as<Kind, StudyFusion>)
+          return of_study;
+        else
+          return kind;
+      },
+      of_method);
+}
+
+Study with_method(Study config, const std::string& name) {
+  std::erase_if(config.methods, [&](const MethodSettings& method) { return method.name != name; });
+  config.sweep.clear();
+  for (MethodSettings& method : config.methods) {
+    config.fusion = fusion_of(config.fusion, method.fusion);
+    method.fusion = StudyFusion{};
+  }
+  return config;
+}
+
+Mapping mapping_of(const Study& study, const ClassTable& table) {
+  const MethodSettings& method = study.methods.front();
+  return {.voxel_m = study.voxel_m,
+          .segmentation = method.segmentation,
+          .place = place_of(study, method),
+          .fusion = for_classes(study.fusion, table),
+          .occupancy = study.occupancy};
+}
+
+bool reads_colour(const Study& study) {
+  return std::ranges::any_of(study.methods, [](const MethodSettings& method) {
+    const auto* crf = std::get_if<Crf>(&method.refinement);
+    return crf != nullptr && crf->reads_colour();
+  });
+}
+
+Field field_of(const Study& study, std::string_view path) {
+  Field found;
+  const auto get = [&](const Field& field, const auto&) { found = field; };
+  at_section_leaf(YamlAt{{}, "", 0, std::string(path)}, study, path, get);
+  return found;
+}
+
 bool decides_recording(std::string_view path) {
-  constexpr auto kHeads = std::to_array<std::string_view>(
-      {"scene", "classes", "robot", "motion", "recording", "trajectory", "cameras", "lidar"});
-  return std::ranges::find(kHeads, split_path(path).first) != kHeads.end();
+  bool recorded = false;
+  const Study any;
+  Study::fields(any, [&](const auto&, const Field& field) {
+    recorded = recorded || (field.recorded && field.key == split_path(path).first);
+  });
+  return recorded;
 }
 
 }  // namespace mapscore::eval

@@ -3,15 +3,19 @@
 
 #pragma once
 
+#include "core/mapping/fusion_rule.hpp"
+#include "core/mapping/mapper.hpp"
+#include "core/mapping/occupancy.hpp"
+#include "core/parameters.hpp"
+#include "core/refinement/dense_crf.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "eval/experiment/drive_settings.hpp"
-#include "eval/experiment/fusion_settings.hpp"
 #include "eval/experiment/localization_settings.hpp"
-#include "eval/experiment/occupancy_settings.hpp"
 #include "eval/experiment/perception_settings.hpp"
-#include "eval/experiment/refinement_settings.hpp"
+#include "sim/faults/calibration_faults.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
+#include "sim/faults/lidar_noise.hpp"
 #include "sim/faults/pose_fault.hpp"
 
 #include <array>
@@ -25,145 +29,93 @@
 
 namespace mapscore::eval {
 
-// The structs below mirror the study file key by key, in its units: the unit is the member's
-// suffix, and the conversion to SI happens where they are turned into types of core and sim. Keys,
-// ranges and meanings stand in study_fields.hpp.
+// A study as its file has it. Parameters of core and sim stand in their own structs; here are those
+// that only a study has, and the order of the keys.
 
-struct TrajectorySettings {
-  std::vector<std::array<double, 3>> waypoints_m_deg;  ///< x, y, heading
-  double speed_mps = 0.4;
-  double turn_rate_dps = 40;
-  double frames_per_s = 2;
-  std::optional<double> depth_frames_per_s;  ///< empty: see depth_rate
-  int max_frames = 0;
-  DriveChoice drive;
+enum class ScoreUnit { map, frame };
 
-  bool operator==(const TrajectorySettings&) const = default;
+}  // namespace mapscore::eval
+
+namespace mapscore {
+template <>
+inline constexpr auto kNames<eval::ScoreUnit> = std::to_array<std::string_view>({"map", "frame"});
+}  // namespace mapscore
+
+namespace mapscore::eval {
+
+struct StudyFusion {
+  static constexpr std::string_view kKind = "study";
+  static constexpr std::string_view kMeaning = "as the study's `fusion`";
+
+  static void fields(auto&, auto&&) {}
+  bool operator==(const StudyFusion&) const = default;
 };
+/// Fusion of one method: the study's, or its own.
+using MethodFusion = DrawnOf<FusionRule>::With<StudyFusion>;
 
-struct CameraSettings {
-  int width_px = 640, height_px = 480;
-  double range_min_m = 0.6, range_max_m = 8;
-  bool shadows = false;
-  std::optional<double> height_m{}, pan_deg{}, tilt_deg{};  ///< empty: as the robot has it
+struct NoRefinement {
+  static constexpr std::string_view kKind = "none";
+  static constexpr std::string_view kMeaning = "the map as it was fused";
 
-  bool operator==(const CameraSettings&) const = default;
+  static void fields(auto&, auto&&) {}
+  bool operator==(const NoRefinement&) const = default;
 };
-
-/// How an observation reaches the map's lattice: its points moved by the pose, or its voxels'
-/// centres.
-enum class Place { points, voxels };
-
-struct DirectSettings {
-  static constexpr std::string_view kKind = "direct";
-  static constexpr std::string_view kMeaning = "every point of the mask";
-  bool operator==(const DirectSettings&) const = default;
-};
-
-struct ErosionSettings {
-  static constexpr std::string_view kKind = "erosion";
-  static constexpr std::string_view kMeaning = "erode the mask, then direct";
-  int radius_px = 5;
-  bool operator==(const ErosionSettings&) const = default;
-};
-
-struct RegionGrowingSettings {
-  static constexpr std::string_view kKind = "region_growing";
-  static constexpr std::string_view kMeaning =
-      "grow voxels from a seed point (algorithm 1 of the paper)";
-  double radius_factor = 1;
-  bool released = false;
-  SeedRule seed = SeedRule::box_centre;
-  bool kd_tree = false;
-  bool operator==(const RegionGrowingSettings&) const = default;
-};
-
-struct EdgeAlignedSettings {
-  static constexpr std::string_view kKind = "edge_aligned";
-  static constexpr std::string_view kMeaning =
-      "fit a frame's masks to its depth edges, then vote on the depth surface";
-  double search_px = 40, reach_px = 3;
-  bool operator==(const EdgeAlignedSettings&) const = default;
-};
-
-using SegmentationSettings =
-    std::variant<DirectSettings, ErosionSettings, RegionGrowingSettings, EdgeAlignedSettings>;
+/// What happens to the finished map before it is scored.
+using Refinement = std::variant<NoRefinement, Crf>;
 
 struct MethodSettings {
   std::string name;  ///< letters, digits, _ and -
-  SegmentationSettings segmentation;
-  std::optional<Place> place;  ///< empty: the study's
-  MethodFusionSettings fusion{};
-  RefinementSettings refinement{};
+  Segmentation segmentation;
+  std::optional<Place> place{};  ///< empty: the study's
+  MethodFusion fusion{};
+  Refinement refinement{};
 
+  static void fields(auto& s, auto&& visit) {
+    visit(s.segmentation, Field{.key = "segmentation",
+                                .meaning = "from a detection and a registered cloud to points",
+                                .required = true});
+    visit(s.place, Field{"place", "as the study's `place`, for this method alone"});
+    visit(s.fusion, Field{.key = "fusion",
+                          .meaning = "how this method's observations change the map",
+                          .later = true});
+    visit(s.refinement, Field{.key = "refinement",
+                              .meaning = "what happens to this method's map before it is scored",
+                              .later = true});
+  }
   bool operator==(const MethodSettings&) const = default;
 };
 
-/// T_believed_color_depth = E * T_color_depth, and wrong intrinsics of the colour camera.
-struct MisregistrationSettings {
-  double magnitude_m = 0, angle_deg = 0;  ///< direction drawn by the seed, in the image plane
-  std::array<double, 3> translation_m{}, rotation_deg{};
-  double focal_error_percent = 0;
-  std::array<double, 2> principal_point_px{};
-
-  bool operator==(const MisregistrationSettings&) const = default;
-};
-
-/// T_believed_base_depth = T_base_depth * M.
-struct MountSettings {
-  double magnitude_m = 0, angle_deg = 0;
-  std::array<double, 3> translation_m{}, rotation_deg{};
-
-  bool operator==(const MountSettings&) const = default;
-};
-
-/// The image at whose stamp the pose of a frame is looked up.
-enum class PoseStamp { depth, color };
-
-/// T_believed = T_true * Exp(xi), xi ~ N(0, E).
-struct PoseNoiseSettings {
-  double sigma_xy_m = 0, sigma_z_m = 0, sigma_roll_pitch_deg = 0, sigma_yaw_deg = 0;
-  std::optional<std::array<std::array<double, 6>, 6>> covariance_m_rad;  ///< in place of the sigmas
-  double sigma_scale = 1;  ///< of every standard deviation
-  sim::PoseNoiseKind kind = sim::PoseNoiseKind::white;
-  double reported_scale = 1;  ///< reported covariance over the true one
-  PoseStamp stamp = PoseStamp::depth;
-
-  bool operator==(const PoseNoiseSettings&) const = default;
-};
-
-/// A ready-made depth camera, and what differs from it; members as those of sim::DepthDose.
-struct DepthFaultSettings {
-  sim::DepthPreset preset = sim::DepthPreset::ideal;
-  double scale = 1;  ///< of every dose
-  std::optional<double> axial, lateral, quantisation, grazing, shadow, flying, range;
-  std::optional<double> axial_base_m, axial_growth_per_m, lateral_px, baseline_m, subpixel_px;
-  std::optional<double> grazing_from_deg, grazing_to_deg, flying_share, range_min_m, range_max_m;
-
-  bool operator==(const DepthFaultSettings&) const = default;
-};
-
-/// A ready-made segmentation, and what differs from it; members as those of sim::LabelDose.
-struct LabelFaultSettings {
-  sim::LabelPreset preset = sim::LabelPreset::ideal;
-  double scale = 1;  ///< of every dose
-  std::optional<double> boundary_px, ragged_px, miss, confusion, scores, holes, islands;
-  std::optional<std::vector<std::vector<double>>> confusion_matrix;  ///< in place of `confusion`
-  std::optional<double> ragged_length_px, miss_area_px, disc_radius_px, island_reach_px;
-  std::optional<double> score_mean, score_concentration;
-
-  bool operator==(const LabelFaultSettings&) const = default;
-};
-
 struct FaultSettings {
-  MisregistrationSettings misregistration;
-  MountSettings mount;
-  PoseNoiseSettings pose;
+  sim::Misregistration misregistration;
+  sim::MountError mount;
+  sim::PoseNoise pose;
   double time_offset_ms = 0;  ///< of the depth image that a colour image is paired with
-  DepthFaultSettings depth;
-  LabelFaultSettings labels;
-  LidarFaultSettings lidar;
+  Dosed<sim::DepthDose> depth;
+  Dosed<sim::LabelDose> labels;
+  Dosed<sim::LidarNoise> lidar;
 
+  static void fields(auto& s, auto&& visit) {
+    visit(s.misregistration,
+          Field{"misregistration", "wrong depth-to-colour calibration: moves labels"});
+    visit(s.mount, Field{"mount", "wrong camera-to-base calibration: moves points"});
+    visit(s.pose, Field{"pose", "wrong localisation"});
+    visit(s.time_offset_ms,
+          Field{.key = "time_offset_ms",
+                .meaning = "pair each colour image with the depth image nearest to its stamp plus "
+                           "this",
+                .range = {-10000, 10000},
+                .figure = "time offset (ms)",
+                .later = true});
+    visit(
+        s.depth,
+        Field{.key = "depth", .meaning = "noise of the depth camera: moves points", .later = true});
+    visit(s.labels, Field{.key = "labels",
+                          .meaning = "errors of the 2D segmentation: moves labels",
+                          .later = true});
+    visit(s.lidar, Field{.key = "lidar",
+                         .meaning = "noise of the lidar: moves the poses of the particle filter",
+                         .later = true});
+  }
   bool operator==(const FaultSettings&) const = default;
 };
 
@@ -172,8 +124,6 @@ struct AutoNumber {
   std::optional<double> value;
   bool operator==(const AutoNumber&) const = default;
 };
-
-enum class ScoreUnit { map, frame };
 
 struct ScoreSettings {
   ScoreUnit unit = ScoreUnit::map;
@@ -186,6 +136,32 @@ struct ScoreSettings {
   bool instances = false;
   bool thin = false;
 
+  static void fields(auto& s, auto&& visit) {
+    visit(s.unit,
+          Field{"unit", "score the fused map, or each frame's observation against its own truth"});
+    visit(s.at_s, Field{"at_s",
+                        "with unit map, where the scene moves: the time whose surfaces a map is "
+                        "scored against"});
+    visit(s.threshold,
+          Field{"threshold",
+                "least probability of a predicted voxel; auto: half of what a first full hit gives",
+                {0, 1}});
+    visit(s.min_samples,
+          Field{"min_samples", "depth samples that make a voxel visible", {1, 1000000}});
+    visit(s.epsilon_m, Field{"epsilon_m", "widening of voxels in the surface test", {0, 0.1}});
+    visit(s.tolerances,
+          Field{"tolerances", "tolerances of the match, in voxels; 0 is always counted", {0, 5}});
+    visit(s.distances_m, Field{"distances_m", "distances of the F-score", above(0, 10)});
+    visit(s.instances,
+          Field{.key = "instances",
+                .meaning = "score instances too, the connected pieces of each class: PQ and AP",
+                .later = true,
+                .swept = false});
+    visit(s.thin, Field{.key = "thin",
+                        .meaning = "count the voxels of thin parts (chair legs) by themselves too",
+                        .later = true,
+                        .swept = false});
+  }
   bool operator==(const ScoreSettings&) const = default;
 };
 
@@ -220,8 +196,8 @@ struct Study {
   std::optional<DetectedSet> detect;  ///< empty: as the class file says
   PerceptionSettings perception;
   std::vector<MethodSettings> methods;
-  FusionSettings fusion;
-  OccupancySettings occupancy;
+  DrawnFusion fusion;
+  Carving occupancy;
   LocalizationSettings localization;
   FaultSettings faults;
   ScoreSettings score;
@@ -230,6 +206,57 @@ struct Study {
 
   std::filesystem::path base_folder;
 
+  static void fields(auto& s, auto&& visit) {
+    const auto recorded = [&](auto& member, std::string_view key, std::string_view meaning,
+                              bool later = false) {
+      visit(member, Field{.key = key, .meaning = meaning, .later = later, .recorded = true});
+    };
+    visit(s.name, Field{.key = "name",
+                        .meaning = "name of the study; default: the file's stem",
+                        .swept = false});
+    visit(s.seed, Field{.key = "seed", .meaning = "seed of every random stream", .swept = false});
+    visit(s.seeds, Field{.key = "seeds",
+                         .meaning = "repetitions of each cell and method",
+                         .range = {1, 100000},
+                         .swept = false});
+    recorded(s.scene, "scene", "MJCF of the scene, from the study file's folder");
+    recorded(s.classes, "classes", "class file; default: SCENE.classes.yaml beside the scene");
+    recorded(s.robot, "robot", "MJCF of the robot; default: robot.xml beside the scene");
+    recorded(s.motion, "motion", "motion file (CSV): how joints of the scene move; needs a scene");
+    recorded(s.recording, "recording", "folder of a recording to replay in place of rendering one");
+    recorded(s.trajectory, "trajectory", "drive of the robot");
+    recorded(s.cameras, "cameras", "the RGB-D camera");
+    recorded(s.lidar, "lidar", "the lidar, with trajectory.drive wheels; exact ranges are recorded",
+             true);
+    visit(s.voxel_m, Field{"voxel_m", "edge of a voxel of the map", above(0, 10), "voxel (mm)"});
+    visit(s.place,
+          Field{"place", "voxelise moved points, or move the centres of sensor-frame voxels"});
+    visit(s.map_origin_m,
+          Field{"map_origin_m",
+                "origin of the map in the scene's world; default: drawn by the seed, within a "
+                "voxel"});
+    visit(s.map_yaw_deg,
+          Field{"map_yaw_deg", "turn of the map frame in the scene's world", {-360, 360}});
+    visit(s.detect,
+          Field{"detect", "classes that become detections; default: as the class file says"});
+    visit(s.perception,
+          Field{.key = "perception", .meaning = "where detections come from", .later = true});
+    visit(s.methods, Field{"methods", "at least one, by name: letters, digits, _ and -"});
+    visit(s.fusion, Field{"fusion", "how observations change the map"});
+    visit(s.occupancy,
+          Field{.key = "occupancy", .meaning = "free space in the map", .later = true});
+    visit(s.localization,
+          Field{.key = "localization", .meaning = "where the robot believes it is", .later = true});
+    visit(s.faults, Field{"faults", "doses of the faults"});
+    visit(s.score, Field{"score", "how maps are scored"});
+    visit(s.sweep, Field{"sweep", "values of the leaf at a path; several paths make a grid"});
+    visit(s.picture_view,
+          Field{.key = "picture_view",
+                .meaning = "view of the pictures: [ex, ey, ez, tx, ty, tz, vfov_deg], eye and "
+                           "target in the world in metres, the angle may be left out; default: an "
+                           "overview, and where most errors are",
+                .swept = false});
+  }
   bool operator==(const Study&) const = default;
 };
 
@@ -288,6 +315,22 @@ void check(const Study& study);
 
 /// How a method places its observations: its own `place`, or the study's.
 [[nodiscard]] Place place_of(const Study& study, const MethodSettings& method);
+
+/// A method's own fusion, or the study's.
+[[nodiscard]] DrawnFusion fusion_of(const DrawnFusion& of_study, const MethodFusion& of_method);
+
+/// The study with one of its methods alone, whose fusion becomes the study's, and no sweep.
+[[nodiscard]] Study with_method(Study study, const std::string& method);
+
+/// How the first method of a study maps; `table` has the study's detected classes. Throws Error as
+/// for_classes.
+[[nodiscard]] Mapping mapping_of(const Study& study, const ClassTable& table);
+
+/// Whether some method of a study reads colour images.
+[[nodiscard]] bool reads_colour(const Study& study);
+
+/// The field of the leaf at a dotted path. Throws as set_leaf.
+[[nodiscard]] Field field_of(const Study& study, std::string_view path);
 
 /// True when the leaf decides what a recording holds (scene, trajectory, cameras, ...), so that a
 /// sweep over it needs a recording for each of its values.

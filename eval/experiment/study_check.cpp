@@ -5,9 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/experiment/grid.hpp"
-#include "eval/experiment/localization_doses.hpp"
 #include "eval/experiment/picture_view.hpp"
-#include "eval/experiment/sensor_doses.hpp"
 #include "eval/recording/png_size.hpp"
 #include "files/text.hpp"
 
@@ -59,15 +57,13 @@ void check_lidar(const LidarStudySettings& lidar, const Blame& blame) {
                                          lidar.range_min_m, lidar.range_max_m));
 }
 
-template <class Rigid>
-void check_rigid(const Rigid& dose, const std::string& path, const Blame& blame) {
-  constexpr std::array<double, 3> kNone{};
-  if (dose.magnitude_m != 0 && dose.translation_m != kNone) {
-    blame(path + ".translation_m", "stands beside a magnitude_m; keep one of the two");
-  }
-  if (dose.angle_deg != 0 && dose.rotation_deg != kNone) {
-    blame(path + ".rotation_deg", "stands beside an angle_deg; keep one of the two");
-  }
+/// By the very test of the fault, whose message begins with the key.
+void check_rigid(const sim::RigidDose& dose, const std::string& path, const Blame& blame) try {
+  sim::check(dose);
+} catch (const Error& error) {
+  const std::string text = error.what();
+  const std::size_t colon = text.find(": ");
+  blame(path + '.' + text.substr(0, colon), text.substr(colon + 2));
 }
 
 constexpr std::string_view kCovariancePath = "faults.pose.covariance_m_rad";
@@ -95,10 +91,10 @@ bool has_root(const Covariance6& E) {
   }
 }
 
-void check_covariance(const PoseNoiseSettings& pose, const Blame& blame) {
+void check_covariance(const sim::PoseNoise& pose, const Blame& blame) {
   if (!pose.covariance_m_rad) return;
-  if (pose.sigma_xy_m != 0 || pose.sigma_z_m != 0 || pose.sigma_roll_pitch_deg != 0 ||
-      pose.sigma_yaw_deg != 0) {
+  if (pose.sigma_xy_m != 0 || pose.sigma_z_m != 0 || pose.sigma_roll_pitch_deg.deg != 0 ||
+      pose.sigma_yaw_deg.deg != 0) {
     blame(kCovariancePath, "stands beside a sigma; keep the covariance or the sigmas");
   }
   Covariance6 E;
@@ -116,13 +112,13 @@ void check_covariance(const PoseNoiseSettings& pose, const Blame& blame) {
 
 /// By the very test of the fault, whose message names the key.
 void check_sensor(const auto& settings, std::string_view path, const Blame& blame) try {
-  sim::check(dose_of(settings));
+  sim::check(settings.dose());
 } catch (const Error& error) {
   blame(path, error.what());
 }
 
-void check_confusion(const LabelFaultSettings& labels, const Blame& blame) {
-  if (!labels.confusion_matrix || labels.confusion.value_or(0) == 0) return;
+void check_confusion(const Overrides<sim::LabelDose>& labels, const Blame& blame) {
+  if (!labels.given.contains("confusion_matrix") || labels.values.confusion == 0) return;
   blame("faults.labels.confusion_matrix", "stands beside a confusion; keep one of the two");
 }
 
@@ -170,18 +166,19 @@ void check_localization(const Study& study, const Blame& blame) {
   if (needs_logs && !study.recording && !on_wheels(study))
     blame("localization.source",
           "needs the odometry of a drive on wheels; write trajectory: {drive: {wheels: {}}}");
-  const auto& [least, most] = particle_bounds(localization.filter);
+  const KldParams& kld = localization.filter.kld.values;
+  const std::size_t least = kld.min_particles, most = kld.max_particles;
   if (most < least)
     blame("localization.filter.most_particles",
           fmt::format("{} is below least_particles, {}; write a greater one", most, least));
-  const double rate = noise_of(study.faults.lidar).dropout_rate;
+  const double rate = study.faults.lidar.dose().dropout_rate;
   if (rate > 1)
     blame("faults.lidar.scale",
           fmt::format("makes dropout_rate {}; write a lesser number, a share ends at 1", rate));
 }
 
 void check_perception(const Study& study, const Blame& blame) {
-  if (std::holds_alternative<LabelPerceptionSettings>(study.perception)) return;
+  if (std::holds_alternative<LabelPerception>(study.perception)) return;
   if (study.faults.time_offset_ms != 0)
     blame("faults.time_offset_ms",
           "stands beside simulated perception, which sees the depth image itself, at no offset; "
@@ -208,14 +205,14 @@ void check_leaves(const Study& study, const Blame& blame) {
   check_cameras(study.cameras, blame);
   check_lidar(study.lidar, blame);
   if (study.detect) check_distinct(study.detect->classes, "detect", blame);
-  check_rigid(study.faults.misregistration, "faults.misregistration", blame);
-  check_rigid(study.faults.mount, "faults.mount", blame);
+  check_rigid(study.faults.misregistration.rigid, "faults.misregistration", blame);
+  check_rigid(study.faults.mount.rigid, "faults.mount", blame);
   check_covariance(study.faults.pose, blame);
   check_wheels(study, blame);
   check_localization(study, blame);
   check_perception(study, blame);
   check_time(study.score, blame);
-  check_confusion(study.faults.labels, blame);
+  check_confusion(study.faults.labels.own, blame);
   check_sensor(study.faults.depth, "faults.depth", blame);
   check_sensor(study.faults.labels, "faults.labels", blame);
   check_ascending(study.score.tolerances, "score.tolerances", blame);

@@ -53,7 +53,7 @@ StudyDrive drive_by_poses(const Study& study, sim::Drive way) {
   return drive;
 }
 
-sim::DriveSettings settings_of(const WheelDriveSettings& wheels) {
+sim::DriveSettings settings_of(const WheelDrive& wheels) {
   sim::DriveSettings settings;
   settings.controller.acceleration_mps2 = wheels.acceleration_mps2;
   settings.controller.turn_acceleration_radps2 = wheels.turn_acceleration_dps2 * kRadiansPerDegree;
@@ -104,7 +104,7 @@ StudyDrive drive_on_wheels(const Study& study, const sim::DriveLog& log, double 
 StudyDrive drive_of(const Study& study, const sim::World& world,
                     const std::function<void(int, int)>& progress) {
   const sim::Drive way = way_of(study.trajectory, world.motion());
-  const auto* wheels = std::get_if<WheelDriveSettings>(&study.trajectory.drive);
+  const auto* wheels = std::get_if<WheelDrive>(&study.trajectory.drive);
   if (!wheels) return drive_by_poses(study, way);
   const sim::DriveLog log =
       sim::simulate_drive(world, robot_path(study), way, settings_of(*wheels),

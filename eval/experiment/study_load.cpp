@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <set>
 
 namespace mapscore::eval {
 namespace {
@@ -63,11 +62,10 @@ class RawSweep {
 
  private:
   static SweepAxis read_axis(const Study& study, const std::string& path, const YamlAt& values) {
-    static const std::set<std::string> kOfTheGrid{
-        "name", "seed", "seeds", "picture_view", "score.instances", "score.thin"};
-    if (kOfTheGrid.contains(path)) values.fail(fmt::format("{} cannot be swept; remove it", path));
     Study probe = study;
-    at_section_leaf(values, probe, path, [](const Field&, const auto&) {});
+    at_section_leaf(values, probe, path, [&](const Field& field, const auto&) {
+      if (!field.swept) values.fail(fmt::format("{} cannot be swept; remove it", path));
+    });
     SweepAxis axis{path, {}};
     for (const YamlAt& value : values.elements()) {
       set_leaf(probe, path, value);

@@ -33,10 +33,10 @@ std::string_view unit_of(std::string_view key) {
 class Reference {
  public:
   void section(const std::string& path, const Section auto& value) {
-    const auto write_field = [&](const Field& field, const auto& member) {
-      node(join_path(path, field.key), field, member);
-    };
-    fields(write_field, value);
+    std::remove_cvref_t<decltype(value)>::fields(value,
+                                                 [&](const auto& member, const Field& field) {
+                                                   node(join_path(path, field.key), field, member);
+                                                 });
   }
 
   [[nodiscard]] std::string take() && { return std::move(text_); }
@@ -78,8 +78,9 @@ class Reference {
     const std::string range = field.range.text();
     const std::string text = Leaf<T>::text(value);
     const bool by_the_file = text == "\"\"";
-    row(path, Leaf<T>::type(), unit_of(field.key), by_the_file ? "-" : text,
-        range == "any" ? "" : range, field.meaning);
+    const bool wide = std::same_as<T, std::uint64_t> && range == "any";
+    row(path, Leaf<T>::type() + (wide ? ", 64 bits" : ""), unit_of(field.key),
+        by_the_file ? "-" : text, range == "any" ? "" : range, field.meaning);
   }
 
   void row(std::string_view key, std::string_view type, std::string_view unit,
@@ -90,7 +91,7 @@ class Reference {
 
   std::string text_ =
       "# Keys of a study file\n\n"
-      "Made by the program from the field lists of eval/experiment/study_fields.hpp. A key "
+      "Made by the program from the lists of fields of the parameters (core/parameters.hpp). A key "
       "whose default is - may be left\nout. The dotted path of a key is what sweeps and "
       "flags name it by; NAME is a method's name, PATH the path of a leaf.\n\n"
       "| key | type | unit | default | range | meaning |\n"

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "eval/experiment/leaf.hpp"
-#include "eval/experiment/study_fields.hpp"
+#include "eval/experiment/study.hpp"
 #include "eval/experiment/yaml_at.hpp"
 
 #include <fmt/format.h>
@@ -28,17 +28,14 @@ using Sweep = std::vector<SweepAxis>;
 
 [[nodiscard]] std::vector<std::string> keys_of(const Section auto& section) {
   std::vector<std::string> keys;
-  fields([&](const Field& field, const auto&) { keys.emplace_back(field.key); }, section);
+  std::remove_cvref_t<decltype(section)>::fields(
+      section, [&](const auto&, const Field& field) { keys.emplace_back(field.key); });
   return keys;
 }
 
 template <class... Kinds>
 [[nodiscard]] std::vector<std::string> kinds_of(const std::variant<Kinds...>&) {
   return {std::string(Kinds::kKind)...};
-}
-
-[[nodiscard]] std::string_view kind_of(const Choice auto& choice) {
-  return std::visit([](const auto& kind) { return kind.kKind; }, choice);
 }
 
 // --- reading -------------------------------------------------------------------------------------
@@ -56,13 +53,13 @@ void read_section(const YamlAt& at, T& section) {
     if (std::ranges::find(keys, key) != keys.end()) continue;
     child.fail(fmt::format("unknown key '{}'; {}", key, suggestion(key, keys)));
   }
-  const auto read_field = [&](const Field& field, auto& member) {
+  const auto read_field = [&](auto& member, const Field& field) {
     for (const auto& [key, child] : entries) {
       if (key == field.key) return read_tree(child, field, member);
     }
     if (field.required) at.fail(fmt::format("'{0}' is missing; write {0}: ...", field.key));
   };
-  fields(read_field, section);
+  T::fields(section, read_field);
 }
 
 template <class Kind>
@@ -103,7 +100,7 @@ inline void read_methods(const YamlAt& at, Methods& methods) {
   methods.clear();
   for (const auto& [name, child] : at.entries()) {
     check_method_name(child, name);
-    methods.push_back({name, {}, {}});
+    methods.emplace_back().name = name;
     read_section(child, methods.back());
   }
 }
@@ -117,7 +114,7 @@ void read_tree(const YamlAt& at, const Field& field, T& value) {
   } else if constexpr (Section<T>) {
     read_section(at, value);
   } else if constexpr (!std::same_as<T, Sweep>) {
-    value = Leaf<T>::read(at, field.range);
+    read_leaf(at, field.range, value);
   }
 }
 
@@ -151,12 +148,12 @@ template <class T, class Act>
 void at_section_leaf(const YamlAt& at, T& section, std::string_view path, const Act& act) {
   const auto [head, tail] = split_path(path);
   bool found = false;
-  const auto try_field = [&, head = head, tail = tail](const Field& field, auto& member) {
+  const auto try_field = [&, head = head, tail = tail](auto& member, const Field& field) {
     if (field.key != head) return;
     found = true;
     at_leaf(at, field, member, tail, act);
   };
-  fields(try_field, section);
+  std::remove_const_t<T>::fields(section, try_field);
   if (!found) fail_on_key(at, head, keys_of(section));
 }
 

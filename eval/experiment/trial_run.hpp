@@ -5,21 +5,18 @@
 
 #include "core/classes.hpp"
 #include "core/frame.hpp"
+#include "core/frame_times.hpp"
 #include "core/geometry/camera.hpp"
+#include "core/mapping/mapper.hpp"
 #include "core/mapping/observation.hpp"
 #include "core/mapping/semantic_map.hpp"
 #include "core/segmentation/segmentation.hpp"
-#include "eval/experiment/frame_times.hpp"
 #include "eval/experiment/lattice_truth.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/pose_sources.hpp"
-#include "eval/experiment/simulated_labels.hpp"
+#include "eval/experiment/sights.hpp"
 #include "eval/experiment/store.hpp"
-#include "eval/experiment/trial_fusion.hpp"
-#include "eval/experiment/trial_refinement.hpp"
 #include "eval/recording/recording.hpp"
-#include "sim/faults/depth_dose.hpp"
-#include "sim/faults/label_dose.hpp"
 
 #include <memory>
 #include <optional>
@@ -42,23 +39,25 @@ struct FrameResult {
 /// `poses` need not.
 class TrialRun {
  public:
+  /// `sights`: shared with trials of an equal Sights::key; without them it makes its own.
   TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
-           TruthCache& truths, PoseSources& poses);
+           TruthCache& truths, PoseSources& poses, std::shared_ptr<const Sights> sights = {});
   /// A temporary task would not outlive it.
   TrialRun(Task&& task, const Recording& recording, const ClassTable& table, TruthCache& truths,
-           PoseSources& poses) = delete;
+           PoseSources& poses, std::shared_ptr<const Sights> sights = {}) = delete;
 
   /// Keeps the counts of each frame, where each is scored by itself. Call it before the first one.
   void keep_frames() { keeps_frames_ = true; }
 
   /// The depth image that a frame is paired with under the trial's time offset.
-  [[nodiscard]] int depth_of(int frame) const {
-    return depth_of_.at(static_cast<std::size_t>(frame));
-  }
+  [[nodiscard]] int depth_of(int frame) const { return sights_->depth_of(frame); }
 
   /// Register, segment, place and fuse one frame under the trial's faults; and score it, where each
   /// frame is scored by itself. It is read with the depth image that `depth_of` names.
-  void advance(const Frame& frame);
+  void advance(const Frame& frame) { advance(frame, sights_->of(frame)); }
+  /// The same, with what sights() make of the frame.
+  void advance(const Frame& frame, const Sight& sight);
+  [[nodiscard]] const std::shared_ptr<const Sights>& sights() const { return sights_; }
 
   /// Scores the map and gives the counts of the whole trial.
   [[nodiscard]] TrialResult finish();
@@ -69,7 +68,7 @@ class TrialRun {
   [[nodiscard]] std::vector<FrameResult> take_frames() { return std::exchange(frames_, {}); }
 
   /// The map as it stands; of the last frame where each is scored by itself.
-  [[nodiscard]] const SemanticMap& map() const { return map_; }
+  [[nodiscard]] const SemanticMap& map() const { return mapper_.map(); }
   [[nodiscard]] double threshold() const { return threshold_; }
   /// What the map is scored against; of the last frame where each is scored by itself.
   [[nodiscard]] const LatticeTruth& truth() const { return *truth_; }
@@ -77,20 +76,12 @@ class TrialRun {
  private:
   /// Zero counts of a trial, or of one of its frames.
   [[nodiscard]] Counts no_counts() const;
-  /// What the method sees, under the faults of depth and labels. Counts the boxes of the
-  /// detections; one of a wrong class has no box there.
-  [[nodiscard]] Observation observe(const Frame& frame, const cv::Mat1w& depth, Counts& counts);
+  /// Counts a frame's detections and their boxes; one of a wrong class has no box there.
+  void count(const std::vector<Segment>& segments,
+             const std::vector<Eigen::AlignedBox3d>& true_boxes, Counts& counts);
   /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
-  /// Under the faults of depth.
-  [[nodiscard]] cv::Mat1w corrupted_depth(const Frame& frame) const;
-  /// Notes the colours behind the masks, where the refinement asks for them.
-  void note_colours(const Frame& frame, const cv::Mat1w& depth,
-                    const std::vector<Detection>& detections);
-  /// T_map_sensor at the mean of the frame's pose belief.
-  [[nodiscard]] Pose mean_sensor_pose(int frame) const;
   void account(const Segment& segment);
-  [[nodiscard]] std::vector<Pose> sensor_poses(int frame) const;
   /// Adds the counts of the map as it stands.
   void score(Counts& counts);
   /// Takes the truth of the frame that is read with that depth image.
@@ -98,17 +89,10 @@ class TrialRun {
 
   const Task& task_;
   const ClassTable& table_;
-  Calibration true_;                 ///< what rendered the images
-  Calibration believed_;             ///< what the method is told
-  std::vector<int> depth_of_;        ///< by frame
+  Calibration true_;  ///< what rendered the images
+  std::shared_ptr<const Sights> sights_;
   std::vector<PoseBelief> beliefs_;  ///< by frame
-  sim::DepthDose depth_dose_;
-  sim::LabelDose label_dose_;
-  std::optional<SimulatedLabels> simulated_;  ///< in place of the recording's labels
-  SegmentationParams segmentation_;
-  bool place_voxels_;
-  TrialFusion fusion_;
-  std::optional<TrialRefinement> refinement_;
+  Mapping mapping_;
   double threshold_;
   ScoreOptions score_options_;
   MapFrame map_frame_;
@@ -116,16 +100,11 @@ class TrialRun {
   FrameBoxes& boxes_;  ///< true ones, shared by all trials
   std::shared_ptr<const LatticeTruth> truth_;
   std::shared_ptr<const LatticeTruth> instance_truth_;  ///< none where instances are not scored
-  SemanticMap map_;
-  std::vector<ColouredPoint> colours_;  ///< of the last frame, in the map's frame
+  Mapper mapper_;
   TrialResult result_;
-  FrameTimes times_;  ///< of the last frame
   bool keeps_frames_ = false;
   std::vector<FrameResult> frames_;
 };
-
-/// What a task's method is told of the cameras, with its faults.
-[[nodiscard]] Calibration believed_calibration(const Calibration& truth, const Task& task);
 
 /// How a task's truth is made.
 [[nodiscard]] TruthOptions truth_options(const Study& config);

@@ -19,16 +19,14 @@ namespace mapscore::eval {
 namespace {
 
 void check(const FilterSettings& settings) {
-  for (const double sigma : {settings.start_sigma_xy_m, settings.start_sigma_yaw_rad})
-    if (!(std::isfinite(sigma) && sigma >= 0))
-      throw Error(fmt::format("start sigma: is {}; give a number of at least 0", sigma));
+  check_ranges(settings.start);
 }
 
 /// Of the true start T_true = T_mean Exp(xi): a mean that is off by a draw xi of the sigmas.
 PoseEstimate start_estimate(const FilterSettings& settings, const PlanarPose& T_map_base_start,
                             std::uint64_t seed) {
-  const Eigen::Vector3d sigmas(settings.start_sigma_xy_m, settings.start_sigma_xy_m,
-                               settings.start_sigma_yaw_rad);
+  const Eigen::Vector3d sigmas(settings.start.start_sigma_xy_m, settings.start.start_sigma_xy_m,
+                               settings.start.start_sigma_yaw_deg.rad());
   RandomStream draws(seed, "start estimate");
   Vector6 xi = Vector6::Zero();
   xi[0] = sigmas[0] * draws.normal();

@@ -17,6 +17,22 @@
 
 namespace mapscore::eval {
 
+/// How far off the true start a tracking filter begins.
+struct StartSpread {
+  double start_sigma_xy_m = 0.1;
+  Degrees start_sigma_yaw_deg{2.864788975654116};  ///< 0.05 rad
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.start_sigma_xy_m, Field{"start_sigma_xy_m",
+                                    "standard deviation of the start, x and y; default 0.1",
+                                    {0, 10}});
+    visit(s.start_sigma_yaw_deg, Field{"start_sigma_yaw_deg",
+                                       "standard deviation of the start's heading; default 2.9",
+                                       {0, 180}});
+  }
+  bool operator==(const StartSpread&) const = default;
+};
+
 /// How a drive is localised anew from its logs.
 struct FilterSettings {
   ParticleFilterParams filter;
@@ -24,8 +40,9 @@ struct FilterSettings {
   /// False: tracking, from an estimate that is off the true start by a draw of the start sigmas.
   /// True: from anywhere on the grid's free cells.
   bool global_start = false;
-  double start_sigma_xy_m = 0.1, start_sigma_yaw_rad = 0.05;
-  sim::LidarNoise lidar_noise;  ///< added to the recording's noise-free turns
+  StartSpread start;
+  /// Added to the recording's noise-free turns.
+  sim::LidarNoise lidar_noise = sim::LidarNoise::of(sim::LidarPreset::rplidar_a2);
 };
 
 /// Throws Error, beginning with the grid's name, where a drive would start in an occupied cell.

@@ -3,8 +3,6 @@
 
 #include "eval/report/believed_figures.hpp"
 
-#include "eval/experiment/fields.hpp"
-#include "eval/experiment/localization_fields.hpp"
 #include "eval/experiment/pose_sources.hpp"
 #include "eval/localization/localization_score.hpp"
 #include "eval/report/pictures_trial.hpp"

@@ -4,8 +4,10 @@
 #include "eval/report/contact_sheet.hpp"
 
 #include "core/segmentation/registered_cloud.hpp"
+#include "eval/experiment/leaf.hpp"
 #include "eval/experiment/plan.hpp"
 #include "eval/experiment/trial_run.hpp"
+#include "eval/report/figures_axes.hpp"
 #include "eval/report/pictures_caption.hpp"
 #include "eval/report/pictures_trial.hpp"
 
@@ -40,11 +42,13 @@ double shift_px(const Calibration& truth, const Calibration& believed) {
       .norm();
 }
 
-std::string name_of(const MisregistrationSettings& dose) {
-  std::string name = "registered";
-  if (dose.magnitude_m > 0) name += fmt::format(", {:.6g} mm", 1000.0 * dose.magnitude_m);
-  if (dose.angle_deg > 0) name += fmt::format(", {:.6g} deg", dose.angle_deg);
-  return dose.magnitude_m > 0 || dose.angle_deg > 0 ? name : name + ", largest fault";
+std::string name_of(const sim::Misregistration& dose) {
+  std::string doses;
+  sim::Misregistration::fields(dose, [&]<class T>(const T& member, const Field& field) {
+    if constexpr (std::same_as<T, double> || std::same_as<T, Degrees>)
+      if (member != T{}) doses += ", " + figure_axis(field, {Leaf<T>::text(member)}).value_text(0);
+  });
+  return "registered" + (doses.empty() ? ", largest fault" : doses);
 }
 
 std::optional<LargestFault> largest_fault(const Study& study, const Recording& recording) {

@@ -35,7 +35,7 @@ constexpr std::array<Score, 3> kScores{Score{"precision", "precision"}, Score{"r
 /// Position in the sweep of the first axis with names.
 std::optional<std::size_t> named_axis(const Study& study) {
   for (std::size_t axis = 0; axis < study.sweep.size(); ++axis)
-    if (!figure_axis(study.sweep[axis]).numeric) return axis;
+    if (!figure_axis(study, study.sweep[axis]).numeric) return axis;
   return std::nullopt;
 }
 
@@ -45,7 +45,7 @@ class ClassBars {
   ClassBars(const StudySummary& summary, std::size_t axis)
       : summary_(summary),
         axis_(axis),
-        named_(figure_axis(summary.study.sweep[axis])),
+        named_(figure_axis(summary.study, summary.study.sweep[axis])),
         classes_(classes_shown(summary)),
         place_(kGroup / static_cast<double>(named_.values.size())) {
     sheet_.name = "by_class_by_" + named_.key;
@@ -95,7 +95,9 @@ class ClassBars {
     std::string text;
     for (std::size_t axis = 0; axis < summary_.study.sweep.size(); ++axis)
       if (axis != axis_)
-        text += "; " + figure_axis({summary_.study.sweep[axis].path, {dose(axis, 0)}}).text(0);
+        text +=
+            "; " +
+            figure_axis(summary_.study, {summary_.study.sweep[axis].path, {dose(axis, 0)}}).text(0);
     return text;
   }
 

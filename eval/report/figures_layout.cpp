@@ -59,7 +59,8 @@ std::string palette_colour(std::size_t n) {
 
 StudyLayout::StudyLayout(const StudySummary& summary) : bars_(summary.study.sweep.empty()) {
   std::vector<FigureAxis> axes;
-  for (const SweepAxis& axis : summary.study.sweep) axes.push_back(figure_axis(axis));
+  for (const SweepAxis& axis : summary.study.sweep)
+    axes.push_back(figure_axis(summary.study, axis));
   x_ = bars_ ? axis_of_methods(summary.study) : axes.front();
   if (axes.size() > 1) {
     columns_.clear();

@@ -80,7 +80,8 @@ std::optional<double> drawn_time(const Study& study, const ClassTable& table,
 }  // namespace
 
 Pictures draw_pictures(const Study& study, const ClassTable& table, const Recording& recording,
-                       const PictureChoice& choice, const fs::path& folder) {
+                       const PictureChoice& choice, const fs::path& folder,
+                       const std::function<std::vector<JudgedMap>()>& judged_maps) {
   if (!recording.info().has_truth)
     return {{}, recording.folder().string() + ": has no truth, so its maps cannot be judged"};
   std::unique_ptr<ScenePainter> painter;
@@ -91,7 +92,7 @@ Pictures draw_pictures(const Study& study, const ClassTable& table, const Record
     return {{}, error.what()};
   }
   fs::create_directories(folder);
-  const std::vector<JudgedMap> maps = map_trials(study, table, recording, choice);
+  const std::vector<JudgedMap> maps = judged_maps();
   const std::optional<sim::View> chosen = chosen_view(study, choice);
   const std::vector<sim::View> views = error_views(maps, chosen, depth_camera_poses(recording));
   const sim::View plan = chosen ? narrowed(*chosen, kColumn_px) : plan_view(maps, kColumn_px);

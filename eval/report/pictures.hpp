@@ -20,7 +20,8 @@ struct Pictures {
   std::string skipped;
 };
 
-/// Runs the chosen trials anew and draws, for each method, in the pale scene (its surfaces as the
+/// Draws the maps of the chosen trials, which `judged_maps` gives once it is known that they can be
+/// drawn, for each method in the pale scene (its surfaces as the
 /// recording holds them, where the scene is gone or has changed):
 ///
 /// - map_METHOD.png: its predicted voxels in the colours of their classes;
@@ -34,6 +35,7 @@ struct Pictures {
 /// is no such trial or the folder cannot be written.
 [[nodiscard]] Pictures draw_pictures(const Study& study, const ClassTable& table,
                                      const Recording& recording, const PictureChoice& choice,
-                                     const std::filesystem::path& folder);
+                                     const std::filesystem::path& folder,
+                                     const std::function<std::vector<JudgedMap>()>& judged_maps);
 
 }  // namespace mapscore::eval

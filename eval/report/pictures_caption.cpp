@@ -4,8 +4,8 @@
 #include "eval/report/pictures_caption.hpp"
 
 #include "core/whole_file.hpp"
+#include "eval/recording/png.hpp"
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -186,9 +186,7 @@ cv::Mat3b captioned(const cv::Mat3b& picture, const std::string& title,
 }
 
 std::filesystem::path write_picture(const std::filesystem::path& file, const cv::Mat3b& picture) {
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
-  write_whole_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  write_whole_file(file, encode_png(picture));
   return file;
 }
 

@@ -4,12 +4,9 @@
 #include "eval/report/pictures_trial.hpp"
 
 #include "core/error.hpp"
-#include "eval/experiment/lattice_truth.hpp"
 #include "eval/experiment/map_frame.hpp"
 #include "eval/experiment/plan.hpp"
-#include "eval/experiment/trial_refinement.hpp"
 #include "eval/experiment/trial_run.hpp"
-#include "eval/recording/frame_cache.hpp"
 #include "eval/report/figures_axes.hpp"
 
 #include <fmt/format.h>
@@ -41,10 +38,10 @@ void check_paths(const Study& study, const PictureChoice& choice) {
 }
 
 /// ASCII, since OpenCV writes nothing else.
-std::string title_of(const TrialSpec& spec, std::optional<int> frame) {
+std::string title_of(const Study& study, const TrialSpec& spec, std::optional<int> frame) {
   std::string title = spec.method;
   for (const auto& [path, value] : spec.cell.doses) {
-    std::string text = figure_axis({path, {value}}).text(0);
+    std::string text = figure_axis(study, {path, {value}}).text(0);
     for (const auto& [letter, ascii] : {std::pair{"σ", "sigma"}, {"×", "x"}})
       if (const std::size_t at = text.find(letter); at != std::string::npos)
         text.replace(at, std::string(letter).size(), ascii);
@@ -52,14 +49,6 @@ std::string title_of(const TrialSpec& spec, std::optional<int> frame) {
   }
   title += fmt::format(", seed {}", spec.seed_index);
   return frame ? title + fmt::format(", frame {}", *frame) : title;
-}
-
-JudgedMap judged_trial(const TrialRun& run, const Task& task, const ClassTable& table,
-                       const TrialSpec& spec, std::optional<int> frame) {
-  const LatticeTruth& truth = run.truth();
-  return judged_map(spec.method, title_of(spec, frame), MapSnapshot(run.map().voxels()),
-                    run.threshold(), truth.surface, truth.view.visible, table,
-                    map_frame(task.config, task.seed_index).T_map_world());
 }
 
 }  // namespace
@@ -89,36 +78,12 @@ int fullest_frame(const Recording& recording, const ClassTable& table, int first
   return fullest;
 }
 
-std::vector<JudgedMap> map_trials(const Study& study, const ClassTable& table,
-                                  const Recording& recording, const PictureChoice& choice) {
-  const Cell cell = chosen_cell(study, choice);
-  Study undistanced = study;  // pictures need no distances, and those cost most of a truth
-  undistanced.score.distances_m.clear();
-  FrameCache frames(
-      recording, {.color = reads_colour(study), .label = true, .depth = true, .depth_label = true},
-      choice.memory_bytes);
-  TruthCache truths(recording, table, frames, 1);
-  PoseSources poses(recording);
-  std::optional<int> alone;
-  if (study.score.unit == ScoreUnit::frame)
-    alone = fullest_frame(recording, table, 0, recording.frame_count());
-
-  std::vector<JudgedMap> maps;
-  for (const TrialSpec& spec : trials(study)) {
-    if (spec.cell != cell || spec.seed_index != choice.seed_index) continue;
-    if (choice.method && *choice.method != spec.method) continue;
-    const Task task = task_of(undistanced, spec, Labels::detected, recording.content_hash());
-    TrialRun run(task, recording, table, truths, poses);
-    for (int frame = alone.value_or(0); frame < (alone ? *alone + 1 : recording.frame_count());
-         ++frame)
-      run.advance(*frames.get(frame, run.depth_of(frame)));
-    maps.push_back(judged_trial(run, task, table, spec, alone));
-  }
-  if (maps.empty())
-    throw Error(fmt::format("{}seed {}: the study has no such trial; seeds: 0 to {}",
-                            choice.method ? "method " + *choice.method + ", " : "",
-                            choice.seed_index, study.seeds - 1));
-  return maps;
+JudgedMap judged_trial(const Study& study, const TrialRun& run, const Task& task,
+                       const ClassTable& table, const TrialSpec& spec, std::optional<int> frame) {
+  const LatticeTruth& truth = run.truth();
+  return judged_map(spec.method, title_of(study, spec, frame), MapSnapshot(run.map().voxels()),
+                    run.threshold(), truth.surface, truth.view.visible, table,
+                    map_frame(task.config, task.seed_index).T_map_world());
 }
 
 }  // namespace mapscore::eval

@@ -6,6 +6,7 @@
 #include "core/classes.hpp"
 #include "eval/experiment/grid.hpp"
 #include "eval/experiment/study.hpp"
+#include "eval/experiment/trial_run.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/report/pictures_judgement.hpp"
 #include "sim/render/renderer.hpp"
@@ -32,12 +33,11 @@ struct PictureChoice {
 /// swept.
 [[nodiscard]] Cell chosen_cell(const Study& study, const PictureChoice& choice);
 
-/// Runs the chosen trials over the recording and judges the maps that they end with (of its fullest
-/// frame where each is scored by itself); each is named by its method, and its title says its doses
-/// too. Throws Error when there is no such trial.
-[[nodiscard]] std::vector<JudgedMap> map_trials(const Study& study, const ClassTable& table,
-                                                const Recording& recording,
-                                                const PictureChoice& choice);
+/// The map that a trial ended with, judged; it is named by its method, and its title says its doses
+/// too. `frame`: the one that is shown, where each is scored by itself.
+[[nodiscard]] JudgedMap judged_trial(const Study& study, const TrialRun& run, const Task& task,
+                                     const ClassTable& table, const TrialSpec& spec,
+                                     std::optional<int> frame);
 
 /// The frame of first..end-1 with most colour pixels of detected classes; the earliest of equals.
 [[nodiscard]] int fullest_frame(const Recording& recording, const ClassTable& table, int first,

@@ -46,13 +46,6 @@ bool key_before(const MapVoxel& a, const MapVoxel& b) {
 
 }  // namespace
 
-double default_threshold(double K) {
-  if (!(K >= 0.0 && K < 1.0)) {
-    throw Error(fmt::format("fusion.blend.K: {} must lie in [0, 1)", K));
-  }
-  return (1.0 - K) / 2.0;
-}
-
 MapSnapshot::MapSnapshot(std::vector<MapVoxel> voxels) : voxels_(std::move(voxels)) {
   std::for_each(voxels_.begin(), voxels_.end(), check_voxel);
   if (!std::is_sorted(voxels_.begin(), voxels_.end(), key_before)) {

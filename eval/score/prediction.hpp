@@ -27,10 +27,6 @@ struct PredictedVoxel {
   return voxel.best_class != kBackground && voxel.occupied && voxel.probability >= threshold;
 }
 
-/// Half of what a first full hit gives under the blend with weight K of the old value: (1 - K) / 2.
-/// Throws Error unless 0 <= K < 1.
-[[nodiscard]] double default_threshold(double K);
-
 /// The voxels of one map at one time, ordered by key, with a look-up by key. A pruned leaf must
 /// have been spread into the finest voxels that it covers. Immutable, safe to share between
 /// threads.

@@ -3,6 +3,7 @@
 
 #include "sim/faults/calibration_faults.hpp"
 
+#include "core/error.hpp"
 #include "core/random_stream.hpp"
 
 #include <cmath>
@@ -17,39 +18,48 @@ Eigen::Vector3d image_direction(RandomStream& stream) {
   return {std::cos(angle), std::sin(angle), 0.0};
 }
 
-bool is_zero(const RigidDose& dose) {
-  return dose.translation_m.isZero(0.0) && dose.rotation_rad.isZero(0.0) &&
-         dose.magnitude_m == 0.0 && dose.angle_rad == 0.0;
+Eigen::Vector3d radians(const std::array<Degrees, 3>& rotation) {
+  return {rotation[0].rad(), rotation[1].rad(), rotation[2].rad()};
 }
 
 }  // namespace
 
+void check(const RigidDose& dose) {
+  const RigidDose none;
+  if (dose.magnitude_m != 0 && dose.translation_m != none.translation_m)
+    throw Error("translation_m: stands beside a magnitude_m; keep one of the two");
+  if (dose.angle_deg.deg != 0 && dose.rotation_deg != none.rotation_deg)
+    throw Error("rotation_deg: stands beside an angle_deg; keep one of the two");
+}
+
 Pose rigid_error(const RigidDose& dose, std::uint64_t seed, std::string_view purpose) {
-  if (is_zero(dose)) return Pose::Identity();
+  if (dose == RigidDose{}) return Pose::Identity();
   RandomStream stream(seed, purpose);
   const Eigen::Vector3d shift = image_direction(stream);
   const Eigen::Vector3d axis = image_direction(stream);
   Pose error = Pose::Identity();
-  error.linear() = exp_rotation(dose.rotation_rad + dose.angle_rad * axis);
-  error.translation() = dose.translation_m + dose.magnitude_m * shift;
+  error.linear() = exp_rotation(radians(dose.rotation_deg) + dose.angle_deg.rad() * axis);
+  error.translation() =
+      Eigen::Map<const Eigen::Vector3d>(dose.translation_m.data()) + dose.magnitude_m * shift;
   return error;
 }
 
-Calibration misregister(const Calibration& truth, const MisregistrationDose& dose,
-                        std::uint64_t seed) {
+Calibration misregister(const Calibration& truth, const Misregistration& dose, std::uint64_t seed) {
   Calibration believed = truth;
-  if (!is_zero(dose.rigid))
+  if (dose.rigid != RigidDose{})
     believed.T_color_depth = rigid_error(dose.rigid, seed, "misregistration") * truth.T_color_depth;
-  believed.color.fx_px *= 1.0 + dose.focal_error;
-  believed.color.fy_px *= 1.0 + dose.focal_error;
-  believed.color.cx_px += dose.principal_point_px.x();
-  believed.color.cy_px += dose.principal_point_px.y();
+  const double focal_error = dose.focal_error_percent / 100.0;
+  believed.color.fx_px *= 1.0 + focal_error;
+  believed.color.fy_px *= 1.0 + focal_error;
+  believed.color.cx_px += dose.principal_point_px[0];
+  believed.color.cy_px += dose.principal_point_px[1];
   return believed;
 }
 
-Calibration misplace_mount(const Calibration& truth, const RigidDose& dose, std::uint64_t seed) {
+Calibration misplace_mount(const Calibration& truth, const MountError& dose, std::uint64_t seed) {
   Calibration believed = truth;
-  if (!is_zero(dose)) believed.T_base_depth = truth.T_base_depth * rigid_error(dose, seed, "mount");
+  if (dose.rigid != RigidDose{})
+    believed.T_base_depth = truth.T_base_depth * rigid_error(dose.rigid, seed, "mount");
   return believed;
 }
 

@@ -4,28 +4,86 @@
 #pragma once
 
 #include "core/geometry/camera.hpp"
+#include "core/parameters.hpp"
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <string_view>
 
 namespace mapscore::sim {
 
-/// A rigid dose: fixed parts, and a magnitude whose direction the seed draws. Metres, radians.
+/// A rigid error: fixed parts, and a magnitude whose direction the seed draws.
 struct RigidDose {
-  Eigen::Vector3d translation_m =
-      Eigen::Vector3d::Zero();  ///< in the optical axes that the error stands in
-  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();  ///< rotation vector
-  double magnitude_m = 0.0;  ///< along a direction uniform on the circle in the image plane
-  double angle_rad = 0.0;    ///< about an axis uniform on the circle in the image plane
+  double magnitude_m = 0;  ///< along a direction uniform on the circle in the image plane
+  Degrees angle_deg{};     ///< about an axis uniform on the circle in the image plane
+  std::array<double, 3> translation_m{};  ///< in the optical axes that the error stands in
+  std::array<Degrees, 3> rotation_deg{};  ///< rotation vector, in the same axes
+  bool operator==(const RigidDose&) const = default;
 };
 
 /// Error of the believed depth-to-colour registration. Moves labels, never points.
-struct MisregistrationDose {
+struct Misregistration {
   RigidDose rigid;
-  double focal_error = 0.0;  ///< fraction; the believed colour focal length is f * (1 + error)
-  Eigen::Vector2d principal_point_px = Eigen::Vector2d::Zero();  ///< added to the colour centre
+  double focal_error_percent = 0;  ///< the believed colour focal length is f * (1 + error)
+  std::array<double, 2> principal_point_px{};  ///< added to the colour camera's centre
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.rigid.magnitude_m,
+          Field{"magnitude_m",
+                "shift of the believed depth camera, its direction drawn by the seed",
+                {0, 1},
+                "misregistration (mm)"});
+    visit(s.rigid.angle_deg, Field{"angle_deg",
+                                   "turn of the believed depth camera, its axis drawn by the seed",
+                                   {0, 180},
+                                   "misregistration angle (deg)"});
+    visit(s.rigid.translation_m,
+          Field{"translation_m",
+                "shift in the colour camera's optical frame; excludes magnitude_m",
+                {-10, 10}});
+    visit(s.rigid.rotation_deg,
+          Field{"rotation_deg",
+                "rotation vector in the colour camera's optical frame; excludes angle_deg",
+                {-180, 180}});
+    visit(s.focal_error_percent, Field{"focal_error_percent",
+                                       "error of the believed focal length of the colour camera",
+                                       {.low = -100, .high = 100, .open_low = true},
+                                       "focal length error (%)"});
+    visit(s.principal_point_px, Field{"principal_point_px",
+                                      "error of the believed principal point of the colour camera",
+                                      {-1000, 1000}});
+  }
+  bool operator==(const Misregistration&) const = default;
 };
+
+/// Error of the believed camera-to-base calibration. Moves points, never labels.
+struct MountError {
+  RigidDose rigid;
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.rigid.magnitude_m, Field{"magnitude_m",
+                                     "shift of the believed mount, its direction drawn by the seed",
+                                     {0, 1},
+                                     "mount error (mm)"});
+    visit(s.rigid.angle_deg, Field{"angle_deg",
+                                   "turn of the believed mount, its axis drawn by the seed",
+                                   {0, 180},
+                                   "mount error angle (deg)"});
+    visit(s.rigid.translation_m,
+          Field{"translation_m",
+                "shift in the depth camera's optical frame; excludes magnitude_m",
+                {-10, 10}});
+    visit(s.rigid.rotation_deg,
+          Field{"rotation_deg",
+                "rotation vector in the depth camera's optical frame; excludes angle_deg",
+                {-180, 180}});
+  }
+  bool operator==(const MountError&) const = default;
+};
+
+/// Throws Error, beginning with a key, when a fixed part stands beside a magnitude of its kind.
+void check(const RigidDose& dose);
 
 /// The rigid error E of a dose; the identity, bit for bit, when every dose is zero. The direction
 /// drawn from (seed, purpose) does not depend on the dose.
@@ -33,12 +91,12 @@ struct MisregistrationDose {
 
 /// Believed calibration under misregistration: T_believed_color_depth = E * T_color_depth, and the
 /// colour intrinsics. A zero dose returns the true calibration bit for bit.
-[[nodiscard]] Calibration misregister(const Calibration& truth, const MisregistrationDose& dose,
+[[nodiscard]] Calibration misregister(const Calibration& truth, const Misregistration& dose,
                                       std::uint64_t seed);
 
 /// Believed calibration under a mount error: T_believed_base_depth = T_base_depth * M, with M in
-/// depth optical axes. Moves points, never labels.
-[[nodiscard]] Calibration misplace_mount(const Calibration& truth, const RigidDose& dose,
+/// depth optical axes.
+[[nodiscard]] Calibration misplace_mount(const Calibration& truth, const MountError& dose,
                                          std::uint64_t seed);
 
 }  // namespace mapscore::sim

@@ -113,9 +113,8 @@ double lateral_sigma_px(const DepthDose& dose, double incidence_rad) {
 }
 
 double grazing_loss(const DepthDose& dose, double incidence_rad) {
-  return std::clamp(
-      (incidence_rad - dose.grazing_from_rad) / (dose.grazing_to_rad - dose.grazing_from_rad), 0.0,
-      1.0);
+  const double from_rad = dose.grazing_from_deg.rad(), to_rad = dose.grazing_to_deg.rad();
+  return std::clamp((incidence_rad - from_rad) / (to_rad - from_rad), 0.0, 1.0);
 }
 
 cv::Mat1w corrupt_depth(const cv::Mat1w& depth, const CameraModel& camera, const DepthDose& dose,

@@ -21,7 +21,7 @@ namespace mapscore::sim {
 /// theta / (pi/2 - theta) (Nguyen et al., equation 1), theta at most 85 degrees.
 [[nodiscard]] double lateral_sigma_px(const DepthDose& dose, double incidence_rad);
 
-/// Chance of no return of a dose of 1: 0 up to grazing_from_rad, 1 from grazing_to_rad on, linear
+/// Chance of no return of a dose of 1: 0 up to grazing_from_deg, 1 from grazing_to_deg on, linear
 /// between.
 [[nodiscard]] double grazing_loss(const DepthDose& dose, double incidence_rad);
 

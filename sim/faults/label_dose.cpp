@@ -16,7 +16,7 @@ namespace {
 constexpr double kWidest_px = 1000.0;
 
 void demand(bool holds, const std::string& member, const std::string& problem) {
-  if (!holds) throw Error("label fault " + member + ": " + problem);
+  if (!holds) throw Error(member + ": " + problem);
 }
 
 void check_matrix(const std::vector<std::vector<double>>& matrix) {
@@ -32,6 +32,18 @@ void check_matrix(const std::vector<std::vector<double>>& matrix) {
   }
 }
 
+/// Its shares off the diagonal times `factor`; the diagonal takes the rest of 1.
+std::vector<std::vector<double>> scaled(std::vector<std::vector<double>> matrix, double factor) {
+  if (factor == 1.0) return matrix;
+  for (std::size_t row = 0; row < matrix.size(); ++row) {
+    double wrong = 0.0;
+    for (std::size_t column = 0; column < matrix[row].size(); ++column)
+      if (column != row) wrong += matrix[row][column] *= factor;
+    if (row < matrix[row].size()) matrix[row][row] = 1.0 - wrong;
+  }
+  return matrix;
+}
+
 }  // namespace
 
 bool is_zero(const LabelDose& dose) {
@@ -44,30 +56,38 @@ bool keeps_masks(const LabelDose& dose) {
          dose.holes == 0.0 && dose.islands == 0.0;
 }
 
-void check(const LabelDose& d) {
-  demand(std::abs(d.boundary_px) <= kWidest_px, "boundary_px", "give -1000 to 1000 pixels");
-  for (const auto& [name, value] : {std::pair{"ragged_px", d.ragged_px},
-                                    {"miss", d.miss},
-                                    {"confusion", d.confusion},
-                                    {"scores", d.scores},
-                                    {"holes", d.holes},
-                                    {"islands", d.islands}})
-    demand(value >= 0.0 && value <= kWidest_px, name, "is no dose; give 0 (off) or more");
-  for (const auto& [name, value] : {std::pair{"ragged_length_px", d.ragged_length_px},
-                                    {"disc_radius_px", d.disc_radius_px},
-                                    {"island_reach_px", d.island_reach_px}})
-    demand(value >= 1.0 && value <= kWidest_px, name, "give 1 to 1000 pixels");
-  demand(d.miss_area_px > 0.0 && std::isfinite(d.miss_area_px), "miss_area_px", "must be above 0");
-  demand(!d.score_mean || (*d.score_mean >= 0.0 && *d.score_mean <= 1.0), "score_mean",
-         "give 0 to 1");
-  demand(d.score_concentration > 0.0 && std::isfinite(d.score_concentration), "score_concentration",
-         "must be above 0");
-  demand(d.confusion_matrix.empty() || d.confusion == 0.0, "confusion",
-         "stands beside a confusion_matrix; keep one of the two");
-  check_matrix(d.confusion_matrix);
+LabelDose masks_alone(LabelDose dose) {
+  const LabelDose ideal;
+  dose.confusion = ideal.confusion;
+  dose.confusion_matrix = ideal.confusion_matrix;
+  dose.scores = ideal.scores;
+  dose.score_mean = ideal.score_mean;
+  dose.score_concentration = ideal.score_concentration;
+  return dose;
 }
 
-LabelDose label_preset(LabelPreset preset) {
+void check(const LabelDose& d) try {
+  check_ranges(d);
+  if (d.boundary_px > kWidest_px) throw Error("boundary_px: give -1000 to 1000 pixels");
+  if (d.ragged_px > kWidest_px) throw Error("ragged_px: give up to 1000 pixels");
+  if (!d.confusion_matrix.empty() && d.confusion != 0.0)
+    throw Error("confusion: stands beside a confusion_matrix; keep one of the two");
+  check_matrix(d.confusion_matrix);
+} catch (const Error& error) {
+  throw Error(std::string("label fault ") + error.what());
+}
+
+void LabelDose::scale_by(double factor) {
+  scale_doses(*this, factor);
+  if (confusion_matrix.empty()) return;
+  confusion = 0.0;
+  if (factor > 0.0)
+    confusion_matrix = scaled(std::move(confusion_matrix), factor);
+  else
+    confusion_matrix.clear();
+}
+
+LabelDose LabelDose::of(LabelPreset preset) {
   LabelDose dose;
   if (preset == LabelPreset::ideal) return dose;
   dose.ragged_px = 1.5;

@@ -13,10 +13,8 @@ namespace mapscore::sim {
 namespace {
 
 void check(const LidarNoise& noise) {
-  const auto usable = [](double value) { return value >= 0 && std::isfinite(value); };
-  if (!usable(noise.sigma_m) || !usable(noise.sigma_per_metre))
-    throw Error("faults: lidar noise: sigma_m and sigma_per_metre must be 0 or more");
-  if (!(noise.dropout_rate >= 0 && noise.dropout_rate <= 1))
+  check_ranges(noise);
+  if (noise.dropout_rate > 1)
     throw Error("faults: lidar noise: dropout_rate must lie between 0 and 1");
   if (!(noise.range_min_m >= 0 && noise.range_max_m > noise.range_min_m))
     throw Error("faults: lidar noise: give 0 <= range_min_m < range_max_m");

@@ -3,18 +3,60 @@
 
 #pragma once
 
+#include "core/parameters.hpp"
+
+#include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace mapscore::sim {
 
-/// Noise of a triangulating lidar. The defaults are of the size that the data sheet of the RPLidar
-/// A2 gives: about 1 % of the distance, half a millimetre and more near by.
+/// Ready-made lidars.
+enum class LidarPreset { ideal, rplidar_a2 };
+
+}  // namespace mapscore::sim
+
+namespace mapscore {
+template <>
+inline constexpr auto kNames<sim::LidarPreset> = std::to_array<std::string_view>({"ideal",
+                                                                                  "rplidar_a2"});
+}  // namespace mapscore
+
+namespace mapscore::sim {
+
+/// Noise of a triangulating lidar. The preset rplidar_a2 is of the size that the data sheet of the
+/// RPLidar A2 gives: about 1 % of the distance, half a millimetre and more near by.
 struct LidarNoise {
-  double sigma_m = 0.005;         ///< part that does not grow with the distance
-  double sigma_per_metre = 0.01;  ///< part that does
-  double dropout_rate = 0.01;     ///< share of beams without a measurement
-  double range_min_m = 0.15, range_max_m = 12.0;
+  using Preset = LidarPreset;
+  static constexpr Field kPreset{.key = "preset",
+                                 .meaning = "lidar that the other keys start from; ideal: no fault",
+                                 .later = true};
+  static constexpr Field kScale{
+      .key = "scale", .meaning = "multiplies every dose", .range = {0, 100}, .later = true};
+
+  double sigma_m = 0, sigma_per_metre = 0, dropout_rate = 0;
+  double range_min_m = 0.15, range_max_m = 12.0;  ///< of the lidar, which reports nothing beyond
+
+  [[nodiscard]] static LidarNoise of(LidarPreset preset) {
+    return preset == LidarPreset::ideal ? LidarNoise{} : LidarNoise{0.005, 0.01, 0.01};
+  }
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.sigma_m, Field{.key = "sigma_m",
+                           .meaning = "standard deviation of a range, the part that does not grow",
+                           .range = {0, 10},
+                           .dose = true});
+    visit(s.sigma_per_metre, Field{.key = "sigma_per_metre",
+                                   .meaning = "standard deviation of a range by the range",
+                                   .range = {0, 1},
+                                   .dose = true});
+    visit(s.dropout_rate, Field{.key = "dropout_rate",
+                                .meaning = "share of beams without a measurement",
+                                .range = {0, 1},
+                                .dose = true});
+  }
+  bool operator==(const LidarNoise&) const = default;
 };
 
 /// Corrupts one turn in place, on replay:

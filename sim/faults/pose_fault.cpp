@@ -16,19 +16,45 @@ Pose draw_error(const Covariance6& root, std::uint64_t seed, std::size_t frame) 
   return exp_pose(root * standard);
 }
 
+/// Covariance of scale 1.
+Covariance6 unit_covariance(const PoseNoise& noise) {
+  Covariance6 covariance = Covariance6::Zero();
+  if (noise.covariance_m_rad) {
+    for (int row = 0; row < 6; ++row)
+      for (int column = 0; column < 6; ++column)
+        covariance(row, column) = noise.covariance_m_rad->at(row).at(column);
+    return covariance;
+  }
+  const double tilt = noise.sigma_roll_pitch_deg.rad();
+  Vector6 sigma;
+  sigma << noise.sigma_xy_m, noise.sigma_xy_m, noise.sigma_z_m, tilt, tilt,
+      noise.sigma_yaw_deg.rad();
+  covariance.diagonal() = sigma.cwiseAbs2();
+  return covariance;
+}
+
 }  // namespace
 
-std::vector<Pose> believe_poses(const std::vector<Pose>& T_world_base, const PoseDose& dose,
+Covariance6 covariance_of(const PoseNoise& noise) {
+  return noise.sigma_scale * noise.sigma_scale * unit_covariance(noise);
+}
+
+Covariance6 reported_covariance(const PoseNoise& noise) {
+  return noise.reported_scale * covariance_of(noise);
+}
+
+std::vector<Pose> believe_poses(const std::vector<Pose>& T_world_base,
+                                const Covariance6& covariance, PoseNoiseKind kind,
                                 std::uint64_t seed) {
-  const Covariance6 root = covariance_root(dose.covariance);
+  const Covariance6 root = covariance_root(covariance);
   if (root.isZero(0.0)) return T_world_base;
   std::vector<Pose> believed;
   believed.reserve(T_world_base.size());
   Pose walked = Pose::Identity();
   for (std::size_t frame = 0; frame < T_world_base.size(); ++frame) {
-    const bool constant = dose.kind == PoseNoiseKind::constant;
+    const bool constant = kind == PoseNoiseKind::constant;
     const Pose error = draw_error(root, seed, constant ? 0 : frame);
-    walked = dose.kind == PoseNoiseKind::walk ? walked * error : error;
+    walked = kind == PoseNoiseKind::walk ? walked * error : error;
     believed.push_back(T_world_base[frame] * walked);
   }
   return believed;

@@ -32,7 +32,8 @@ void edge_aligned_frame(benchmark::State& state) {
   const std::vector<Detection> detections = detections_of(person().label, person().table);
   const Calibration believed = misregistered();
   for (auto _ : state)
-    benchmark::DoNotOptimize(label_depth(detections, person().depth, believed, {}));
+    benchmark::DoNotOptimize(
+        label_surfaces(Sight(believed, person().depth, detections), {}).labels);
   state.counters["bar_ms"] = kFrameBar_ms;
 }
 BENCHMARK(edge_aligned_frame)->Unit(benchmark::kMillisecond);

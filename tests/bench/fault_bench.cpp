@@ -23,7 +23,7 @@ void corrupt_depth(benchmark::State& state, const sim::DepthDose& dose) {
     benchmark::DoNotOptimize(
         sim::corrupt_depth(person().depth, person().calibration.depth, dose, 1, frame++));
 }
-BENCHMARK_CAPTURE(corrupt_depth, astra, sim::depth_preset(sim::DepthPreset::astra))
+BENCHMARK_CAPTURE(corrupt_depth, astra, sim::DepthDose::of(sim::DepthPreset::astra))
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(corrupt_depth, axial, {.axial = 1})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(corrupt_depth, lateral, {.lateral = 1})->Unit(benchmark::kMillisecond);
@@ -37,7 +37,7 @@ void corrupt_labels(benchmark::State& state, const sim::LabelDose& dose) {
     benchmark::DoNotOptimize(
         sim::corrupt_detections(person().label, person().table, dose, 1, frame++));
 }
-BENCHMARK_CAPTURE(corrupt_labels, typical, sim::label_preset(sim::LabelPreset::typical))
+BENCHMARK_CAPTURE(corrupt_labels, typical, sim::LabelDose::of(sim::LabelPreset::typical))
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(corrupt_labels, boundary, {.boundary_px = 3})->Unit(benchmark::kMillisecond);
 

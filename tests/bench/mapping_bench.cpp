@@ -131,8 +131,7 @@ void carve(benchmark::State& state, const std::vector<Scan>& scans, double edge_
   bool equal = true;
   for (auto _ : state) {
     octomap::OcTree theirs(edge_m);
-    SemanticMap ours(edge_m);
-    ours.set_carving({});
+    SemanticMap ours(edge_m, {.carve = true});
     for (const Scan& scan : scans) {
       octomap::Pointcloud cloud;
       for (const Eigen::Vector3d& p : scan.points) cloud.push_back(point3d(p));
@@ -156,9 +155,8 @@ void carve(benchmark::State& state, const std::vector<Scan>& scans, double edge_
 /// Maps of a whole recording: all that a frame shows, background's occupancy included.
 class WholeMap {
  public:
-  WholeMap(const Recording& recording, double edge_m) : recording_(recording), map_(edge_m) {
-    map_.set_carving({});
-  }
+  WholeMap(const Recording& recording, double edge_m)
+      : recording_(recording), map_(edge_m, {.carve = true}) {}
 
   void add(int index) {
     const Frame frame =

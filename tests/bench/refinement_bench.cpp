@@ -13,7 +13,7 @@ using namespace mapscore;
 /// Mean-field inference of ten iterations on two noisy walls. Arguments: filter (0 neighbours, 1
 /// lattice), voxels on a side, labels, sigmas in percent of the defaults.
 void refine_walls(benchmark::State& state) {
-  CrfParams params;
+  Crf params;
   params.filter = state.range(0) == 0 ? CrfFilter::neighbours : CrfFilter::lattice;
   params.tolerance = 0;
   params.smoothness_sigma_m *= 0.01 * static_cast<double>(state.range(3));
@@ -32,7 +32,7 @@ BENCHMARK(refine_walls)
 /// Agreement with mean field over all pairs in doubles: largest and mean difference of a
 /// probability, and the share of voxels whose best label differs.
 void refine_against_all_pairs(benchmark::State& state) {
-  CrfParams params;
+  Crf params;
   params.filter = state.range(0) == 0 ? CrfFilter::neighbours : CrfFilter::lattice;
   params.smoothness_sigma_m *= 0.01 * static_cast<double>(state.range(1));
   params.appearance_sigma_m *= 0.01 * static_cast<double>(state.range(1));

@@ -92,7 +92,7 @@ class Replay {
                        pixels_wanted(detections, frame->label.cols, frame->label.rows));
     Observation observation;
     for (const Detection& detection : detections) {
-      Segment found = segment(detection, cloud, kEdge_m, DirectParams{}, false);
+      Segment found = segment(detection, cloud, kEdge_m, Direct{}, false);
       observation.push_back({found.class_id, found.score, std::move(found.points)});
     }
     return observation;
@@ -158,7 +158,7 @@ std::vector<Pose> sensor_draws(int frame, int draws, const Calibration& calibrat
   belief.T_odom_base = planar_pose(0.3 * frame, 2.0 - 0.1 * frame, 0.4 * frame);
   belief.covariance.diagonal() << 4e-4, 4e-4, 0, 0, 0, 3.046e-4;
   RandomStream stream(1, "bench", {static_cast<std::uint64_t>(frame)});
-  auto poses = draw_poses(belief, draws, NoiseAt::base, CovarianceUse::diagonal, stream);
+  auto poses = draw_poses(belief, Draws{draws, NoiseAt::base, CovarianceUse::diagonal}, stream);
   for (Pose& pose : poses) pose = pose * calibration.T_base_depth;
   return poses;
 }

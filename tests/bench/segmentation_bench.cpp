@@ -30,7 +30,7 @@ struct DetectedPerson {
   std::vector<Detection> detections = detections_of(person().label, person().table);
   RegisteredCloud cloud = register_depth(person().depth, person().calibration);
   std::vector<Eigen::Vector3d> points =
-      segment(detections.front(), cloud, 0.05, DirectParams{}, false).points;
+      segment(detections.front(), cloud, 0.05, Direct{}, false).points;
   Eigen::Vector3d seed = seed_point();
 
  private:
@@ -76,7 +76,7 @@ void register_masked(benchmark::State& state) {
 }
 BENCHMARK(register_masked)->Unit(benchmark::kMillisecond);
 
-void run_segment(benchmark::State& state, const SegmentationParams& params, bool with_voxels) {
+void run_segment(benchmark::State& state, const ByDetection auto& params, bool with_voxels) {
   const DetectedPerson& scene = detected();
   const double voxel_m = edge_m(state);
   for (auto _ : state)
@@ -86,24 +86,24 @@ void run_segment(benchmark::State& state, const SegmentationParams& params, bool
 }
 
 void segment_direct(benchmark::State& state) {
-  run_segment(state, DirectParams{}, false);
+  run_segment(state, Direct{}, false);
   state.counters["bar_ms"] = 1.0;
 }
 BENCHMARK(segment_direct)->Arg(5)->Unit(benchmark::kMillisecond);
 
 void segment_direct_voxels(benchmark::State& state) {
-  run_segment(state, DirectParams{}, true);
+  run_segment(state, Direct{}, true);
 }
 BENCHMARK(segment_direct_voxels)->Arg(5)->Arg(1)->Unit(benchmark::kMillisecond);
 
 void segment_erosion(benchmark::State& state) {
-  run_segment(state, ErosionParams{}, false);
+  run_segment(state, Erosion{}, false);
   state.counters["bar_ms"] = 1.0;
 }
 BENCHMARK(segment_erosion)->Arg(5)->Unit(benchmark::kMillisecond);
 
 void segment_growing(benchmark::State& state) {
-  run_segment(state, RegionGrowingParams{}, false);
+  run_segment(state, RegionGrowing{}, false);
 }
 BENCHMARK(segment_growing)->Arg(5)->Arg(1)->Unit(benchmark::kMillisecond);
 

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include <core/mapping/placement.hpp>
-#include <core/mapping/semantic_map.hpp>
-#include <core/segmentation/segmentation.hpp>
+#include <core/mapping/mapper.hpp>
 
 #include <iostream>
 
@@ -21,20 +19,16 @@ int main() {
   table.classes.push_back({1, "crate", {200, 120, 40}, true});
   table.instances.push_back({1, "crate_1", 1});
 
-  const double voxel_m = 0.05;
-  const RegisteredCloud cloud = register_depth(depth, cameras);
-  Observation observation;
-  for (const Detection& detection : detections_of(label, table)) {
-    const Segment crate = segment(detection, cloud, voxel_m, RegionGrowingParams{}, false);
+  const Mapping mapping{.voxel_m = 0.05, .segmentation = RegionGrowing{}};
+  Mapper mapper(mapping, table.classes.size());
+  const PoseBelief belief;       // where the robot believes it is: at the map's origin, for certain
+  RandomStream draws(1, "map");  // of the poses that are drawn from the belief
+  for (const Segment& crate :
+       mapper.integrate({cameras, depth, detections_of(label, table)}, belief, draws))
     std::cout << table.classes[crate.class_id].name << ": " << crate.points.size() << " points, "
               << crate.box.sizes().transpose() << " m\n";
-    observation.push_back({crate.class_id, crate.score, crate.points});
-  }
-  const std::vector<Pose> T_map_depth{Pose::Identity()};  // where the robot believes its camera is
-  SemanticMap map(voxel_m);
-  map.fuse(place(observation, T_map_depth, voxel_m), 1, BlendRule{}, table.classes.size());
-  for (const MapVoxel& voxel : map.voxels())
-    std::cout << centre_of(voxel.key, voxel_m).transpose() << ' ' << voxel.best_class << ' '
+  for (const MapVoxel& voxel : mapper.map().voxels())
+    std::cout << centre_of(voxel.key, mapping.voxel_m).transpose() << ' ' << voxel.best_class << ' '
               << voxel.probability << '\n';
-  map.save("crate.ot");
+  mapper.map().save("crate.ot");
 }

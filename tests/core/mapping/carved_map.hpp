@@ -56,8 +56,7 @@ inline void add(const View& view, const FusionRule& rule, SemanticMap& map) {
 
 inline SemanticMap carved_map(int frames, const FusionRule& rule = kBlend, int seed = 1) {
   RandomStream stream(static_cast<std::uint64_t>(seed), "views");
-  SemanticMap map(kEdge);
-  map.set_carving({});
+  SemanticMap map(kEdge, {.carve = true});
   for (int n = 0; n < frames; ++n) add(random_view(stream), rule, map);
   return map;
 }

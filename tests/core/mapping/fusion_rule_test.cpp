@@ -280,7 +280,7 @@ TEST(FusionInput, RulesOutOfRangeAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double K : {-0.1, 1.1, nan}) EXPECT_THROW(check(BlendRule{K}), Error) << K;
   EXPECT_NO_THROW(check(BlendRule{0.0}));
-  EXPECT_NO_THROW(check(BlendRule{1.0}));
+  EXPECT_THROW(check(BlendRule{1.0}), Error) << "it would never map anything";
   EXPECT_THROW(check(BayesRule{{1.0}}), Error);
   EXPECT_THROW(check(BayesRule{{0.5, 0.4}}), Error);
   EXPECT_THROW(check(BayesRule{{1.5, -0.5}}), Error);

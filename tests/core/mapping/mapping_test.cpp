@@ -219,7 +219,7 @@ TEST(DrawPoses, ZeroCovarianceGivesTheMeanBitForBit) {
   belief.T_map_odom = planar_pose(1.0, 2.0, 0.3);
   belief.T_odom_base = planar_pose(-4.0, 0.1, 1.1);
   RandomStream stream(1, "test");
-  const auto poses = draw_poses(belief, 3, NoiseAt::base, CovarianceUse::full, stream);
+  const auto poses = draw_poses(belief, Draws{3, NoiseAt::base, CovarianceUse::full}, stream);
   const Pose mean = belief.T_map_odom * belief.T_odom_base;
   for (const Pose& pose : poses) EXPECT_EQ(pose.matrix(), mean.matrix());
 }
@@ -230,7 +230,7 @@ Covariance6 sampled_covariance(const PoseBelief& belief, NoiseAt noise_at, Covar
   RandomStream stream(7, "covariance");
   const Pose mean = belief.T_map_odom * belief.T_odom_base;
   Covariance6 sum = Covariance6::Zero();
-  for (const Pose& pose : draw_poses(belief, kDraws, noise_at, use, stream)) {
+  for (const Pose& pose : draw_poses(belief, Draws{kDraws, noise_at, use}, stream)) {
     const Vector6 xi = log_pose(mean.inverse() * pose);
     sum += xi * xi.transpose();
   }
@@ -282,9 +282,9 @@ TEST(DrawPoses, RefusesBadInputHoweverTheCovarianceIsUsed) {
       belief.covariance.diagonal().setConstant(1e-4);
       belief.covariance(row, column) = value;
       if (value > 1.0) belief.covariance(column, row) = value;  // symmetric, but beyond +-1e-4
-      EXPECT_THROW((void)draw_poses(belief, 1, NoiseAt::base, use, stream), Error) << value;
+      EXPECT_THROW((void)draw_poses(belief, Draws{1, NoiseAt::base, use}, stream), Error) << value;
     };
-    EXPECT_THROW((void)draw_poses({}, 0, NoiseAt::base, use, stream), Error);
+    EXPECT_THROW((void)draw_poses({}, Draws{0, NoiseAt::base, use}, stream), Error);
     refused(0, 0, -1e-4);
     refused(0, 1, 1e-5);
     refused(0, 1, 2.0);

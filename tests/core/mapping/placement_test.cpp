@@ -50,7 +50,7 @@ std::vector<Pose> random_draws(RandomStream& stream, int draws, double sigma_m, 
   T_base_depth.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   T_base_depth.translation() << 0.1, 0.0, 1.0;
   std::vector<Pose> poses =
-      draw_poses(belief, draws, NoiseAt::base, CovarianceUse::diagonal, stream);
+      draw_poses(belief, Draws{draws, NoiseAt::base, CovarianceUse::diagonal}, stream);
   for (Pose& pose : poses) pose = pose * T_base_depth;
   return poses;
 }
@@ -116,7 +116,7 @@ TEST(ManyDraws, OfTheWholeCovarianceAboutEitherFrameAreThePlainPasses) {
   for (const NoiseAt noise_at : {NoiseAt::base, NoiseAt::odom})
     for (const CovarianceUse use : {CovarianceUse::diagonal, CovarianceUse::full}) {
       const Observation observation = random_patches(stream, 6, true);
-      const auto poses = draw_poses(belief, 30, noise_at, use, stream);
+      const auto poses = draw_poses(belief, Draws{30, noise_at, use}, stream);
       EXPECT_EQ(place(observation, poses, 0.05), testing::plain_place(observation, poses, 0.05));
     }
 }

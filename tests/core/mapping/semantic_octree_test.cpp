@@ -56,12 +56,11 @@ TEST(SemanticOcTree, HitIsOctomapsUpdateOfAVoxel) {
 
 TEST(Merge, OfTwoHalvesIsTheWholeWhereTheRuleAllowsIt) {
   const VoteRule rule;
-  Carving carving;  // a clamp forgets, so that halves and whole agree only before it is reached
-  carving.model.clamp_min = 1e-6;
+  Carving carving{.carve = true};
+  carving.model.clamp_min = 1e-6;  // a clamp forgets: halves and whole agree before it is reached
   carving.model.clamp_max = 1 - 1e-6;
-  SemanticMap whole(kEdge), first(kEdge), second(kEdge);
+  SemanticMap whole(kEdge, carving), first(kEdge, carving), second(kEdge, carving);
   RandomStream stream(6, "halves");
-  for (SemanticMap* map : {&whole, &first, &second}) map->set_carving(carving);
   for (int n = 0; n < 8; ++n) {
     const View view = random_view(stream);
     add(view, rule, whole);
@@ -102,19 +101,18 @@ TEST(See, RefusesBadInputAndChangesNothing) {
   const auto before = rows(map.voxels());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(map.see({nan, 0, 0}, {}), Error);
-  Carving bad;
+  Carving bad{.carve = true};
   bad.model.hit = 0.4;
-  EXPECT_THROW(map.set_carving(bad), Error);
-  bad = {{}, -1.0};
-  EXPECT_THROW(map.set_carving(bad), Error);
+  EXPECT_THROW(SemanticMap(kEdge, bad), Error);
+  bad = {.carve = true, .max_range_m = -1.0};
+  EXPECT_THROW(SemanticMap(kEdge, bad), Error);
   EXPECT_EQ(rows(map.voxels()), before);
   SemanticMap plain(kEdge);
   EXPECT_THROW(plain.see({0, 0, 0}, {}), Error) << "it does not carve";
 }
 
 TEST(See, AVoxelSeenThroughOftenEnoughIsNoLongerOccupied) {
-  SemanticMap map(kEdge);
-  map.set_carving({});
+  SemanticMap map(kEdge, {.carve = true});
   const std::vector<VoxelHit> leak{{{5, 0, 0}, 1, 1, 1.0}};
   const std::vector<Eigen::Vector3d> near{{0.55, 0.05, 0.05}}, far{{1.55, 0.05, 0.05}};
   const auto leaked = [&] {

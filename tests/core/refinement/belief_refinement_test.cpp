@@ -19,14 +19,16 @@ std::vector<Eigen::Vector3d> row(std::size_t count) {
   return centres;
 }
 
-CrfParams smoothness_only() {
-  CrfParams params;
+Crf smoothness_only() {
+  Crf params;
   params.appearance_weight = 0;
   return params;
 }
 
 std::vector<ClassBeliefs> refined(const std::vector<ClassBeliefs>& beliefs, CrfRest rest) {
-  return refine_beliefs(row(beliefs.size()), {}, beliefs, rest, smoothness_only());
+  Crf crf = smoothness_only();
+  crf.rest = rest;
+  return refine_beliefs(row(beliefs.size()), {}, beliefs, crf);
 }
 
 /// Class 3 all along, and one voxel in the middle of class 7, seen once.
@@ -76,7 +78,7 @@ TEST(BeliefRefinement, CountsAreProbabilitiesAndOthersStayNamed) {
 
 TEST(BeliefRefinement, SizesThatDifferAreRefused) {
   const std::vector<ClassBeliefs> beliefs(3);
-  EXPECT_THROW((void)refine_beliefs(row(2), {}, beliefs, CrfRest::apart, smoothness_only()), Error);
+  EXPECT_THROW((void)refine_beliefs(row(2), {}, beliefs, smoothness_only()), Error);
 }
 
 }  // namespace

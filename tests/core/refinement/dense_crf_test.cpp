@@ -32,8 +32,8 @@ CrfVoxels row(const std::vector<double>& of_first, double step_m) {
   return voxels;
 }
 
-CrfParams smoothness_only(double weight, double sigma_m) {
-  CrfParams params;
+Crf smoothness_only(double weight, double sigma_m) {
+  Crf params;
   params.smoothness_weight = weight;
   params.smoothness_sigma_m = sigma_m;
   params.appearance_weight = 0;
@@ -45,7 +45,7 @@ double largest_difference(const CrfResult& result, const Eigen::MatrixXd& plain)
 }
 
 TEST(DenseCrf, TwoVoxelsByHand) {
-  CrfParams params = smoothness_only(2.0, 0.05);
+  Crf params = smoothness_only(2.0, 0.05);
   params.iterations = 1;
   params.normalised = false;
   const CrfResult result = refine(row({0.9, 0.4}, 0.05), params);
@@ -63,7 +63,7 @@ TEST(DenseCrf, TwoVoxelsByHand) {
 }
 
 TEST(DenseCrf, ColourCutsTheSecondKernel) {
-  CrfParams params;
+  Crf params;
   params.smoothness_weight = 0;
   params.iterations = 1;
   CrfVoxels pair = row({0.9, 0.4}, 0.05);
@@ -78,19 +78,19 @@ TEST(DenseCrf, ColourCutsTheSecondKernel) {
 TEST(DenseCrf, OneWrongVoxelIsSmoothedAway) {
   std::vector<double> of_first(9, 0.95);
   of_first[4] = 0.2;
-  const CrfResult result = refine(row(of_first, 0.05), CrfParams{});
+  const CrfResult result = refine(row(of_first, 0.05), Crf{});
   for (Eigen::Index i = 0; i < 9; ++i) EXPECT_GT(result.probability(0, i), 0.9) << i;
-  const CrfResult alone = refine(row({0.2}, 0.05), CrfParams{});
+  const CrfResult alone = refine(row({0.2}, 0.05), Crf{});
   EXPECT_NEAR(alone.probability(0, 0), 0.2, 1e-6);
 }
 
 TEST(DenseCrf, BorderBetweenTwoClassesStays) {
-  const CrfResult result = refine(row({.9, .9, .9, .9, .9, .1, .1, .1, .1, .1}, 0.05), CrfParams{});
+  const CrfResult result = refine(row({.9, .9, .9, .9, .9, .1, .1, .1, .1, .1}, 0.05), Crf{});
   for (Eigen::Index i = 0; i < 10; ++i) EXPECT_EQ(result.probability(0, i) > 0.5f, i < 5) << i;
 }
 
 TEST(DenseCrf, WeightsOfZeroGiveTheFlooredInput) {
-  CrfParams params = smoothness_only(0.0, 0.05);
+  Crf params = smoothness_only(0.0, 0.05);
   params.probability_floor = 0.1;
   const CrfResult result = refine(row({1.0, 0.3}, 0.05), params);
   EXPECT_NEAR(result.probability(0, 0), 1.0 / 1.1, 1e-6);
@@ -109,8 +109,8 @@ void PrintTo(const Variant& variant, std::ostream* out) {
 
 class CrfFilters : public ::testing::TestWithParam<Variant> {
  protected:
-  [[nodiscard]] static CrfParams params() {
-    CrfParams made;
+  [[nodiscard]] static Crf params() {
+    Crf made;
     made.filter = GetParam().filter;
     made.normalised = GetParam().normalised;
     if (!made.normalised) made.smoothness_weight = made.appearance_weight = 0.1;
@@ -127,7 +127,7 @@ TEST_P(CrfFilters, ProbabilitiesStayNormalised) {
 }
 
 TEST_P(CrfFilters, Converges) {
-  CrfParams endless = params();
+  Crf endless = params();
   endless.iterations = 200;
   const CrfVoxels voxels = noisy_corner(14, 4, 0.2);
   const CrfResult result = refine(voxels, endless);
@@ -163,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(All, CrfFilters,
 TEST(DenseCrf, NeighboursEqualThePlainTwin) {
   for (const bool normalised : {true, false}) {
     for (const double cutoff : {2.0, 3.0}) {
-      CrfParams params;
+      Crf params;
       params.normalised = normalised;
       params.cutoff_sigmas = cutoff;
       params.tolerance = 0;
@@ -179,12 +179,12 @@ TEST(DenseCrf, NeighboursEqualThePlainTwin) {
 
 TEST(DenseCrf, CutOffCostsLittleAgainstAllPairs) {
   const CrfVoxels voxels = noisy_corner(15, 4, 0.3);
-  const Eigen::MatrixXd all_pairs = plain_refine(voxels, CrfParams{}, 1e9);
-  EXPECT_LT(largest_difference(refine(voxels, CrfParams{}), all_pairs), 0.05);
+  const Eigen::MatrixXd all_pairs = plain_refine(voxels, Crf{}, 1e9);
+  EXPECT_LT(largest_difference(refine(voxels, Crf{}), all_pairs), 0.05);
 }
 
 TEST(DenseCrf, LatticeIsNearAllPairs) {
-  CrfParams params;
+  Crf params;
   params.filter = CrfFilter::lattice;
   const CrfVoxels voxels = noisy_corner(15, 4, 0.3);
   const Eigen::MatrixXd plain = plain_refine(voxels, params, 1e9);
@@ -193,11 +193,11 @@ TEST(DenseCrf, LatticeIsNearAllPairs) {
 }
 
 TEST(DenseCrf, NoVoxelsGiveNone) {
-  EXPECT_EQ(refine(CrfVoxels{}, CrfParams{}).probability.cols(), 0);
+  EXPECT_EQ(refine(CrfVoxels{}, Crf{}).probability.cols(), 0);
 }
 
 TEST(DenseCrf, BadInputIsNamed) {
-  const auto message = [](const CrfVoxels& voxels, const CrfParams& params) -> std::string {
+  const auto message = [](const CrfVoxels& voxels, const Crf& params) -> std::string {
     try {
       (void)refine(voxels, params);
     } catch (const Error& error) {
@@ -206,9 +206,9 @@ TEST(DenseCrf, BadInputIsNamed) {
     return "";
   };
   const CrfVoxels good = row({0.9, 0.4}, 0.05);
-  const auto with = [&](const std::function<void(CrfVoxels&, CrfParams&)>& spoil) {
+  const auto with = [&](const std::function<void(CrfVoxels&, Crf&)>& spoil) {
     CrfVoxels voxels = good;
-    CrfParams params;
+    Crf params;
     spoil(voxels, params);
     return message(voxels, params);
   };

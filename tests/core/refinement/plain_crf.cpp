@@ -28,7 +28,7 @@ Eigen::MatrixXd weights(const Eigen::MatrixXd& mahalanobis2, double weight, bool
   return weight * k;
 }
 
-Eigen::MatrixXd pair_weights(const CrfVoxels& voxels, const CrfParams& params, double cutoff) {
+Eigen::MatrixXd pair_weights(const CrfVoxels& voxels, const Crf& params, double cutoff) {
   const auto count = static_cast<Eigen::Index>(voxels.centres_m.size());
   Eigen::MatrixXd near(count, count), alike = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -55,8 +55,7 @@ Eigen::MatrixXd softmax(Eigen::MatrixXd log_q) {
 
 }  // namespace
 
-Eigen::MatrixXd plain_refine(const CrfVoxels& voxels, const CrfParams& params,
-                             double cutoff_sigmas) {
+Eigen::MatrixXd plain_refine(const CrfVoxels& voxels, const Crf& params, double cutoff_sigmas) {
   const Eigen::MatrixXd pairs = pair_weights(voxels, params, cutoff_sigmas);
   const Eigen::MatrixXd log_p =
       voxels.probability.cast<double>().cwiseMax(params.probability_floor).array().log();

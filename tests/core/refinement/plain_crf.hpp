@@ -8,7 +8,7 @@
 namespace mapscore::testing {
 
 /// The plain twin of refine(): every pair of voxels, in doubles. Kernels end at `cutoff_sigmas`.
-[[nodiscard]] Eigen::MatrixXd plain_refine(const CrfVoxels& voxels, const CrfParams& params,
+[[nodiscard]] Eigen::MatrixXd plain_refine(const CrfVoxels& voxels, const Crf& params,
                                            double cutoff_sigmas);
 
 /// Two walls at a right angle, `side` voxels of 5 cm wide and high, in two colours with noise, and

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/pose.hpp"
-#include "core/segmentation/frame_segmentation.hpp"
+#include "core/segmentation/segmentation.hpp"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -18,6 +18,11 @@
 
 namespace mapscore {
 namespace {
+
+cv::Mat1w label_depth(const std::vector<Detection>& detections, const cv::Mat1w& depth,
+                      const Calibration& believed, const EdgeAligned& params) {
+  return label_surfaces(Sight(believed, depth, detections), params).labels;
+}
 
 /// A rectangle at depth z, parallel to the image planes; metres in depth_optical.
 struct Plate {
@@ -252,7 +257,7 @@ TEST(EdgeAligned, NothingToSegment) {
   EXPECT_EQ(cv::countNonZero(label_depth({}, scene.depth(), scene.truth(), {})), 0);
   const cv::Mat1w no_depth(240, 320, std::uint16_t{0});
   const std::vector<Segment> segments =
-      segment_frame(scene.detections(), no_depth, scene.truth(), 0.05, EdgeAlignedParams{}, true);
+      segment(Sight(scene.truth(), no_depth, scene.detections()), EdgeAligned{}, 0.05, true);
   ASSERT_EQ(segments.size(), 2U);
   for (const Segment& segment : segments) {
     EXPECT_EQ(segment.skipped, SkipReason::no_points);
@@ -262,8 +267,8 @@ TEST(EdgeAligned, NothingToSegment) {
 
 TEST(EdgeAligned, SegmentsHoldPointsBoxAndVoxelsInTheirOrder) {
   const Scene scene = plain_scene();
-  const std::vector<Segment> segments = segment_frame(
-      scene.detections(), scene.depth(), scene.truth(), 0.05, EdgeAlignedParams{}, true);
+  const std::vector<Segment> segments =
+      segment(Sight(scene.truth(), scene.depth(), scene.detections()), EdgeAligned{}, 0.05, true);
   ASSERT_EQ(segments.size(), 2U);
   EXPECT_EQ(segments[0].instance, 1);
   EXPECT_EQ(segments[1].instance, 2);

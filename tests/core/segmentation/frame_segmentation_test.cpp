@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/segmentation/frame_segmentation.hpp"
-
 #include "core/error.hpp"
+#include "core/segmentation/segmentation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +16,7 @@ namespace {
 
 struct Method {
   const char* name;
-  SegmentationParams params;
+  Segmentation params;
 };
 void PrintTo(const Method& method, std::ostream* out) {
   *out << method.name;
@@ -39,7 +38,7 @@ class FrameSegmentation : public ::testing::TestWithParam<Method> {
     return detections_of(label, table_);
   }
   [[nodiscard]] std::vector<Segment> segments(const std::vector<Detection>& detections) const {
-    return segment_frame(detections, depth_, pair_, 0.05, GetParam().params, false);
+    return segment(Sight(pair_, depth_, detections), GetParam().params, 0.05, false);
   }
   /// Refused with one line that says so.
   void expect_refused(const std::function<void()>& act, const std::string& why) const {
@@ -64,10 +63,15 @@ TEST_P(FrameSegmentation, TakesImagesOfTheColourCamerasSizeAlone) {
   EXPECT_FALSE(segmented[0].points.empty());
   expect_refused([&] { (void)segments(found_in(32, 24)); }, "32 x 24");
   expect_refused([&] { (void)segments(found_in(128, 96)); }, "128 x 96");
-  if (std::holds_alternative<EdgeAlignedParams>(GetParam().params)) return;
-  const RegisteredCloud cloud = register_depth(depth_, pair_);
-  expect_refused([&] { (void)segment(found_in(32, 24)[0], cloud, 0.05, GetParam().params, false); },
-                 "32 x 24");
+  std::visit(
+      [&]<class Kind>(const Kind& kind) {
+        if constexpr (ByDetection<Kind>) {
+          const RegisteredCloud cloud = register_depth(depth_, pair_);
+          expect_refused([&] { (void)segment(found_in(32, 24)[0], cloud, 0.05, kind, false); },
+                         "32 x 24");
+        }
+      },
+      GetParam().params);
 }
 
 TEST_P(FrameSegmentation, MasksFillTheirBoxes) {
@@ -111,10 +115,10 @@ TEST_P(FrameSegmentation, HandMadeDetectionsNeedNotKnowTheirImage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, FrameSegmentation,
-                         ::testing::Values(Method{"direct", DirectParams{}},
-                                           Method{"erosion", ErosionParams{1}},
-                                           Method{"region_growing", RegionGrowingParams{}},
-                                           Method{"edge_aligned", EdgeAlignedParams{}}));
+                         ::testing::Values(Method{"direct", Direct{}},
+                                           Method{"erosion", Erosion{1}},
+                                           Method{"region_growing", RegionGrowing{}},
+                                           Method{"edge_aligned", EdgeAligned{}}));
 
 }  // namespace
 }  // namespace mapscore

@@ -39,8 +39,8 @@ struct Scene {
     return seed_point(detection(), register_depth(depth, pair), rule);
   }
   [[nodiscard]] Segment grown(SeedRule rule) const {
-    return segment(detection(), register_depth(depth, pair), 0.05,
-                   RegionGrowingParams{.seed = rule}, false);
+    return segment(detection(), register_depth(depth, pair), 0.05, RegionGrowing{.seed = rule},
+                   false);
   }
   [[nodiscard]] Eigen::Vector3d point(int u, int v) const {
     return pair.depth.back_project(u, v, depth(v, u) / kDepthUnitsPerMetre);

@@ -18,7 +18,7 @@ void expect_equal_forms(const Frame& frame, const eval::RecordingInfo& info, dou
   const RegisteredCloud cloud = register_depth(
       frame.depth, info.calibration, pixels_wanted(detections, frame.label.cols, frame.label.rows));
   for (const Detection& detection : detections) {
-    const auto points = segment(detection, cloud, voxel_m, DirectParams{}, false).points;
+    const auto points = segment(detection, cloud, voxel_m, Direct{}, false).points;
     const auto seed = seed_point(detection, cloud, SeedRule::mask_centroid);
     if (!seed) continue;
     for (const double factor : {1.0, 0.5}) {

@@ -63,8 +63,8 @@ TEST(Grid, AppliesTheDosesOfACell) {
   const Study resolved = resolve(study, cells(study)[5]);
   Study expected = study;
   expected.sweep.clear();
-  expected.faults.misregistration.magnitude_m = 0.01;
-  expected.methods[1].segmentation = ErosionSettings{8};
+  expected.faults.misregistration.rigid.magnitude_m = 0.01;
+  expected.methods[1].segmentation = Erosion{8};
   EXPECT_EQ(resolved, expected);
 }
 

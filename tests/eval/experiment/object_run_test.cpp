@@ -145,8 +145,7 @@ TEST(PerceptionKey, OldKeysStayAndSimulatedIsReadBack) {
   EXPECT_THAT(to_key_yaml(study_of("")), Not(HasSubstr("perception")));
   const Study study = study_of("perception: {simulated: {boxes: surfaces, tolerance_m: 0.02}}\n");
   EXPECT_THAT(to_key_yaml(study), HasSubstr("perception"));
-  EXPECT_EQ(std::get<SimulatedPerceptionSettings>(study.perception).boxes,
-            PerceivedBoxes::surfaces);
+  EXPECT_EQ(std::get<SimulatedPerception>(study.perception).boxes, PerceivedBoxes::surfaces);
   EXPECT_EQ(parse_study(to_yaml(study), "study.yaml"), study);
 }
 

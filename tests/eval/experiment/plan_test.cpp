@@ -55,7 +55,7 @@ TEST(Plan, CeilingsAreTheMethodWithoutFaultsAndTheTrueLabels) {
     const Task task = plan.tasks[trial.task];
     const Task registration = plan.tasks[trial.registration_ceiling];
     const Task lattice = plan.tasks[trial.lattice_ceiling];
-    EXPECT_EQ(task.config.faults.misregistration.magnitude_m, 0.01);
+    EXPECT_EQ(task.config.faults.misregistration.rigid.magnitude_m, 0.01);
     EXPECT_EQ(registration.config.faults, FaultSettings{});
     EXPECT_EQ(registration.config.methods, task.config.methods);
     EXPECT_EQ(registration.labels, Labels::detected);

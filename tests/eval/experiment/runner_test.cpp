@@ -77,6 +77,19 @@ TEST_F(Runner, ResultsOfAllKindsOfTrialsDoNotDependOnJobs) {
   EXPECT_EQ(run(all, four, "four"), run(all, one_job(), "one"));
 }
 
+TEST_F(Runner, AFrameUnderFaultsIsMadeOnceForAllWhoSeeIt) {
+  const Plan swept = plan(
+      testing::study_of("  erosion: {segmentation: {erosion: {radius_px: 1}}}\n"
+                        "faults: {depth: {preset: astra}}\n"
+                        "sweep: {faults.depth.scale: [0.5, 1], faults.pose.sigma_xy_m: [0, 0.02]}\n"
+                        "seeds: 2\n"));
+  ResultStore results = store();
+  const RunnerOutcome outcome = run_plan(swept, recording(), table(), results, one_job());
+  EXPECT_EQ(outcome.computed, 2u * (2 * 4 + 2 + 1)) << "methods and cells, two kinds of ceilings";
+  const std::size_t seen = 2 /* doses */ + 1 /* no fault */ + 1 /* exact, of lattice ceilings */;
+  EXPECT_EQ(outcome.sights, 2 * seen * static_cast<std::size_t>(recording().frame_count()));
+}
+
 TEST_F(Runner, ResultsDoNotDependOnBlocksOfFrames) {
   const Plan plan = plan_with_pose_noise();
   const Results results = run(plan, one_job(), "whole");

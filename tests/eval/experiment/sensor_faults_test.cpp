@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/experiment/sensor_doses.hpp"
 #include "eval/experiment/trial_run.hpp"
 #include "eval/recording/frame_cache.hpp"
 #include "tests/eval/experiment/tiny_experiment.hpp"
@@ -125,17 +124,16 @@ TEST_F(SensorFaults, CeilingsKnowNothingOfThem) {
 }
 
 TEST(SensorDoses, StartAtThePreset) {
-  const auto dose =
-      dose_of(with_faults("depth: {preset: kinect_v1, axial: 2, grazing_from_deg: 60, scale: 0.5}")
-                  .faults.depth);
+  const sim::DepthDose dose =
+      with_faults("depth: {preset: kinect_v1, axial: 2, grazing_from_deg: 60, scale: 0.5}")
+          .faults.depth.dose();
   EXPECT_EQ(dose.axial, 1.0);
   EXPECT_EQ(dose.lateral, 0.5);
   EXPECT_EQ(dose.range_max_m, 4.0);
-  EXPECT_NEAR(dose.grazing_from_rad, std::numbers::pi / 3, 1e-12);
-  const auto labels =
-      dose_of(with_faults("labels: {preset: typical, confusion_matrix: [[0.8, 0.2], [0, 1]], "
-                          "scale: 0.5}")
-                  .faults.labels);
+  EXPECT_EQ(dose.grazing_from_deg.deg, 60);
+  const sim::LabelDose labels =
+      with_faults("labels: {preset: typical, confusion_matrix: [[0.8, 0.2], [0, 1]], scale: 0.5}")
+          .faults.labels.dose();
   EXPECT_EQ(labels.confusion, 0.0);
   EXPECT_NEAR(labels.confusion_matrix.at(0).at(0), 0.9, 1e-12);
   EXPECT_NEAR(labels.confusion_matrix.at(0).at(1), 0.1, 1e-12);
@@ -147,7 +145,7 @@ TEST(SensorDoses, AreSweptLikeAnyLeaf) {
       "sweep: {faults.depth.preset: [ideal, astra], faults.depth.scale: [0, 0.5, 1], "
       "faults.labels.boundary_px: [-2, 2]}\n");
   EXPECT_EQ(cells(study).size(), 12u);
-  EXPECT_EQ(resolve(study, cells(study).back()).faults.labels.boundary_px, 2.0);
+  EXPECT_EQ(resolve(study, cells(study).back()).faults.labels.dose().boundary_px, 2.0);
 }
 
 TEST(SensorDoses, WrongOnesAreRefused) {

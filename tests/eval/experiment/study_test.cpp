@@ -93,7 +93,7 @@ TEST(Study, MinimalFileTakesDefaults) {
   expected.base_folder = "studies";
   expected.scene = "room.xml";
   expected.trajectory.waypoints_m_deg = {{0.5, 0.5, 0}};
-  expected.methods = {{"direct", DirectSettings{}, {}}};
+  expected.methods = {{"direct", Direct{}, {}}};
   EXPECT_EQ(study, expected);
 }
 
@@ -109,13 +109,13 @@ TEST(Study, ReadsLeavesOfEveryTypeFromALongFile) {
   EXPECT_EQ(s.map_origin_m, (std::array<double, 3>{0.001, -0.02, 0}));
   EXPECT_EQ(s.detect, (DetectedSet{false, {"cup", "person"}}));
   ASSERT_EQ(s.methods.size(), 3u);
-  EXPECT_EQ(s.methods[1], (MethodSettings{"erosion", ErosionSettings{3}, Place::points}));
-  EXPECT_EQ(std::get<RegionGrowingSettings>(s.methods[2].segmentation),
-            (RegionGrowingSettings{0.5, true, SeedRule::mask_centroid}));
-  EXPECT_EQ(std::get<BlendSettings>(s.fusion),
-            (BlendSettings{0.25, 20, NoiseAt::odom, CovarianceUse::full}));
+  EXPECT_EQ(s.methods[1], (MethodSettings{"erosion", Erosion{3}, Place::points}));
+  EXPECT_EQ(std::get<RegionGrowing>(s.methods[2].segmentation),
+            (RegionGrowing{0.5, true, SeedRule::mask_centroid}));
+  EXPECT_EQ(std::get<Drawn<BlendRule>>(s.fusion),
+            (Drawn<BlendRule>{{0.25}, {20, NoiseAt::odom, CovarianceUse::full}}));
   EXPECT_EQ(s.faults.misregistration.principal_point_px, (std::array<double, 2>{1, -2}));
-  EXPECT_EQ(s.faults.mount.rotation_deg, (std::array<double, 3>{0, 1, 0}));
+  EXPECT_EQ(s.faults.mount.rigid.rotation_deg, (std::array<Degrees, 3>{{{0}, {1}, {0}}}));
   EXPECT_EQ(s.faults.pose.kind, sim::PoseNoiseKind::walk);
   EXPECT_EQ(s.score.unit, ScoreUnit::frame);
   EXPECT_EQ(s.score.threshold.value, 0.3);
@@ -191,7 +191,7 @@ TEST(Study, FlagsOverrideTheFileInTheirOrder) {
   ASSERT_EQ(study.sweep.size(), 2u);
   EXPECT_EQ(study.sweep[0], (SweepAxis{"score.min_samples", {"1", "4"}}));
   EXPECT_EQ(study.sweep[1], (SweepAxis{"score.epsilon_m", {"0"}}));
-  EXPECT_EQ(std::get<RegionGrowingSettings>(study.methods[2].segmentation).radius_factor, 1);
+  EXPECT_EQ(std::get<RegionGrowing>(study.methods[2].segmentation).radius_factor, 1);
 }
 
 TEST(Study, AFlagMayGiveWhatTheFileLacks) {

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/experiment/trial_fusion.hpp"
-
 #include "core/error.hpp"
+#include "core/mapping/fusion_rule.hpp"
 #include "eval/experiment/replay_check.hpp"
 #include "eval/experiment/runner.hpp"
 #include "eval/experiment/trial_run.hpp"
@@ -26,9 +25,9 @@ ClassTable four_classes() {
 }
 
 TEST(TrialFusion, PriorsAreThoseOfDetectedClassesAndTheOthersShareTheRest) {
-  BayesSettings settings;
-  settings.priors = {0.3, 0.5};
-  const TrialFusion fusion = trial_fusion(settings, four_classes());
+  Drawn<BayesRule> settings;
+  settings.rule.priors = {0.3, 0.5};
+  const Fusion fusion = for_classes(settings, four_classes());
   const std::vector<double> priors = std::get<BayesRule>(fusion.rule).priors;
   ASSERT_EQ(priors.size(), 4u);
   EXPECT_NEAR(priors[0], 0.1, 1e-15);
@@ -39,36 +38,36 @@ TEST(TrialFusion, PriorsAreThoseOfDetectedClassesAndTheOthersShareTheRest) {
 }
 
 TEST(TrialFusion, PriorsThatDoNotFitAreRefused) {
-  BayesSettings settings;
-  settings.priors = {0.3};
-  EXPECT_THROW((void)trial_fusion(settings, four_classes()), Error);
-  settings.priors = {0.5, 0.5};
-  EXPECT_THROW((void)trial_fusion(settings, four_classes()), Error);
+  Drawn<BayesRule> settings;
+  settings.rule.priors = {0.3};
+  EXPECT_THROW((void)for_classes(settings, four_classes()), Error);
+  settings.rule.priors = {0.5, 0.5};
+  EXPECT_THROW((void)for_classes(settings, four_classes()), Error);
 }
 
 TEST(TrialFusion, EachRuleHasItsOwnThreshold) {
-  const auto threshold = [](const FusionSettings& settings) {
-    return default_threshold(trial_fusion(settings, four_classes()).rule);
+  const auto threshold = [](const DrawnFusion& settings) {
+    return default_threshold(for_classes(settings, four_classes()).rule);
   };
-  EXPECT_EQ(threshold(BlendSettings{}), 0.25);
-  EXPECT_EQ(threshold(BlendSettings{0.0}), 0.5);
-  EXPECT_DOUBLE_EQ(threshold(BlendSettings{0.8}), 0.1);
-  EXPECT_EQ(threshold(MaxConfidenceSettings{}), 0.5);
-  EXPECT_EQ(threshold(VoteSettings{}), 0.5);
-  EXPECT_NEAR(threshold(BayesSettings{}), 0.475, 1e-15);
-  EXPECT_NEAR(threshold(Top3Settings{}), 0.475, 1e-15);
+  EXPECT_EQ(threshold(Drawn<BlendRule>{}), 0.25);
+  EXPECT_EQ(threshold(Drawn<BlendRule>{{0.0, Decay::hit}, {}}), 0.5);
+  EXPECT_DOUBLE_EQ(threshold(Drawn<BlendRule>{{0.8, Decay::hit}, {}}), 0.1);
+  EXPECT_EQ(threshold(Drawn<MaxConfidenceRule>{}), 0.5);
+  EXPECT_EQ(threshold(Drawn<VoteRule>{}), 0.5);
+  EXPECT_NEAR(threshold(Drawn<BayesRule>{}), 0.475, 1e-15);
+  EXPECT_NEAR(threshold(Drawn<Top3Rule>{}), 0.475, 1e-15);
 }
 
 TEST(TrialFusion, IsReadFromAStudyAndAMethodMayHaveItsOwn) {
   const Study study = study_of(
       "  voted: {segmentation: {direct: {}}, fusion: {vote: {N: 4}}}\n"
       "fusion: {top3: {lambda: 0.8, N: 3, noise_at: odom}}\n");
-  const auto& top3 = std::get<Top3Settings>(study.fusion);
-  EXPECT_EQ(top3.lambda, 0.8);
-  EXPECT_EQ(top3.N, 3);
-  EXPECT_EQ(top3.noise_at, NoiseAt::odom);
+  const auto& top3 = std::get<Drawn<Top3Rule>>(study.fusion);
+  EXPECT_EQ(top3.rule.lambda, 0.8);
+  EXPECT_EQ(top3.draws.N, 3);
+  EXPECT_EQ(top3.draws.noise_at, NoiseAt::odom);
   EXPECT_EQ(fusion_of(study.fusion, study.methods[0].fusion), study.fusion);
-  EXPECT_EQ(std::get<VoteSettings>(fusion_of(study.fusion, study.methods[1].fusion)).N, 4);
+  EXPECT_EQ(std::get<Drawn<VoteRule>>(fusion_of(study.fusion, study.methods[1].fusion)).draws.N, 4);
   EXPECT_EQ(leaf_text(study, "methods.voted.fusion.vote.N"), "4");
   EXPECT_EQ(parse_study(to_yaml(study), "study.yaml"), study);
 }

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/experiment/trial_refinement.hpp"
-
 #include "core/refinement/map_refinement.hpp"
 #include "eval/experiment/study_store.hpp"
 #include "eval/experiment/trial_run.hpp"
@@ -56,11 +54,11 @@ TEST_F(RefinedTrial, IsTheFinishedMapRefined) {
   const Finished refined =
       finish("{crf: {smoothness_weight: 2, smoothness_sigma_m: 0.1, appearance_weight: 0}}");
   EXPECT_FALSE(equal(plain.map, refined.map));
-  CrfParams params;
+  Crf params;
   params.smoothness_weight = 2;
   params.smoothness_sigma_m = 0.1;
   params.appearance_weight = 0;
-  refine(plain.map, CrfRest::apart, params);
+  refine(plain.map, params);
   EXPECT_TRUE(equal(plain.map, refined.map));
   EXPECT_NE(plain.result.counts, refined.result.counts);
 }

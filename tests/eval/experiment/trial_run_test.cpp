@@ -135,7 +135,7 @@ TEST_F(PlateTrial, IsAccountedFor) {
 
 TEST_F(PlateTrial, ErodedAwayIsSkippedAndAllIsMissed) {
   Study eroding = study({});
-  eroding.methods[0].segmentation = ErosionSettings{3};
+  eroding.methods[0].segmentation = Erosion{3};
   const TrialResult result = first_trial(eroding, Labels::detected);
   EXPECT_EQ(result.accounting.skipped_eroded_away, 1);
   EXPECT_EQ(result.counts.at(1).predicted, 0);
@@ -193,7 +193,7 @@ ClassId owner_of(const std::map<ClassId, int>& by_class) {
 TEST_F(TinyTrial, DirectIsTheSetOfItsPoints) {
   for (const double shift_m : {0.0, 0.08}) {
     Study study = study_of("map_origin_m: [0.01, 0.02, 0.03]\n");
-    study.faults.misregistration.translation_m = {shift_m, 0, 0};
+    study.faults.misregistration.rigid.translation_m = {shift_m, 0, 0};
     Calibration believed = recording().info().calibration;
     believed.T_color_depth = Eigen::Translation3d(shift_m, 0, 0) * believed.T_color_depth;
     const Pose T_map_world = map_frame(study, 0).T_map_world();

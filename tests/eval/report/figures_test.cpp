@@ -278,27 +278,30 @@ TEST_F(FiguresTest, TablesHoldEveryTrial) {
 }
 
 TEST(FigureAxis, KnownLeavesAreShownInTheUnitsOfPeople) {
-  const FigureAxis axis = figure_axis(kShift);
+  const FigureAxis axis = figure_axis(Study{}, kShift);
   EXPECT_EQ(axis.title(), "misregistration (mm)");
   EXPECT_EQ(axis.text(1), "misregistration = 20 mm");
   EXPECT_THAT(axis.at, ElementsAre(0.0, 20.0));
 }
 
 TEST(FigureAxis, OtherLeavesGoByTheirLastPart) {
+  Study study;
+  study.methods = {{"erosion", Erosion{}}};
   const FigureAxis axis =
-      figure_axis({"methods.erosion.segmentation.erosion.radius_px", {"2", "5"}});
+      figure_axis(study, {"methods.erosion.segmentation.erosion.radius_px", {"2", "5"}});
   EXPECT_EQ(axis.title(), "radius_px");
   EXPECT_TRUE(axis.numeric);
 }
 
 TEST(FigureAxis, NamesAreWrittenAsPeopleDo) {
-  const FigureAxis axis = figure_axis({"localization.source", {"truth", "particle_filter"}});
+  const FigureAxis axis =
+      figure_axis(Study{}, {"localization.source", {"truth", "particle_filter"}});
   EXPECT_EQ(axis.text(1), "pose source = particle filter");
   EXPECT_EQ(axis.key, "source");
 }
 
 TEST(FigureAxis, TextsStandSideBySide) {
-  const FigureAxis axis = figure_axis({"detect", {"all", "[cup]"}});
+  const FigureAxis axis = figure_axis(Study{}, {"detect", {"all", "[cup]"}});
   EXPECT_FALSE(axis.numeric);
   EXPECT_THAT(axis.at, ElementsAre(0.0, 1.0));
 }

@@ -26,8 +26,7 @@ inline Study synthetic_study(std::vector<std::string> methods, std::vector<Sweep
   study.name = "synthetic";
   study.scene = "room.xml";
   study.seeds = seeds;
-  for (std::string& name : methods)
-    study.methods.push_back({std::move(name), DirectSettings{}, {}});
+  for (std::string& name : methods) study.methods.push_back({std::move(name), Direct{}, {}});
   study.sweep = std::move(sweep);
   return study;
 }

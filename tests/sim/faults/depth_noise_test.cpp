@@ -34,19 +34,20 @@ cv::Mat1w scene() {
 TEST(DepthNoise, DosesOfZeroReturnTheVeryPixels) {
   const cv::Mat1w depth = scene();
   EXPECT_EQ(corrupt_depth(depth, kCamera, {}, 1, 0).data, depth.data);
-  EXPECT_EQ(corrupt_depth(depth, kCamera, depth_preset(DepthPreset::ideal), 1, 0).data, depth.data);
+  EXPECT_EQ(corrupt_depth(depth, kCamera, DepthDose::of(DepthPreset::ideal), 1, 0).data,
+            depth.data);
 }
 
 TEST(DepthNoise, LeavesItsInputAlone) {
   const cv::Mat1w depth = scene();
   const cv::Mat1w before = depth.clone();
-  const cv::Mat1w noisy = corrupt_depth(depth, kCamera, depth_preset(DepthPreset::astra), 1, 0);
+  const cv::Mat1w noisy = corrupt_depth(depth, kCamera, DepthDose::of(DepthPreset::astra), 1, 0);
   EXPECT_TRUE(same_pixels(depth, before));
   EXPECT_FALSE(same_pixels(noisy, depth));
 }
 
 TEST(DepthNoise, IsAFunctionOfSeedAndFrame) {
-  const DepthDose astra = depth_preset(DepthPreset::astra);
+  const DepthDose astra = DepthDose::of(DepthPreset::astra);
   const cv::Mat1w one = corrupt_depth(scene(), kCamera, astra, 1, 0);
   EXPECT_TRUE(same_pixels(one, corrupt_depth(scene(), kCamera, astra, 1, 0)));
   EXPECT_FALSE(same_pixels(one, corrupt_depth(scene(), kCamera, astra, 2, 0)));
@@ -226,7 +227,7 @@ TEST(Range, DropsWhatWasMeasuredOutOfIt) {
 
 TEST(Range, SharesTheNoiseAndIsDroppedAtItsDose) {
   const cv::Mat1w wall = TiltedPlane{4.0, 0.0}.image(kCamera);
-  DepthDose kinect = depth_preset(DepthPreset::kinect_v1);
+  DepthDose kinect = DepthDose::of(DepthPreset::kinect_v1);
   kinect.quantisation = 0;
   const int all = 640 * 480;
   const auto lost = [&](double range) {
@@ -269,7 +270,7 @@ TEST(DepthDose, BadInputIsRefused) {
        {DepthDose{.axial = -1}, DepthDose{.lateral = nan}, DepthDose{.shadow = -0.1},
         DepthDose{.axial = 1, .baseline_m = 0}, DepthDose{.subpixel_px = -1},
         DepthDose{.range_min_m = 3, .range_max_m = 2},
-        DepthDose{.grazing_from_rad = 1, .grazing_to_rad = 1}})
+        DepthDose{.grazing_from_deg = {60}, .grazing_to_deg = {60}}})
     EXPECT_THROW((void)corrupt_depth(depth, kCamera, dose, 1, 0), Error);
   CameraModel other = kCamera;
   other.width_px = 320;
@@ -278,16 +279,17 @@ TEST(DepthDose, BadInputIsRefused) {
     check(DepthDose{.flying = -2});
     FAIL() << "a negative dose passed";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "depth fault flying: is no dose; give 0 (off) or more");
+    EXPECT_STREQ(error.what(),
+                 "depth fault flying: -2 is out of range; give a number from 0, up to 100");
   }
 }
 
 TEST(DepthPresets, AreTheDevices) {
-  EXPECT_TRUE(is_zero(depth_preset(DepthPreset::ideal)));
-  const DepthDose astra = depth_preset(DepthPreset::astra);
+  EXPECT_TRUE(is_zero(DepthDose::of(DepthPreset::ideal)));
+  const DepthDose astra = DepthDose::of(DepthPreset::astra);
   EXPECT_EQ(astra.range_min_m, 0.6);
   EXPECT_EQ(astra.range_max_m, 8.0);
-  const DepthDose kinect = depth_preset(DepthPreset::kinect_v1);
+  const DepthDose kinect = DepthDose::of(DepthPreset::kinect_v1);
   EXPECT_EQ(kinect.range_min_m, 0.8);
   EXPECT_EQ(kinect.range_max_m, 4.0);
   for (const DepthDose& dose : {astra, kinect})

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace mapscore::sim {
 namespace {
@@ -36,9 +37,9 @@ TEST(Misregistration, DirectionLiesInTheImagePlaneAndDoesNotDependOnTheDose) {
     EXPECT_EQ(small.translation().z(), 0.0);
     EXPECT_NEAR(small.translation().norm(), 0.005, 1e-15);
     EXPECT_TRUE(large.translation().isApprox(8.0 * small.translation(), 1e-12));
-    const Pose turned = rigid_error({.angle_rad = 0.02}, seed, "misregistration");
+    const Pose turned = rigid_error({.angle_deg = {1.2}}, seed, "misregistration");
     const Eigen::AngleAxisd rotation(turned.linear());
-    EXPECT_NEAR(rotation.angle(), 0.02, 1e-12);
+    EXPECT_NEAR(rotation.angle(), 1.2 * std::numbers::pi / 180, 1e-12);
     EXPECT_NEAR(rotation.axis().z(), 0.0, 1e-9);
     EXPECT_EQ(turned.translation().norm(), 0.0);
   }
@@ -53,9 +54,9 @@ TEST(Misregistration, DirectionsCoverTheCircle) {
 
 TEST(Misregistration, StandsOnTheLeftAndMovesLabelsOnly) {
   const Calibration truth = some_calibration();
-  MisregistrationDose dose;
+  Misregistration dose;
   dose.rigid.translation_m = {0.01, -0.02, 0.003};
-  dose.focal_error = 0.02;
+  dose.focal_error_percent = 2;
   dose.principal_point_px = {3, -4};
   const Calibration believed = misregister(truth, dose, 1);
   EXPECT_TRUE(believed.T_color_depth.translation().isApprox(Eigen::Vector3d(-0.015, -0.02, 0.003)));
@@ -67,7 +68,7 @@ TEST(Misregistration, StandsOnTheLeftAndMovesLabelsOnly) {
 
 TEST(Mount, StandsOnTheRightAndMovesPointsOnly) {
   const Calibration truth = some_calibration();
-  const RigidDose dose{.translation_m = {0.0, 0.0, 0.1}};
+  const MountError dose{{.translation_m = {0.0, 0.0, 0.1}}};
   const Calibration believed = misplace_mount(truth, dose, 1);
   EXPECT_TRUE((truth.T_base_depth.inverse() * believed.T_base_depth)
                   .translation()
@@ -79,17 +80,18 @@ std::vector<Pose> drive(std::size_t frames, double distance_m) {
   return std::vector<Pose>(frames, planar_pose(distance_m, 0.0, 1.0));
 }
 
-PoseDose dose_of(double sigma_m, double sigma_yaw_rad, PoseNoiseKind kind = PoseNoiseKind::white) {
-  PoseDose dose;
-  dose.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, 0, 0, 0,
+/// Believed poses of a drive whose errors have these standard deviations.
+std::vector<Pose> believe(const std::vector<Pose>& truth, double sigma_m, double sigma_yaw_rad,
+                          std::uint64_t seed, PoseNoiseKind kind = PoseNoiseKind::white) {
+  Covariance6 covariance = Covariance6::Zero();
+  covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, 0, 0, 0,
       sigma_yaw_rad * sigma_yaw_rad;
-  dose.kind = kind;
-  return dose;
+  return believe_poses(truth, covariance, kind, seed);
 }
 
 TEST(PoseNoise, ZeroDoseChangesNoBit) {
   const auto truth = drive(5, 3.0);
-  const auto believed = believe_poses(truth, {}, 9);
+  const auto believed = believe(truth, 0.0, 0.0, 9);
   for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_EQ(believed[i].matrix(), truth[i].matrix());
 }
 
@@ -97,7 +99,7 @@ class InjectedCovariance : public testing::TestWithParam<double> {};
 
 TEST_P(InjectedCovariance, EqualsTheSampledOneAtAnyDistance) {
   const auto truth = drive(40000, GetParam());
-  const auto believed = believe_poses(truth, dose_of(0.02, 0.0175), 3);
+  const auto believed = believe(truth, 0.02, 0.0175, 3);
   Covariance6 sum = Covariance6::Zero();
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const Vector6 xi = log_pose(truth[i].inverse() * believed[i]);
@@ -115,8 +117,8 @@ INSTANTIATE_TEST_SUITE_P(FromTheOrigin, InjectedCovariance, testing::Values(0.0,
 
 TEST(PoseNoise, DirectionDoesNotDependOnTheDose) {
   const auto truth = drive(20, 0.0);
-  const auto small = believe_poses(truth, dose_of(0.01, 0.0), 4);
-  const auto large = believe_poses(truth, dose_of(0.04, 0.0), 4);
+  const auto small = believe(truth, 0.01, 0.0, 4);
+  const auto large = believe(truth, 0.04, 0.0, 4);
   for (std::size_t i = 0; i < truth.size(); ++i)
     EXPECT_TRUE((large[i].translation() - truth[i].translation())
                     .isApprox(4.0 * (small[i].translation() - truth[i].translation()), 1e-9));
@@ -124,20 +126,20 @@ TEST(PoseNoise, DirectionDoesNotDependOnTheDose) {
 
 TEST(PoseNoise, ConstantIsOneDrawAndWalkAddsUp) {
   const auto truth = drive(400, 0.0);
-  const auto constant = believe_poses(truth, dose_of(0.01, 0.0, PoseNoiseKind::constant), 4);
+  const auto constant = believe(truth, 0.01, 0.0, 4, PoseNoiseKind::constant);
   EXPECT_EQ(constant.front().matrix(), constant.back().matrix());
   double squared = 0.0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const auto walk = believe_poses(truth, dose_of(0.01, 0.0, PoseNoiseKind::walk), seed);
+    const auto walk = believe(truth, 0.01, 0.0, seed, PoseNoiseKind::walk);
     squared += walk.back().translation().squaredNorm();
   }
   EXPECT_NEAR(std::sqrt(squared / 200 / 2), 0.01 * 20, 0.02) << "root of 400 steps";
 }
 
 TEST(PoseNoise, RefusesACovarianceThatIsNone) {
-  PoseDose dose;
-  dose.covariance(2, 2) = -1.0;
-  EXPECT_THROW((void)believe_poses(drive(1, 0), dose, 1), Error);
+  Covariance6 covariance = Covariance6::Zero();
+  covariance(2, 2) = -1.0;
+  EXPECT_THROW((void)believe_poses(drive(1, 0), covariance, PoseNoiseKind::white, 1), Error);
 }
 
 }  // namespace

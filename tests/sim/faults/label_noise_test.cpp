@@ -240,7 +240,7 @@ TEST(LabelNoise, OneEffectOrInstanceLeavesTheDrawsOfTheOthersAlone) {
 TEST(LabelNoise, IsAFunctionOfSeedAndFrameAndLeavesItsInputAlone) {
   const cv::Mat1w label = squares(), before = label.clone();
   const ClassTable table = table_of(64);
-  const LabelDose dose = label_preset(LabelPreset::typical);
+  const LabelDose dose = LabelDose::of(LabelPreset::typical);
   const cv::Mat1w one = corrupt_labels(label, table, dose, 1, 0);
   EXPECT_TRUE(same_pixels(label, before));
   EXPECT_TRUE(same_pixels(one, corrupt_labels(label, table, dose, 1, 0)));
@@ -263,7 +263,8 @@ TEST(LabelDose, BadInputIsRefused) {
     (void)corrupt_labels(label, table_of(1), {.islands = -1}, 1, 0);
     FAIL() << "a negative dose passed";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "label fault islands: is no dose; give 0 (off) or more");
+    EXPECT_STREQ(error.what(),
+                 "label fault islands: -1 is out of range; give a number from 0, up to 1");
   }
 }
 

@@ -66,10 +66,11 @@ TEST(LidarNoise, DrawsDoNotDependOnTheDose) {
 
 TEST(LidarNoise, SeedsAndScansDiffer) {
   std::vector<float> a(5, 2.0f), b(5, 2.0f), c(5, 2.0f), again(5, 2.0f);
-  add_lidar_noise({}, 1, 0, a);
-  add_lidar_noise({}, 1, 1, b);
-  add_lidar_noise({}, 2, 0, c);
-  add_lidar_noise({}, 1, 0, again);
+  const LidarNoise noise = LidarNoise::of(LidarPreset::rplidar_a2);
+  add_lidar_noise(noise, 1, 0, a);
+  add_lidar_noise(noise, 1, 1, b);
+  add_lidar_noise(noise, 2, 0, c);
+  add_lidar_noise(noise, 1, 0, again);
   EXPECT_NE(a, b);
   EXPECT_NE(a, c);
   EXPECT_EQ(a, again);

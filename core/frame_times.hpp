@@ -3,7 +3,7 @@
 
 #pragma once
 
-namespace mapscore::eval {
+namespace mapscore {
 
 /// Processor time of this thread since its start, in seconds.
 [[nodiscard]] double thread_seconds();
@@ -17,4 +17,4 @@ struct FrameTimes {
   [[nodiscard]] double total_s() const { return segmentation_s + mapping_s; }
 };
 
-}  // namespace mapscore::eval
+}  // namespace mapscore

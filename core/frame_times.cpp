@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/experiment/frame_times.hpp"
+#include "core/frame_times.hpp"
 
 #include <ctime>
 
-namespace mapscore::eval {
+namespace mapscore {
 
 double thread_seconds() {
   timespec now{};
@@ -13,4 +13,4 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-}  // namespace mapscore::eval
+}  // namespace mapscore

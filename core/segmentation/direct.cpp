@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/direct.hpp"
+
+#include "core/segmentation/occupied_centres.hpp"
+
+namespace mapscore {
+
+std::vector<Eigen::Vector3d> points_behind(const cv::Mat1b& mask, const PixelBox& box,
+                                           const RegisteredCloud& cloud) {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(static_cast<std::size_t>(cv::countNonZero(mask)));
+  for (int v = 0; v < mask.rows; ++v) {
+    const std::uint8_t* inside = mask[v];
+    const int* sources = cloud.sources()[v + box.v_min] + box.u_min;
+    for (int u = 0; u < mask.cols; ++u)
+      if (inside[u] && sources[u] != RegisteredCloud::kNone)
+        points.push_back(cloud.point(sources[u]));
+  }
+  return points;
+}
+
+Segment segment_of(const cv::Mat1b& mask, const PixelBox& box, const RegisteredCloud& cloud,
+                   double voxel_m, bool with_voxels) {
+  Segment segment;
+  segment.points = points_behind(mask, box, cloud);
+  if (segment.points.empty()) segment.skipped = SkipReason::no_points;
+  if (with_voxels) segment.voxel_centres = occupied_centres(segment.points, voxel_m);
+  return segment;
+}
+
+Segment Direct::segment(const Detection& detection, const RegisteredCloud& cloud, double voxel_m,
+                        bool with_voxels) const {
+  return segment_of(detection.mask, detection.box, cloud, voxel_m, with_voxels);
+}
+
+}  // namespace mapscore
