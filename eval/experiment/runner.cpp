@@ -26,8 +26,8 @@ namespace {
 /// Maps that are under way at once when the frames do not all fit into memory.
 constexpr std::size_t kTrialsAtOnce = 64;
 
-/// Maps of a strand at most.
-constexpr std::size_t kTrialsOfAStrand = 16;
+/// Maps of a strand at most; those that carve hold all free space too and are many times as large.
+constexpr std::size_t kTrialsOfAStrand = 16, kCarvingTrialsOfAStrand = 4;
 
 /// Frames of a block where each is scored by itself: their truths are shared by the trials that
 /// walk them together, and let go then.
@@ -112,7 +112,9 @@ std::vector<Strand> strands_of(const TaskList& tasks, const std::vector<std::siz
           fmt::format("{} {}", config.voxel_m, Sights::key(config, tasks.labels(position)));
     const std::string key = fmt::format("{} {}", tasks.seed_index(position), entry->second);
     const auto strand = open.find(key);
-    if (strand != open.end() && strands[strand->second].size() < most) {
+    const std::size_t fitting =
+        config.occupancy.carve ? std::min(most, kCarvingTrialsOfAStrand) : most;
+    if (strand != open.end() && strands[strand->second].size() < fitting) {
       strands[strand->second].push_back(position);
     } else {
       open[key] = strands.size();
