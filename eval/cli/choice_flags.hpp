@@ -98,7 +98,8 @@ class ChoiceFlags {
       read_leaf(parse_yaml_value(text, "", name), field.range, probe);
       return "";
     } catch (const Error& error) {
-      return std::string(error.what()).substr(name.size() + 2);  // CLI11 names the flag
+      const std::string why = error.what(), prefix = name + ": ";
+      return why.starts_with(prefix) ? why.substr(prefix.size()) : why;  // CLI11 names the flag
     }
   }
 

@@ -101,16 +101,20 @@ class Strand {
 /// Strands of at most `most` trials, in the order of the first of each.
 std::vector<Strand> strands_of(const TaskList& tasks, const std::vector<std::size_t>& missing,
                                std::size_t most) {
-  std::map<const Study*, std::string> keys;  // of configurations, each of which serves all seeds
-  std::map<std::string, std::size_t> open;
+  std::map<std::string, std::size_t> kinds;     // of sights
+  std::map<const Study*, std::size_t> kind_of;  // a configuration serves all seeds
+  std::map<std::pair<int, std::size_t>, std::size_t> open;
   std::vector<std::vector<std::size_t>> strands;
   for (const std::size_t position : missing) {
     const Study& config = tasks.config(position);
-    const auto [entry, is_new] = keys.try_emplace(&config);
+    const auto [entry, is_new] = kind_of.try_emplace(&config);
     if (is_new)
-      entry->second =
-          fmt::format("{} {}", config.voxel_m, Sights::key(config, tasks.labels(position)));
-    const std::string key = fmt::format("{} {}", tasks.seed_index(position), entry->second);
+      entry->second = kinds
+                          .try_emplace(fmt::format("{} {}", config.voxel_m,
+                                                   Sights::key(config, tasks.labels(position))),
+                                       kinds.size())
+                          .first->second;
+    const std::pair key(tasks.seed_index(position), entry->second);
     const auto strand = open.find(key);
     const std::size_t fitting =
         config.occupancy.carve ? std::min(most, kCarvingTrialsOfAStrand) : most;

@@ -32,6 +32,11 @@ constexpr const char* kMendWrite = "make room or give another folder";
 
 std::string read_file(const std::filesystem::path& path) {
   constexpr const char* kMend = "check that the file is there and may be read";
+  std::error_code no_status;
+  const std::filesystem::file_type type = std::filesystem::status(path, no_status).type();
+  if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character ||
+      type == std::filesystem::file_type::socket)
+    throw Error(fmt::format("{}: is a pipe or a device; put a file there", path.string()));
   const File file(std::fopen(path.c_str(), "rb"));
   if (!file) fail(path, "cannot open", kMend);
   std::string bytes;

@@ -22,6 +22,8 @@
 namespace mapscore::eval {
 namespace {
 
+constexpr const char* kMendOutside = "copy it there, or give --follow if the folder is your own";
+
 namespace fs = std::filesystem;
 
 /// The first of these files that is there; the last where none is.
@@ -105,8 +107,10 @@ std::vector<StampedImage> LabelledFolder::label_images() const {
   if (fs::is_regular_file(folder_ / "label.txt")) return read_stamp_list(folder_ / "label.txt");
   std::vector<StampedImage> images =
       read_stamp_list(first_there(folder_, {"color.txt", "rgb.txt"}));
-  for (StampedImage& image : images)
+  for (StampedImage& image : images) {
+    if (!options_.follow) check_inside(folder_, image.path, kMendOutside);
     image.path = fs::path(sibling_path(image.path, "label")).replace_extension(".png").string();
+  }
   return images;
 }
 
@@ -144,8 +148,7 @@ void LabelledFolder::pair_frames() {
                     counts_.no_pose));
   for (const LabelledDepth& frame : frames_)
     for (const std::string& path : {frame.label, frame.depth.path}) {
-      if (!options_.follow)
-        check_inside(folder_, path, "copy it there, or give --follow if the folder is your own");
+      if (!options_.follow) check_inside(folder_, path, kMendOutside);
       if (!fs::is_regular_file(folder_ / path))
         throw Error(fmt::format("{}: image is missing; copy it there, or list only what there is",
                                 (folder_ / path).string()));

@@ -19,6 +19,7 @@ void add_mesh_asset(mjSpec* spec, const std::string& name, const std::vector<flo
                     const std::vector<int>& faces) {
   mjsMesh* mesh = mjs_addMesh(spec, nullptr);
   mjs_setName(mesh->element, name.c_str());
+  std::fill_n(mesh->scale, 3, 1.0);      // not that of the scene's default class
   mesh->inertia = mjMESH_INERTIA_SHELL;  // the other kinds refuse meshes that are open or thin
   mjs_setFloat(mesh->uservert, vertices.data(), static_cast<int>(vertices.size()));
   mjs_setInt(mesh->userface, faces.data(), static_cast<int>(faces.size()));

@@ -4,6 +4,7 @@
 #include "sim/world/drawn_mesh.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace mapscore::sim {
 namespace {
@@ -22,6 +23,7 @@ std::vector<float> flattened(const std::vector<Eigen::Vector3d>& points) {
 void add_mesh(mjSpec* spec, const std::string& name, const Facets& facets) {
   mjsMesh* mesh = mjs_addMesh(spec, nullptr);
   mjs_setName(mesh->element, name.c_str());
+  std::fill_n(mesh->scale, 3, 1.0);      // not that of the scene's default class
   mesh->inertia = mjMESH_INERTIA_SHELL;  // thin shapes have next to no volume
   const std::vector<float> vertices = flattened(facets.vertices),
                            normals = flattened(facets.normals);

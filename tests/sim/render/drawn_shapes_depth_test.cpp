@@ -125,5 +125,17 @@ TEST(DrawnShapesDepth, IsNotTouchedByFlexesAndSkins) {
   }
 }
 
+TEST(DrawnShapesDepth, OfARoundShapeHasNotTheScaleOfTheScenesMeshes) {
+  const std::string ball =
+      "<body name='a_1' pos='1.8 0 1.2'><geom type='sphere' size='.3'/></body>";
+  const auto frame = [&](const std::string& head) {
+    const World world = load_text(mjcf(ball, head));
+    return Renderer(world, false).render(0, 0, Pose::Identity());
+  };
+  const Frame plain = frame(""), scaled = frame("<default><mesh scale='.5 .5 .5'/></default>");
+  EXPECT_GT(cv::countNonZero(plain.depth_label), 500);
+  EXPECT_EQ(cv::countNonZero(plain.depth != scaled.depth), 0);
+}
+
 }  // namespace
 }  // namespace mapscore::sim
