@@ -76,9 +76,11 @@ struct Degrees {
   bool operator==(const Degrees&) const = default;
 };
 
-/// Words of an enum in the order of its values 0, 1, ...; specialised beside the enum.
-template <class Enum>
-inline constexpr int kNames = 0;
+// An enum's words, in the order of its values 0, 1, ..., stand beside it in an overload of
+// names_of(Enum), which is found by its argument:
+//
+//   enum class Decay { hit, view };
+//   constexpr auto names_of(Decay) { return std::to_array<std::string_view>({"hit", "view"}); }
 
 struct AnyVisitor {
   void operator()(auto&, const Field&) const {}
@@ -196,7 +198,7 @@ struct Overrides {
     for_common_fields(all, plain, [&](const auto& a, const auto& b, const Field& field) {
       if (!(a == b)) result.given.insert(field.key);
     });
-    result.values = result.copy_given(all);
+    result.values = Overrides{all, result.given}.over(T{});
     return result;
   }
   [[nodiscard]] static Overrides everything(const T& all) {
@@ -206,12 +208,6 @@ struct Overrides {
   }
 
   bool operator==(const Overrides&) const = default;
-
- private:
-  [[nodiscard]] T copy_given(const T& all) const {
-    Overrides of_all{all, given};
-    return of_all.over(T{});
-  }
 };
 
 /// Multiplies every field that is a dose.

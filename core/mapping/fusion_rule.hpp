@@ -24,8 +24,9 @@ namespace mapscore {
 
 /// Cells whose old value decays under the blend: those that a draw hit [M], or also all in view.
 enum class Decay { hit, view };
-template <>
-inline constexpr auto kNames<Decay> = std::to_array<std::string_view>({"hit", "view"});
+constexpr auto names_of(Decay) {
+  return std::to_array<std::string_view>({"hit", "view"});
+}
 
 /// M_t = K M_{t-1} + (1 - K) / N * (sum of the scores over the draws that the class won)
 /// [M, section 3.2]. Keeps one probability a class; they add up to at most 1.

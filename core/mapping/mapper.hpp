@@ -25,8 +25,9 @@ namespace mapscore {
 /// How an observation reaches the map's lattice: its points moved by the pose, or its voxels'
 /// centres.
 enum class Place { points, voxels };
-template <>
-inline constexpr auto kNames<Place> = std::to_array<std::string_view>({"points", "voxels"});
+constexpr auto names_of(Place) {
+  return std::to_array<std::string_view>({"points", "voxels"});
+}
 
 /// How a map is made of what a robot sees.
 struct Mapping {

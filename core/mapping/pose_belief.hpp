@@ -29,10 +29,12 @@ enum class NoiseAt { base, odom };
 /// `diagonal` draws each axis by itself [M]; `full` uses the whole covariance.
 enum class CovarianceUse { diagonal, full };
 
-template <>
-inline constexpr auto kNames<NoiseAt> = std::to_array<std::string_view>({"base", "odom"});
-template <>
-inline constexpr auto kNames<CovarianceUse> = std::to_array<std::string_view>({"diagonal", "full"});
+constexpr auto names_of(NoiseAt) {
+  return std::to_array<std::string_view>({"base", "odom"});
+}
+constexpr auto names_of(CovarianceUse) {
+  return std::to_array<std::string_view>({"diagonal", "full"});
+}
 
 /// How poses are drawn from the belief for an observation.
 struct Draws {

@@ -25,11 +25,12 @@ enum class CrfRest {
   label,  ///< a label like any class: `unknown` spreads and is outvoted too
 };
 
-template <>
-inline constexpr auto kNames<CrfFilter> = std::to_array<std::string_view>({"neighbours",
-                                                                           "lattice"});
-template <>
-inline constexpr auto kNames<CrfRest> = std::to_array<std::string_view>({"apart", "label"});
+constexpr auto names_of(CrfFilter) {
+  return std::to_array<std::string_view>({"neighbours", "lattice"});
+}
+constexpr auto names_of(CrfRest) {
+  return std::to_array<std::string_view>({"apart", "label"});
+}
 
 /// Fully connected CRF of [Krähenbühl and Koltun 2011] with the Potts model over a map's voxels,
 /// docs/refinement.md. Each weight is what unanimous neighbours add to the log-odds of their class

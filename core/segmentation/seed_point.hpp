@@ -23,9 +23,10 @@ enum class SeedRule {
   depth_mode      ///< deepest inside the mask, of the depth that most of the medial axis has
 };
 
-template <>
-inline constexpr auto kNames<SeedRule> =
-    std::to_array<std::string_view>({"box_centre", "mask_centroid", "largest_piece", "depth_mode"});
+constexpr auto names_of(SeedRule) {
+  return std::to_array<std::string_view>(
+      {"box_centre", "mask_centroid", "largest_piece", "depth_mode"});
+}
 
 /// Pixels side by side (4 neighbours) belong to one piece when their depths differ by at most this
 /// share of the nearer one.

@@ -91,16 +91,16 @@ requires std::is_enum_v<Enum>
 struct Leaf<Enum> {
   [[nodiscard]] static Enum read(const YamlAt& at, const Range&) {
     const std::string word = at.plain_scalar("one of " + type());
-    for (std::size_t i = 0; i < kNames<Enum>.size(); ++i) {
-      if (word == kNames<Enum>[i]) return static_cast<Enum>(i);
-    }
+    constexpr auto names = names_of(Enum{});
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (word == names[i]) return static_cast<Enum>(i);
     at.fail(fmt::format("is {}; write one of {}", yaml_text(word), type()));
   }
   [[nodiscard]] static std::string text(Enum value) {
-    return std::string(kNames<Enum>[static_cast<std::size_t>(value)]);
+    return std::string(names_of(value)[static_cast<std::size_t>(value)]);
   }
   [[nodiscard]] static std::string type() {
-    return fmt::format("{}", fmt::join(kNames<Enum>, ", "));
+    return fmt::format("{}", fmt::join(names_of(Enum{}), ", "));
   }
 };
 

@@ -32,22 +32,16 @@ enum class PoseSource {
 enum class FilterStart { tracking, global };
 
 enum class ScanModelKind { likelihood_field, beam };
-
-}  // namespace mapscore::eval
-
-namespace mapscore {
-template <>
-inline constexpr auto kNames<eval::PoseSource> = std::to_array<std::string_view>(
-    {"gaussian", "truth", "odometry", "particle_filter", "trajectory"});
-template <>
-inline constexpr auto kNames<eval::FilterStart> = std::to_array<std::string_view>({"tracking",
-                                                                                   "global"});
-template <>
-inline constexpr auto kNames<eval::ScanModelKind> =
-    std::to_array<std::string_view>({"likelihood_field", "beam"});
-}  // namespace mapscore
-
-namespace mapscore::eval {
+constexpr auto names_of(PoseSource) {
+  return std::to_array<std::string_view>(
+      {"gaussian", "truth", "odometry", "particle_filter", "trajectory"});
+}
+constexpr auto names_of(FilterStart) {
+  return std::to_array<std::string_view>({"tracking", "global"});
+}
+constexpr auto names_of(ScanModelKind) {
+  return std::to_array<std::string_view>({"likelihood_field", "beam"});
+}
 
 /// The particle filter of a study; what is not given is as the core has it.
 struct ParticleFilterSettings {

@@ -25,16 +25,9 @@ struct LabelPerception {
 /// What simulated perception knows of the truth: a box about each instance, or about each of its
 /// drawn surfaces.
 enum class PerceivedBoxes { instances, surfaces };
-
-}  // namespace mapscore::eval
-
-namespace mapscore {
-template <>
-inline constexpr auto kNames<eval::PerceivedBoxes> = std::to_array<std::string_view>({"instances",
-                                                                                      "surfaces"});
-}  // namespace mapscore
-
-namespace mapscore::eval {
+constexpr auto names_of(PerceivedBoxes) {
+  return std::to_array<std::string_view>({"instances", "surfaces"});
+}
 
 /// Boxes of models, voted for by the depth image.
 struct SimulatedPerception {

@@ -7,11 +7,11 @@
 #include "core/mapping/mapper.hpp"
 #include "core/mapping/occupancy.hpp"
 #include "core/parameters.hpp"
-#include "core/refinement/dense_crf.hpp"
-#include "core/segmentation/segmentation.hpp"
 #include "eval/experiment/drive_settings.hpp"
 #include "eval/experiment/localization_settings.hpp"
+#include "eval/experiment/method_settings.hpp"
 #include "eval/experiment/perception_settings.hpp"
+#include "eval/experiment/score_settings.hpp"
 #include "sim/faults/calibration_faults.hpp"
 #include "sim/faults/depth_dose.hpp"
 #include "sim/faults/label_dose.hpp"
@@ -31,59 +31,6 @@ namespace mapscore::eval {
 
 // A study as its file has it. Parameters of core and sim stand in their own structs; here are those
 // that only a study has, and the order of the keys.
-
-enum class ScoreUnit { map, frame };
-
-}  // namespace mapscore::eval
-
-namespace mapscore {
-template <>
-inline constexpr auto kNames<eval::ScoreUnit> = std::to_array<std::string_view>({"map", "frame"});
-}  // namespace mapscore
-
-namespace mapscore::eval {
-
-struct StudyFusion {
-  static constexpr std::string_view kKind = "study";
-  static constexpr std::string_view kMeaning = "as the study's `fusion`";
-
-  static void fields(auto&, auto&&) {}
-  bool operator==(const StudyFusion&) const = default;
-};
-/// Fusion of one method: the study's, or its own.
-using MethodFusion = DrawnOf<FusionRule>::With<StudyFusion>;
-
-struct NoRefinement {
-  static constexpr std::string_view kKind = "none";
-  static constexpr std::string_view kMeaning = "the map as it was fused";
-
-  static void fields(auto&, auto&&) {}
-  bool operator==(const NoRefinement&) const = default;
-};
-/// What happens to the finished map before it is scored.
-using Refinement = std::variant<NoRefinement, Crf>;
-
-struct MethodSettings {
-  std::string name;  ///< letters, digits, _ and -
-  Segmentation segmentation;
-  std::optional<Place> place{};  ///< empty: the study's
-  MethodFusion fusion{};
-  Refinement refinement{};
-
-  static void fields(auto& s, auto&& visit) {
-    visit(s.segmentation, Field{.key = "segmentation",
-                                .meaning = "from a detection and a registered cloud to points",
-                                .required = true});
-    visit(s.place, Field{"place", "as the study's `place`, for this method alone"});
-    visit(s.fusion, Field{.key = "fusion",
-                          .meaning = "how this method's observations change the map",
-                          .later = true});
-    visit(s.refinement, Field{.key = "refinement",
-                              .meaning = "what happens to this method's map before it is scored",
-                              .later = true});
-  }
-  bool operator==(const MethodSettings&) const = default;
-};
 
 struct FaultSettings {
   sim::Misregistration misregistration;
@@ -117,52 +64,6 @@ struct FaultSettings {
                          .later = true});
   }
   bool operator==(const FaultSettings&) const = default;
-};
-
-/// A number, or `auto` (empty).
-struct AutoNumber {
-  std::optional<double> value;
-  bool operator==(const AutoNumber&) const = default;
-};
-
-struct ScoreSettings {
-  ScoreUnit unit = ScoreUnit::map;
-  std::optional<double> at_s;  ///< empty: nothing moves, or each frame at its own time
-  AutoNumber threshold;
-  int min_samples = 1;
-  double epsilon_m = 0.0005;
-  std::vector<int> tolerances{0, 1};
-  std::vector<double> distances_m{0.01, 0.02, 0.05, 0.1};
-  bool instances = false;
-  bool thin = false;
-
-  static void fields(auto& s, auto&& visit) {
-    visit(s.unit,
-          Field{"unit", "score the fused map, or each frame's observation against its own truth"});
-    visit(s.at_s, Field{"at_s",
-                        "with unit map, where the scene moves: the time whose surfaces a map is "
-                        "scored against"});
-    visit(s.threshold,
-          Field{"threshold",
-                "least probability of a predicted voxel; auto: half of what a first full hit gives",
-                {0, 1}});
-    visit(s.min_samples,
-          Field{"min_samples", "depth samples that make a voxel visible", {1, 1000000}});
-    visit(s.epsilon_m, Field{"epsilon_m", "widening of voxels in the surface test", {0, 0.1}});
-    visit(s.tolerances,
-          Field{"tolerances", "tolerances of the match, in voxels; 0 is always counted", {0, 5}});
-    visit(s.distances_m, Field{"distances_m", "distances of the F-score", above(0, 10)});
-    visit(s.instances,
-          Field{.key = "instances",
-                .meaning = "score instances too, the connected pieces of each class: PQ and AP",
-                .later = true,
-                .swept = false});
-    visit(s.thin, Field{.key = "thin",
-                        .meaning = "count the voxels of thin parts (chair legs) by themselves too",
-                        .later = true,
-                        .swept = false});
-  }
-  bool operator==(const ScoreSettings&) const = default;
 };
 
 /// Names of the classes that become detections, or all of them.

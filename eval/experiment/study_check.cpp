@@ -25,7 +25,9 @@ constexpr std::size_t kMostTrials = 1000000;
 void check_name(const std::string& name, const Blame& blame) {
   if (const auto unfit = unfit_as_name(name)) blame("name", *unfit);
   if (name.find('/') != name.npos || name == "." || name == "..")
-    blame("name", fmt::format("'{}' names no folder of its own; leave out the /", name));
+    blame("name",
+          fmt::format("'{}' names no folder of its own; write a name without /, and not . or ..",
+                      name));
 }
 
 void check_input(const Study& study, const Blame& blame) {

@@ -21,7 +21,8 @@ constexpr double kOnFace_m = 1e-9;
 /// By how much candidates are sought beyond a voxel's bounds.
 constexpr double kBoundsSlack_m = 1e-6;
 constexpr double kFarthestIndex = 1e6;
-constexpr double kMostVoxels = 5e7;
+/// Of a map that is resampled: a small file must not cost gigabytes.
+constexpr double kMostVoxels = 5e7, kMostVoxelsAVoxel = 128, kAlwaysResampled = 2e6;
 
 double probability_of(const MapFile& map, std::size_t n) {
   return map.probabilities.empty() ? 1.0 : map.probabilities[n];
@@ -133,7 +134,9 @@ LatticeMap pull_sources(const MapFile& map, const std::vector<ClassId>& classes,
 
 void refuse_too_many(const MapFile& map, double source_edge_m, double edge_m) {
   const double voxels = static_cast<double>(map.size()) * std::pow(source_edge_m / edge_m, 3);
-  if (voxels > kMostVoxels)
+  const double most = std::min(
+      kMostVoxels, std::max(kAlwaysResampled, kMostVoxelsAVoxel * static_cast<double>(map.size())));
+  if (voxels > most)
     throw Error(
         fmt::format("{} voxels of {} m would become {:.2g} of {} m; score the map with "
                     "--voxel_m {}",

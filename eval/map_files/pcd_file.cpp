@@ -99,10 +99,19 @@ MapFile read_columns(std::string_view body, const std::vector<Column>& columns, 
                            points, bytes, left));
 }
 
+/// Without the zeros with which the Point Cloud Library fills up the last page of a file, where
+/// `size` bytes of it are announced.
+std::string_view without_page_end(std::string_view body, std::size_t size) {
+  constexpr std::size_t kPage = 4096;
+  if (body.size() <= size || body.size() - size >= kPage) return body;
+  return body.find_first_not_of('\0', size) == body.npos ? body.substr(0, size) : body;
+}
+
 MapFile read_binary(std::string_view body, const PcdHeader& header, NotFinite not_finite,
                     const std::filesystem::path& file) {
   const CloudMeanings meanings = meanings_of(header, file);
   const std::size_t bytes = bytes_a_point(header.fields);
+  if (header.points <= body.size() / bytes) body = without_page_end(body, header.points * bytes);
   if (body.size() / bytes != header.points || body.size() % bytes != 0)
     refuse_size(file, header.points, bytes, body.size());
   return read_columns(body, columns_by_point(header, meanings), header.points,
@@ -118,6 +127,7 @@ std::string unpack(std::string_view body, std::size_t with_padding, std::size_t 
   std::memcpy(&packed, body.data(), sizeof(packed));
   std::memcpy(&unpacked, body.data() + sizeof(packed), sizeof(unpacked));
   body.remove_prefix(kSizes);
+  body = without_page_end(body, packed);
   if (packed != body.size())
     refuse(file, fmt::format("{}: {} compressed bytes are announced, {} are there",
                              body.size() < packed ? "truncated" : "bytes follow the last point",

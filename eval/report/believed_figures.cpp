@@ -78,7 +78,7 @@ std::string errors_text(const std::string& name, const LocalizationScore& score)
 }
 
 std::string name_of(PoseSource source) {
-  std::string name(kNames<PoseSource>[static_cast<std::size_t>(source)]);
+  std::string name(names_of(source)[static_cast<std::size_t>(source)]);
   std::ranges::replace(name, '_', ' ');
   return name;
 }

@@ -19,6 +19,17 @@ struct RigidDose {
   Degrees angle_deg{};     ///< about an axis uniform on the circle in the image plane
   std::array<double, 3> translation_m{};  ///< in the optical axes that the error stands in
   std::array<Degrees, 3> rotation_deg{};  ///< rotation vector, in the same axes
+
+  /// What differs between two rigid errors in the words for people.
+  struct Words {
+    std::string_view magnitude, angle, translation, rotation, magnitude_figure, angle_figure;
+  };
+  static void fields(auto& s, const Words& words, auto&& visit) {
+    visit(s.magnitude_m, Field{"magnitude_m", words.magnitude, {0, 1}, words.magnitude_figure});
+    visit(s.angle_deg, Field{"angle_deg", words.angle, {0, 180}, words.angle_figure});
+    visit(s.translation_m, Field{"translation_m", words.translation, {-10, 10}});
+    visit(s.rotation_deg, Field{"rotation_deg", words.rotation, {-180, 180}});
+  }
   bool operator==(const RigidDose&) const = default;
 };
 
@@ -29,23 +40,14 @@ struct Misregistration {
   std::array<double, 2> principal_point_px{};  ///< added to the colour camera's centre
 
   static void fields(auto& s, auto&& visit) {
-    visit(s.rigid.magnitude_m,
-          Field{"magnitude_m",
-                "shift of the believed depth camera, its direction drawn by the seed",
-                {0, 1},
-                "misregistration (mm)"});
-    visit(s.rigid.angle_deg, Field{"angle_deg",
-                                   "turn of the believed depth camera, its axis drawn by the seed",
-                                   {0, 180},
-                                   "misregistration angle (deg)"});
-    visit(s.rigid.translation_m,
-          Field{"translation_m",
-                "shift in the colour camera's optical frame; excludes magnitude_m",
-                {-10, 10}});
-    visit(s.rigid.rotation_deg,
-          Field{"rotation_deg",
-                "rotation vector in the colour camera's optical frame; excludes angle_deg",
-                {-180, 180}});
+    constexpr RigidDose::Words kWords{
+        "shift of the believed depth camera, its direction drawn by the seed",
+        "turn of the believed depth camera, its axis drawn by the seed",
+        "shift in the colour camera's optical frame; excludes magnitude_m",
+        "rotation vector in the colour camera's optical frame; excludes angle_deg",
+        "misregistration (mm)",
+        "misregistration angle (deg)"};
+    RigidDose::fields(s.rigid, kWords, visit);
     visit(s.focal_error_percent, Field{"focal_error_percent",
                                        "error of the believed focal length of the colour camera",
                                        {.low = -100, .high = 100, .open_low = true},
@@ -62,22 +64,14 @@ struct MountError {
   RigidDose rigid;
 
   static void fields(auto& s, auto&& visit) {
-    visit(s.rigid.magnitude_m, Field{"magnitude_m",
-                                     "shift of the believed mount, its direction drawn by the seed",
-                                     {0, 1},
-                                     "mount error (mm)"});
-    visit(s.rigid.angle_deg, Field{"angle_deg",
-                                   "turn of the believed mount, its axis drawn by the seed",
-                                   {0, 180},
-                                   "mount error angle (deg)"});
-    visit(s.rigid.translation_m,
-          Field{"translation_m",
-                "shift in the depth camera's optical frame; excludes magnitude_m",
-                {-10, 10}});
-    visit(s.rigid.rotation_deg,
-          Field{"rotation_deg",
-                "rotation vector in the depth camera's optical frame; excludes angle_deg",
-                {-180, 180}});
+    constexpr RigidDose::Words kWords{
+        "shift of the believed mount, its direction drawn by the seed",
+        "turn of the believed mount, its axis drawn by the seed",
+        "shift in the depth camera's optical frame; excludes magnitude_m",
+        "rotation vector in the depth camera's optical frame; excludes angle_deg",
+        "mount error (mm)",
+        "mount error angle (deg)"};
+    RigidDose::fields(s.rigid, kWords, visit);
   }
   bool operator==(const MountError&) const = default;
 };

@@ -16,16 +16,9 @@ enum class DepthPreset {
   astra,     ///< Orbbec Astra: every dose 1, 0.6 to 8 m
   kinect_v1  ///< Microsoft Kinect for Xbox 360: every dose 1, 0.8 to 4 m
 };
-
-}  // namespace mapscore::sim
-
-namespace mapscore {
-template <>
-inline constexpr auto kNames<sim::DepthPreset> = std::to_array<std::string_view>({"ideal", "astra",
-                                                                                  "kinect_v1"});
-}  // namespace mapscore
-
-namespace mapscore::sim {
+constexpr auto names_of(DepthPreset) {
+  return std::to_array<std::string_view>({"ideal", "astra", "kinect_v1"});
+}
 
 /// Doses of the faults of a structured-light depth camera, and the numbers that a dose of 1 stands
 /// for (docs/methods.md, "Depth faults"). Every dose is 0 (off) or more. [N]: C. V. Nguyen, S.

@@ -17,16 +17,9 @@ enum class LabelPreset {
   ideal,   ///< every dose zero
   typical  ///< a usable network, chosen rather than measured
 };
-
-}  // namespace mapscore::sim
-
-namespace mapscore {
-template <>
-inline constexpr auto kNames<sim::LabelPreset> = std::to_array<std::string_view>({"ideal",
-                                                                                  "typical"});
-}  // namespace mapscore
-
-namespace mapscore::sim {
+constexpr auto names_of(LabelPreset) {
+  return std::to_array<std::string_view>({"ideal", "typical"});
+}
 
 /// Doses of the faults of an instance segmentation, and the numbers that belong to them
 /// (docs/methods.md, "Label faults"). 0 is off; every dose but `boundary_px` is 0 or more.

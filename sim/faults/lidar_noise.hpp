@@ -14,16 +14,9 @@ namespace mapscore::sim {
 
 /// Ready-made lidars.
 enum class LidarPreset { ideal, rplidar_a2 };
-
-}  // namespace mapscore::sim
-
-namespace mapscore {
-template <>
-inline constexpr auto kNames<sim::LidarPreset> = std::to_array<std::string_view>({"ideal",
-                                                                                  "rplidar_a2"});
-}  // namespace mapscore
-
-namespace mapscore::sim {
+constexpr auto names_of(LidarPreset) {
+  return std::to_array<std::string_view>({"ideal", "rplidar_a2"});
+}
 
 /// Noise of a triangulating lidar. The preset rplidar_a2 is of the size that the data sheet of the
 /// RPLidar A2 gives: about 1 % of the distance, half a millimetre and more near by.

@@ -23,18 +23,12 @@ enum class PoseNoiseKind {
 
 /// The image at whose stamp the pose of a frame is looked up.
 enum class PoseStamp { depth, color };
-
-}  // namespace mapscore::sim
-
-namespace mapscore {
-template <>
-inline constexpr auto kNames<sim::PoseNoiseKind> = std::to_array<std::string_view>({"white", "walk",
-                                                                                    "constant"});
-template <>
-inline constexpr auto kNames<sim::PoseStamp> = std::to_array<std::string_view>({"depth", "color"});
-}  // namespace mapscore
-
-namespace mapscore::sim {
+constexpr auto names_of(PoseNoiseKind) {
+  return std::to_array<std::string_view>({"white", "walk", "constant"});
+}
+constexpr auto names_of(PoseStamp) {
+  return std::to_array<std::string_view>({"depth", "color"});
+}
 
 /// Wrong localisation: T_believed = T_true * Exp(xi), xi ~ N(0, E) in the axes of base_footprint,
 /// order x y z roll pitch yaw.

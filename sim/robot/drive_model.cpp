@@ -21,7 +21,8 @@ constexpr std::array<const char*, 2> kWheels = {"wheel_left", "wheel_right"};
 
 SpecPtr parse_robot(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file))
-    throw Error(fmt::format("{}: no such robot file; check the path", file.string()));
+    throw Error(fmt::format("{}: no such robot file; check the path, or name one: --set robot=FILE",
+                            file.string()));
   std::array<char, 1024> reason{};
   SpecPtr spec(mj_parseXML(file.c_str(), nullptr, reason.data(), static_cast<int>(reason.size())));
   if (!spec)

@@ -19,6 +19,11 @@ namespace mapscore::sim {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const char* reason) {
+  if (std::string_view(reason).find("allocate memory") != std::string_view::npos)
+    throw Error(fmt::format(
+        "{}: MuJoCo needs more memory for it than there is ({} GB at most while it is tried); take "
+        "smaller counts (njmax, nconmax, memory), height fields, textures and meshes",
+        file.string(), TrialLimits{}.memory_gb));
   throw Error(fmt::format("{}: MuJoCo refuses it: {}; mend the MJCF there", file.string(),
                           one_line(reason)));
 }

@@ -289,6 +289,9 @@ TEST(LatticeMap, FarVoxelsAndFloodsAreRefused) {
   voxels.voxels = {{0, 0, 0}};
   expect_error("1 voxels of 100 m would become 8e+09 of 0.05 m; score the map with --voxel_m 100",
                [&] { (void)on_lattice(voxels, {1}, turned, 0.05, Resample::allow); });
+  voxels.edge_m = 10.0;  // beyond two million voxels, 128 a voxel
+  expect_error("1 voxels of 10 m would become 8e+06 of 0.05 m",
+               [&] { (void)on_lattice(voxels, {1}, turned, 0.05, Resample::allow); });
 }
 
 }  // namespace

@@ -147,6 +147,9 @@ TEST_F(PcdFile, BinaryCompressedWithAndWithoutItsGaps) {
     EXPECT_EQ(map.labels, kColours);
     expect_refusal(bytes.substr(0, bytes.size() - 1), "truncated");
     expect_refusal(bytes + 'x', "bytes follow the last point");
+    EXPECT_EQ(read(bytes + std::string(4095, '\0'), NotFinite::skip).points, kSeen);
+    expect_refusal(bytes + std::string(4096, '\0'), "bytes follow the last point");
+    expect_refusal(bytes + std::string(9, '\0') + 'x', "bytes follow the last point");
   }
   expect_refusal(compressed(plain, by_field(true)),
                  "unpacks to 160 bytes, the header asks for 128");
@@ -256,6 +259,9 @@ TEST_F(PcdFile, BadBodies) {
   expect_refusal(xyz(1, "binary") + "12345678901",
                  "truncated: 1 points of 12 bytes are announced, 11 bytes are there");
   expect_refusal(xyz(1, "binary") + "1234567890123", "bytes follow the last point");
+  EXPECT_EQ(read(xyz(1, "binary") + std::string(12 + 4095, '\0'), NotFinite::skip).points.size(),
+            1u);
+  expect_refusal(xyz(1, "binary") + std::string(12 + 4096, '\0'), "bytes follow the last point");
   for (const char* data : {"ascii", "binary"})
     expect_refusal(fmt::format("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1000000\n"
                                "HEIGHT 1000000\nPOINTS 1000000000000\nDATA {}\n0 0 0\n",
