@@ -24,15 +24,15 @@ namespace mapscore {
 // in the list of fields of that struct, with its range and its meaning:
 //
 //   struct Erosion {
-//     static constexpr std::string_view kKind = "erosion", kMeaning = "erode the mask, then
-//     direct"; int radius_px = 5; static void fields(auto& s, auto&& visit) {
-//       visit(s.radius_px, Field{"radius_px", "radius of the disc that erodes the mask", {0,
-//       1000}});
+//     static constexpr std::string_view kKind = "erosion", kMeaning = "erode the mask";
+//     int radius_px = 5;
+//     static void fields(auto& s, auto&& visit) {
+//       visit(s.radius_px, Field{"radius_px", "radius of the eroding disc", {0, 1000}});
 //     }
 //   };
 //
 // Study files, `--set`, flags, sweeps, keys of results, the page of all keys and the axes of
-// figures are visitors of these lists. Here nothing is known of YAML or of flags.
+// figures visit these lists. This header depends on neither YAML nor flags.
 
 /// Interval of a number; open ends are left out of it. Default: any number that is finite.
 struct Range {
@@ -107,6 +107,12 @@ template <Choice Any>
   return []<class... Kinds>(std::type_identity<std::variant<Kinds...>>) {
     return std::vector<Any>{Kinds{}...};
   }(std::type_identity<Any>{});
+}
+
+/// The words of all kinds, in their order.
+template <class... Kinds>
+[[nodiscard]] std::vector<std::string> kinds_of(const std::variant<Kinds...>&) {
+  return {std::string(Kinds::kKind)...};
 }
 
 [[nodiscard]] std::string_view kind_of(const Choice auto& choice) {
@@ -218,9 +224,9 @@ void scale_doses(auto& dose, double scale) {
   });
 }
 
-/// A ready-made dose, a factor of everything in it that is a dose, and what a file gives in the
-/// place of the preset's numbers. `Dose` has an enum Preset with `ideal` first, of(Preset), and the
-/// fields kPreset and kScale; where more than fields is scaled, it has a scale_by(factor).
+/// A dose as a file gives it: a preset, single parameters that replace the preset's, and a factor
+/// that multiplies every dose. `Dose` has an enum Preset with `ideal` first, of(Preset), and the
+/// fields kPreset and kScale; scale_by(factor) if scaling concerns more than its fields.
 template <class Dose>
 struct Dosed {
   typename Dose::Preset preset{};

@@ -28,7 +28,7 @@ build() {
 scripts/setup.sh
 if [ "${1:-}" = --threads ]; then
   shift
-  programs=(core_test recording_test experiment_test)
+  programs=(core_test recording_test lab_test)
   build tsan ON "${programs[@]}"
   export TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1:suppressions=$PWD/scripts/tsan.supp
   # Mesa's own threads are not built for ThreadSanitizer; without them it draws in the thread that calls it.
@@ -38,7 +38,7 @@ if [ "${1:-}" = --threads ]; then
     build/tsan/$program --gtest_brief=1 --gtest_filter="$filter" "$@"
   done
 else
-  programs=(recording_test map_files_test)
+  programs=(files_test recording_test foreign_test map_files_test)
   build asan OFF "${programs[@]}"
   # A file must not ask for more than this many MB at once.
   export ASAN_OPTIONS=max_allocation_size_mb=4096:detect_stack_use_after_return=1

@@ -75,8 +75,8 @@ class OccupancyGrid {
   std::vector<Occupancy> cells_;
 };
 
-/// Flood fill: all cells with value `kUnknownCell` that are connected through edges to
-/// `start` become free. Nothing happens when `start` is another cell.
+/// Flood fill: all unknown cells that are connected to `start` through edges become free. Does
+/// nothing unless `start` is an unknown cell of the grid.
 void flood_free(OccupancyGrid& grid, const GridCell& start);
 
 }  // namespace mapscore

@@ -7,8 +7,8 @@
 #include "core/localization/pose_estimate.hpp"
 #include "core/localization/resampling.hpp"
 #include "core/localization/scan_likelihood.hpp"
-#include "core/mapping/pose_belief.hpp"
 #include "core/parameters.hpp"
+#include "core/placement/pose_belief.hpp"
 
 #include <Eigen/Core>
 #include <cstdint>

@@ -16,9 +16,8 @@ namespace mapscore {
 /// How many particles a belief needs: D. Fox, Adapting the Sample Size in Particle Filters Through
 /// KLD-Sampling, International Journal of Robotics Research 22 (2003).
 struct KldParams {
-  double epsilon = 0.05;  ///< bound of the Kullback-Leibler divergence from the true belief
-  double z_quantile =
-      2.33;  ///< of the standard normal: the bound holds with this probability (99 %)
+  double epsilon = 0.05;     ///< bound of the Kullback-Leibler divergence from the true belief
+  double z_quantile = 2.33;  ///< standard normal quantile: the bound holds with probability 99 %
   double bin_m = 0.1, bin_rad = 0.0873;  ///< edges of the bins (5 degrees)
   std::size_t min_particles = 500, max_particles = 20000;
 

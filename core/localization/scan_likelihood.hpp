@@ -29,9 +29,9 @@ struct LikelihoodFieldParams {
   std::size_t beams = 360;           ///< of a scan, at most
   double sigma_hit_m = 0.05;         ///< of the distance from an end point to the nearest obstacle
   double z_hit = 0.9, z_rand = 0.1;  ///< shares; sum 1
-  /// Exponent of the scan's likelihood. Beams are not independent: neighbours share what the map
-  /// does not hold and where in their cells its surfaces lie. `temper` times the beams is how many
-  /// independent ones a scan is worth. What no number of beams makes smaller is in map_sigma.
+  /// Exponent of the scan's likelihood. Beams are not independent: neighbours share the map's
+  /// errors. A scan is worth `temper` times as many independent beams as it has. The error that all
+  /// beams share, and that more beams do not reduce, is map_sigma.
   double temper = 0.8;
 
   static void fields(auto& s, auto&& visit) { scan_model_fields(s, visit); }
@@ -50,10 +50,10 @@ struct BeamModelParams {
   bool operator==(const BeamModelParams&) const = default;
 };
 
-/// Standard deviation, on each axis, of the offset that a grid's cells give a position, metres. A
-/// surface lies anywhere in its cell: variance r^2 / 12. A position rests on several of them; with
-/// four, r^2 / 48. It is the same for all scans that see these surfaces, so that no number of beams
-/// makes it smaller: the filter adds it to its covariance.
+/// Standard deviation, on each axis, of the position error due to the grid's resolution r, metres:
+/// a surface lies anywhere in its cell, with variance r^2 / 12, and a position that rests on four
+/// of them has r^2 / 48. All scans that see these surfaces share this error, so more beams do not
+/// reduce it: the filter adds it to its covariance.
 [[nodiscard]] double map_sigma(const GridFrame& frame);
 
 /// ln p(scan | pose, map) of the likelihood field, up to a constant:

@@ -4,9 +4,9 @@
 #include "core/mapping/free_space.hpp"
 
 #include "core/error.hpp"
-#include "core/mapping/octomap_ray.hpp"
 #include "core/mapping/semantic_octree.hpp"
-#include "core/mapping/space_grid.hpp"
+#include "core/space/octomap_ray.hpp"
+#include "core/space/space_grid.hpp"
 
 #include <cmath>
 

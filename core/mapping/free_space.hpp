@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/geometry/voxel.hpp"
-#include "core/mapping/space_blocks.hpp"
+#include "core/space/space_blocks.hpp"
 
 #include <Eigen/Core>
 #include <cstddef>

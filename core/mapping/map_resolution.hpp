@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "core/mapping/fusion_rule.hpp"
+#include "core/fusion/fusion_rule.hpp"
 #include "core/mapping/semantic_map.hpp"
 
 #include <filesystem>

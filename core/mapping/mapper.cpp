@@ -5,8 +5,8 @@
 
 #include "core/geometry/depth_rays.hpp"
 #include "core/geometry/posed_depth.hpp"
-#include "core/mapping/depth_view.hpp"
-#include "core/mapping/placement.hpp"
+#include "core/placement/placement.hpp"
+#include "core/space/depth_view.hpp"
 
 #include <utility>
 #include <variant>

@@ -4,14 +4,14 @@
 #pragma once
 
 #include "core/frame_times.hpp"
-#include "core/mapping/fusion_rule.hpp"
-#include "core/mapping/observation.hpp"
-#include "core/mapping/occupancy.hpp"
-#include "core/mapping/pose_belief.hpp"
+#include "core/fusion/fusion_rule.hpp"
 #include "core/mapping/semantic_map.hpp"
 #include "core/parameters.hpp"
+#include "core/placement/observation.hpp"
+#include "core/placement/pose_belief.hpp"
 #include "core/random_stream.hpp"
 #include "core/segmentation/segmentation.hpp"
+#include "core/space/occupancy.hpp"
 
 #include <opencv2/core.hpp>
 

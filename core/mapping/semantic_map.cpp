@@ -4,7 +4,7 @@
 #include "core/mapping/semantic_map.hpp"
 
 #include "core/error.hpp"
-#include "core/mapping/frame_hits.hpp"
+#include "core/fusion/frame_hits.hpp"
 #include "core/mapping/free_space.hpp"
 #include "core/whole_file.hpp"
 

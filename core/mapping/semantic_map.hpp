@@ -4,12 +4,12 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "core/fusion/fusion_rule.hpp"
 #include "core/geometry/voxel.hpp"
-#include "core/mapping/depth_view.hpp"
-#include "core/mapping/fusion_rule.hpp"
-#include "core/mapping/occupancy.hpp"
 #include "core/mapping/semantic_octree.hpp"
-#include "core/mapping/voxel_hit.hpp"
+#include "core/placement/voxel_hit.hpp"
+#include "core/space/depth_view.hpp"
+#include "core/space/occupancy.hpp"
 
 #include <Eigen/Core>
 #include <filesystem>

@@ -4,12 +4,12 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "core/fusion/class_beliefs.hpp"
+#include "core/fusion/fusion_rule.hpp"
 #include "core/geometry/voxel.hpp"
-#include "core/mapping/class_beliefs.hpp"
 #include "core/mapping/colour_sum.hpp"
-#include "core/mapping/fusion_rule.hpp"
-#include "core/mapping/occupancy.hpp"
-#include "core/mapping/space_blocks.hpp"
+#include "core/space/occupancy.hpp"
+#include "core/space/space_blocks.hpp"
 
 #include <octomap/OcTreeNode.h>
 #include <octomap/OccupancyOcTreeBase.h>

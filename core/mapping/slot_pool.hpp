@@ -9,9 +9,9 @@
 
 namespace mapscore {
 
-/// Memory for very many small objects of one size, without what an allocator adds to each. Slots
-/// that are given back are used again, by the thread that gave them, or by any once that ended;
-/// they never return to the system. Safe from all threads.
+/// Memory for very many small objects of one size, without an allocator's overhead for each. Slots
+/// given back are reused by the same thread, after its end by any thread; they never return to the
+/// system. Safe from all threads.
 template <std::size_t kBytes>
 class SlotPool {
  public:

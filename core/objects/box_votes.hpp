@@ -8,16 +8,16 @@
 
 namespace mapscore {
 
-/// Pixels of a depth image whose rays pass through a box between the camera's range limits, by what
-/// the image measured there. The image is the z-buffer [N].
+/// Pixels of a depth image whose rays meet a box within the camera's range, counted by where the
+/// measured depth lies relative to the box. The depth image serves as z-buffer [N].
 struct BoxVotes {
-  int within = 0;           ///< in the box: what the box stands for is seen, or may be
-  int occluded = 0;         ///< before it
-  int beyond = 0;           ///< behind it: the ray saw through the box
-  int unmeasured = 0;       ///< nothing
+  int within = 0;           ///< in the box: the object may still be there
+  int occluded = 0;         ///< in front of the box: something hides it
+  int beyond = 0;           ///< behind the box: the ray passed through it
+  int unmeasured = 0;       ///< pixels without depth
   double outline_px = 0.0;  ///< area of the box in the image plane, also beyond the image
 
-  /// Pixels that looked at the place of the box and came back with an answer.
+  /// Pixels that measured the box's place: neither hidden nor without depth.
   [[nodiscard]] int looked() const { return within + beyond; }
   bool operator==(const BoxVotes&) const = default;
 };
@@ -28,14 +28,14 @@ struct BoxVotes {
 /// outside the frustum.
 [[nodiscard]] BoxVotes vote(const ObjectBox& box, const PosedDepth& view, double tolerance_m);
 
-/// What makes an object one that should have been seen.
+/// When a camera should have detected an object.
 struct Visibility {
-  double tolerance_m = 0.02;
-  int min_pixels = 100;    ///< that looked at it
-  double min_share = 0.5;  ///< of its outline
+  double tolerance_m = 0.02;  ///< of vote()
+  int min_pixels = 100;       ///< least BoxVotes::looked()
+  double min_share = 0.5;     ///< least BoxVotes::looked() over outline_px
 };
 
-/// True when enough of its outline was looked at: not hidden, not beyond the image or the range.
+/// True when enough of the box was in view: not hidden, not outside the image or the range.
 [[nodiscard]] bool should_be_seen(const BoxVotes& votes, const Visibility& visibility);
 
 }  // namespace mapscore

@@ -26,8 +26,8 @@ struct ObjectMapParams {
   int max_age = 5;  ///< an object that reaches this age is removed
 };
 
-/// What one frame changed, by ids, ascending. Of two objects that turned out to be one, `merged`
-/// has the one that went.
+/// What one frame changed: ids, ascending. Where two objects became one, `merged` lists the id that
+/// was given up.
 struct ObjectChanges {
   std::vector<ObjectId> added, updated, merged, missed, removed;
 };
@@ -67,10 +67,10 @@ class ObjectMap {
   [[nodiscard]] const MapObject* find(ObjectId id) const;
   /// Ascending by id.
   [[nodiscard]] std::vector<const MapObject*> of_class(ClassId class_id) const;
-  /// Whose box has a point in common with an axis-aligned box of the map frame; ascending by id.
+  /// Objects whose box meets an axis-aligned box of the map frame; ascending by id.
   [[nodiscard]] std::vector<const MapObject*> in_box(const Eigen::AlignedBox3d& box,
                                                      std::optional<ClassId> class_id = {}) const;
-  /// Whose centre lies within a distance, nearest first, ties by id.
+  /// Objects whose centre lies within a distance of p, nearest first, ties by id.
   [[nodiscard]] std::vector<const MapObject*> within(const Eigen::Vector3d& p, double radius_m,
                                                      std::optional<ClassId> class_id = {}) const;
   /// The nearest centre, ties to the lower id; none in an empty map.

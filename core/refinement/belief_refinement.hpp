@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "core/mapping/class_beliefs.hpp"
+#include "core/fusion/class_beliefs.hpp"
 #include "core/refinement/dense_crf.hpp"
 
 #include <span>
@@ -11,11 +11,11 @@
 
 namespace mapscore {
 
-/// The beliefs of a map's voxels after the dense CRF (docs/refinement.md), in the same order.
-/// Labels are the classes that some voxel names, background among them where it is named. Under
-/// `apart` voxels that name no class say nothing and stay as they are; under `label` they are
-/// wholly unknown. Counts become probabilities; classes below 1e-6 are forgotten. `colours` may be
-/// empty where the appearance kernel is off. Throws Error as refine() does.
+/// Refines the beliefs of a map's voxels by the dense CRF (docs/refinement.md); same order. The
+/// CRF's labels are the classes that some voxel names, background only if named. Voxels that name
+/// no class: under CrfRest::apart they take no part and do not change; under CrfRest::label the
+/// label `unknown` starts with probability 1. Counts become probabilities; classes below 1e-6 are
+/// dropped. `colours` may be empty if the appearance kernel is off. Throws Error as refine().
 [[nodiscard]] std::vector<ClassBeliefs> refine_beliefs(std::span<const Eigen::Vector3d> centres_m,
                                                        std::span<const Colour> colours,
                                                        std::span<const ClassBeliefs> beliefs,

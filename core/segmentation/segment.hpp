@@ -6,12 +6,18 @@
 #include "core/classes.hpp"
 
 #include <Eigen/Geometry>
+#include <array>
+#include <string_view>
 #include <vector>
 
 namespace mapscore {
 
 /// Why a detection yielded nothing.
 enum class SkipReason { none, no_points, eroded_away, no_seed_point, seed_off_object };
+constexpr auto names_of(SkipReason) {
+  return std::to_array<std::string_view>(
+      {"", "no_points", "eroded_away", "no_seed_point", "seed_off_object"});
+}
 
 /// 3D segmentation of one detection; frame depth_optical, metres. Nothing but `skipped` when it
 /// failed.

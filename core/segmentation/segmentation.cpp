@@ -17,24 +17,18 @@ void check_edge(double voxel_m) {
 
 }  // namespace
 
-template <ByDetection Kind>
-Segment segment(const Detection& detection, const RegisteredCloud& cloud, double voxel_m,
-                const Kind& kind, bool with_voxels) {
+void check_input(const Detection& detection, const RegisteredCloud& cloud, double voxel_m) {
   check_edge(voxel_m);
-  check_ranges(kind);
   check(detection, cloud.width_px(), cloud.height_px());
-  Segment found = kind.segment(detection, cloud, voxel_m, with_voxels);
+}
+
+Segment described(Segment found, const Detection& detection) {
   found.class_id = detection.class_id;
   found.instance = detection.instance;
   found.score = detection.score;
   for (const Eigen::Vector3d& point : found.points) found.box.extend(point);
   return found;
 }
-
-template Segment segment(const Detection&, const RegisteredCloud&, double, const Direct&, bool);
-template Segment segment(const Detection&, const RegisteredCloud&, double, const Erosion&, bool);
-template Segment segment(const Detection&, const RegisteredCloud&, double, const RegionGrowing&,
-                         bool);
 
 std::vector<Segment> segment(const Sight& sight, const Segmentation& segmentation, double voxel_m,
                              bool with_voxels) {

@@ -4,9 +4,9 @@
 #pragma once
 
 #include "core/segmentation/direct.hpp"
-#include "core/segmentation/edge_aligned.hpp"
+#include "core/segmentation/edge_aligned/edge_aligned.hpp"
 #include "core/segmentation/erosion.hpp"
-#include "core/segmentation/region_growing.hpp"
+#include "core/segmentation/growing/region_growing.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/sight.hpp"
 
@@ -32,9 +32,20 @@ concept ByDetection = requires(const Kind& kind, const Detection& detection,
 [[nodiscard]] std::vector<Segment> segment(const Sight& sight, const Segmentation& segmentation,
                                            double voxel_m, bool with_voxels);
 
+/// Throws Error when one detection cannot be segmented: voxels without a positive edge, or a mask
+/// that does not fit the cloud's colour image.
+void check_input(const Detection& detection, const RegisteredCloud& cloud, double voxel_m);
+
+/// What was found of a detection, with its class, instance and score, and the box of the points.
+[[nodiscard]] Segment described(Segment found, const Detection& detection);
+
 /// The same for one detection. Throws Error also when it does not fit the cloud's colour image.
 template <ByDetection Kind>
 [[nodiscard]] Segment segment(const Detection& detection, const RegisteredCloud& cloud,
-                              double voxel_m, const Kind& kind, bool with_voxels);
+                              double voxel_m, const Kind& kind, bool with_voxels) {
+  check_ranges(kind);
+  check_input(detection, cloud, voxel_m);
+  return described(kind.segment(detection, cloud, voxel_m, with_voxels), detection);
+}
 
 }  // namespace mapscore

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/cli/options.hpp"
+#include "eval/cli/shared/options.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/report/baseline.hpp"
 #include "files/text.hpp"

@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/figures.hpp"
+#include "eval/report/figures/figures.hpp"
 
 #include "core/error.hpp"
-#include "eval/cli/options.hpp"
-#include "eval/cli/trial_maps.hpp"
+#include "eval/cli/shared/options.hpp"
+#include "eval/cli/shared/trial_maps.hpp"
+#include "eval/cli/shared/view_flag.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/cli/view_flag.hpp"
-#include "eval/experiment/bench.hpp"
-#include "eval/experiment/study_store.hpp"
-#include "eval/report/believed_figures.hpp"
-#include "eval/report/contact_sheet.hpp"
-#include "eval/report/pictures.hpp"
-#include "eval/report/pictures_caption.hpp"
+#include "eval/lab/bench.hpp"
+#include "eval/report/figures/believed_figures.hpp"
+#include "eval/report/pictures/caption.hpp"
+#include "eval/report/pictures/contact_sheet.hpp"
+#include "eval/report/pictures/pictures.hpp"
+#include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"
 #include "files/text.hpp"
 

@@ -5,13 +5,13 @@
 #include "eval/cli/info_logs.hpp"
 #include "eval/cli/info_scene.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/experiment/plan.hpp"
-#include "eval/experiment/study_recording.hpp"
-#include "eval/experiment/study_store.hpp"
 #include "eval/map_files/legend.hpp"
 #include "eval/map_files/map_file.hpp"
 #include "eval/recording/recording.hpp"
+#include "eval/render/study_recording.hpp"
 #include "eval/report/summary.hpp"
+#include "eval/results/plan.hpp"
+#include "eval/results/study_store.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
@@ -101,10 +101,8 @@ void info(const fs::path& file, const SceneInfoFlags& flags) {
   if (fs::exists(file / "recording.yaml")) return print_recording(file);
   if (fs::exists(store_file(file)) && store_file(file).extension() == ".sqlite")
     return print_store(file);
-  throw Error(
-      file.string() +
-      ": not a scene (.xml), a recording's folder, a map (.ot, .bt, .ply, .pcd, .csv) or a results "
-      "folder");
+  throw Error(file.string() + ": not a scene (.xml), a recording's folder, a map (" +
+              map_endings() + ") or a results folder");
 }
 
 }  // namespace

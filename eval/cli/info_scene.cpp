@@ -5,13 +5,13 @@
 
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
-#include "eval/experiment/study_recording.hpp"
-#include "eval/report/pictures_caption.hpp"
-#include "eval/report/pictures_scene.hpp"
-#include "eval/report/pictures_view.hpp"
+#include "eval/render/study_recording.hpp"
+#include "eval/report/pictures/caption.hpp"
+#include "eval/report/pictures/scene.hpp"
+#include "eval/report/pictures/view.hpp"
 #include "files/text.hpp"
-#include "sim/world/class_suggestion.hpp"
-#include "sim/world/scene_inventory.hpp"
+#include "sim/inventory/class_suggestion.hpp"
+#include "sim/inventory/scene_inventory.hpp"
 #include "sim/world/shape_bounds.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/cli/terminal_guard.hpp"
+#include "eval/cli/shared/terminal_guard.hpp"
 #include "eval/cli/verbs.hpp"
 #include "files/text.hpp"
 
@@ -48,23 +48,7 @@ void refuse_empty_values(int argc, char** argv) {
 
 int run(CLI::App& program, int argc, char** argv) {
   int exit_code = 0;
-  namespace verbs = mapscore::eval;
-  verbs::add_record(program);
-  verbs::add_run(program);
-  verbs::add_frames(program);
-  verbs::add_sweep(program);
-  verbs::add_map(program);
-  verbs::add_localize(program);
-  verbs::add_segment(program);
-  verbs::add_objects(program);
-  verbs::add_truth(program);
-  verbs::add_score(program);
-  verbs::add_resolutions(program);
-  verbs::add_table(program);
-  verbs::add_compare(program);
-  verbs::add_figures(program);
-  verbs::add_check(program, exit_code);
-  verbs::add_info(program);
+  mapscore::eval::add_verbs(program, exit_code);
   refuse_unknown_verb(program, argc, argv);
   refuse_empty_values(argc, argv);
   program.parse(argc, argv);

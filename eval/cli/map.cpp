@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/cli/choice_flags.hpp"
-#include "eval/cli/options.hpp"
-#include "eval/cli/output_check.hpp"
-#include "eval/cli/progress.hpp"
+#include "eval/cli/shared/choice_flags.hpp"
+#include "eval/cli/shared/options.hpp"
+#include "eval/cli/shared/output_check.hpp"
+#include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/experiment/folder_mapping.hpp"
-#include "eval/experiment/map_frame.hpp"
-#include "eval/experiment/study_store.hpp"
+#include "eval/lab/folder_mapping.hpp"
+#include "eval/lab/map_frame.hpp"
 #include "eval/map_files/voxel_ply.hpp"
 #include "eval/recording/frame_selection.hpp"
-#include "eval/score/prediction.hpp"
-#include "files/folder_lock.hpp"
+#include "eval/results/study_store.hpp"
+#include "eval/score/map_snapshot.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
@@ -155,8 +154,7 @@ void map_recording(const MapVerbFlags& flags) {
   if (map.voxels().empty() && !flags.quiet)
     std::cerr << "mapscore: note: the map has no voxel; do the classes occur in the labels, and do "
                  "poses, depth and --origin_m fit?\n";
-  const FolderLock lock(
-      std::filesystem::absolute(flags.file).parent_path());  // the files belong together
+  const OutputLocks together({flags.file, flags.color_file, flags.ply_file});
   map.save(flags.file);
   if (!flags.color_file.empty()) map.export_color(flags.color_file, folder.table(), threshold);
   if (!flags.ply_file.empty()) write_voxel_ply(flags.ply_file, map, folder.table(), threshold);

@@ -3,15 +3,15 @@
 
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
-#include "eval/cli/options.hpp"
-#include "eval/cli/progress.hpp"
-#include "eval/cli/recording_progress.hpp"
+#include "eval/cli/shared/options.hpp"
+#include "eval/cli/shared/progress.hpp"
+#include "eval/cli/shared/recording_progress.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/experiment/object_run.hpp"
-#include "eval/experiment/study_recording.hpp"
-#include "eval/experiment/study_store.hpp"
+#include "eval/lab/object_run.hpp"
 #include "eval/objects/object_mjcf.hpp"
+#include "eval/render/study_recording.hpp"
 #include "eval/report/object_table.hpp"
+#include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"
 
 #include <fmt/format.h>
@@ -133,6 +133,31 @@ void map_objects(const ObjectFlags& flags) {
   if (recording.info().has_truth) print_score(run, table, flags);
 }
 
+/// How the points of a detection become a box, and the boxes of views an object.
+void add_box_flags(CLI::App& verb, ObjectFlags& flags) {
+  verb.add_option("--update", flags.update, "How boxes of views are merged: hull, mean or quantile")
+      ->check(CLI::IsMember({"hull", "mean", "quantile"}))
+      ->capture_default_str();
+  verb.add_option("--face_share", flags.face_share,
+                  fmt::format("Of quantile: share of the views that see each face no farther out "
+                              "[{}]",
+                              BoxMerge{}.share))
+      ->check(CLI::Range(0.01, 1.0));
+  verb.add_option("--piece_m", flags.piece_m,
+                  "Cells in which the points of a detection hang together; the largest piece "
+                  "becomes the box")
+      ->check(CLI::Range(0.001, 1000.0))
+      ->capture_default_str();
+  verb.add_option("--max_age", flags.max_age,
+                  "Frames in a row after which an object is removed that should have been seen "
+                  "and was not")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  verb.add_option("--min_points", flags.min_points, "Points of a detection that becomes a box")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_objects(CLI::App& program) {
@@ -146,34 +171,13 @@ void add_objects(CLI::App& program) {
                    "Folder for objects.yaml, objects.xml (MJCF) and objects.ply")
       ->required();
   verb->add_option("--method", flags->method,
-                   "Of the study, default its first; of a recording direct, erosion, "
-                   "region_growing or edge_aligned");
+                   fmt::format("Of the study, default its first; of a recording {}",
+                               fmt::join(kinds_of(Segmentation{}), ", ")));
   verb->add_option("--seed", flags->seed, "Repetition of the study, from 0")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   verb->add_option("--start", flags->start, "Object map (YAML) to start from");
-  verb->add_option("--update", flags->update,
-                   "How boxes of views are merged: hull, mean or quantile")
-      ->check(CLI::IsMember({"hull", "mean", "quantile"}))
-      ->capture_default_str();
-  verb->add_option("--face_share", flags->face_share,
-                   fmt::format("Of quantile: share of the views that see each face no farther out "
-                               "[{}]",
-                               BoxMerge{}.share))
-      ->check(CLI::Range(0.01, 1.0));
-  verb->add_option("--piece_m", flags->piece_m,
-                   "Cells in which the points of a detection hang together; the largest piece "
-                   "becomes the box")
-      ->check(CLI::Range(0.001, 1000.0))
-      ->capture_default_str();
-  verb->add_option("--max_age", flags->max_age,
-                   "Frames in a row after which an object is removed that should have been seen "
-                   "and was not")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  verb->add_option("--min_points", flags->min_points, "Points of a detection that becomes a box")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  add_box_flags(*verb, *flags);
   verb->add_option("--against", flags->against,
                    "Boxes of the truth: of the whole surface, or of what the frames saw of it")
       ->check(CLI::IsMember({"surface", "seen"}))

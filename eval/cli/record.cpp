@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/cli/options.hpp"
-#include "eval/cli/recording_progress.hpp"
+#include "eval/cli/shared/options.hpp"
+#include "eval/cli/shared/recording_progress.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/experiment/baked_frames.hpp"
-#include "eval/experiment/study_recording.hpp"
 #include "eval/recording/recording.hpp"
+#include "eval/render/baked_frames.hpp"
+#include "eval/render/study_recording.hpp"
+#include "sim/recorder/recorded_drive.hpp"
 
 #include <fmt/format.h>
 

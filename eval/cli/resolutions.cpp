@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "core/mapping/fusion_rule.hpp"
+#include "core/fusion/fusion_rule.hpp"
 #include "core/mapping/map_resolution.hpp"
-#include "eval/cli/map_score.hpp"
-#include "eval/cli/options.hpp"
-#include "eval/cli/output_check.hpp"
-#include "eval/cli/progress.hpp"
-#include "eval/cli/truth_source.hpp"
+#include "eval/cli/shared/map_score.hpp"
+#include "eval/cli/shared/options.hpp"
+#include "eval/cli/shared/output_check.hpp"
+#include "eval/cli/shared/progress.hpp"
+#include "eval/cli/shared/truth_source.hpp"
+#include "eval/cli/shared/view_flag.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/cli/view_flag.hpp"
-#include "eval/report/map_pictures.hpp"
-#include "eval/report/pictures_view.hpp"
-#include "eval/report/resolution_picture.hpp"
+#include "eval/report/pictures/map_pictures.hpp"
+#include "eval/report/pictures/resolution_picture.hpp"
+#include "eval/report/pictures/view.hpp"
 #include "eval/report/tidy_csv.hpp"
 
 #include <fmt/format.h>
@@ -23,6 +23,8 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace mapscore::eval {
 namespace {
@@ -43,7 +45,7 @@ struct ResolutionFlags {
 FusionRule rule_of(const std::string& name, const ClassTable& table) {
   for (const DrawnFusion& kind : each_kind<DrawnFusion>())
     if (kind_of(kind) == name) return for_classes(kind, table).rule;
-  throw Error("--rule: no rule '" + name + "'");
+  throw Error("--fusion: no rule '" + name + "'");
 }
 
 /// The map with voxels of `times` its size, as a map to score.
@@ -143,6 +145,7 @@ void read_resolutions(const ResolutionFlags& flags) {
   if (flags.view.view() && flags.picture.empty())
     throw Error("--view: needs --picture, the file that it is drawn into");
   const SemanticMap map = SemanticMap::load(flags.map.file);
+  const OutputLocks together({flags.picture, flags.color});
   Resolutions sizes = score_sizes(flags, map);
   if (!flags.picture.empty()) draw(flags, sizes);
   sizes.table.caption = {
@@ -165,11 +168,11 @@ void add_resolutions(CLI::App& program) {
   verb->add_option("--times", flags->times, "Voxels of so many times the map's edge [1,2,4,8]")
       ->delimiter(',')
       ->allow_extra_args(false);
+  const std::vector<std::string> rules = kinds_of(DrawnFusion{});
   verb->add_option("--fusion", flags->rule,
-                   "Rule that the map was made by: blend, max_confidence, vote, bayes or top3 "
-                   "[blend]")
-      ->check(
-          CLI::IsMember(std::set<std::string>{"blend", "max_confidence", "vote", "bayes", "top3"}));
+                   fmt::format("Rule that the map was made by: {} [{}]", fmt::join(rules, ", "),
+                               flags->rule))
+      ->check(CLI::IsMember(rules));
   verb->add_option("--threshold", flags->threshold,
                    "Least probability of a predicted voxel [half of the rule's first full hit]")
       ->check(finite_within(0.0, 1.0));

@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/cli/map_input.hpp"
-#include "eval/cli/map_score.hpp"
-#include "eval/cli/options.hpp"
-#include "eval/cli/truth_source.hpp"
+#include "eval/cli/shared/map_input.hpp"
+#include "eval/cli/shared/map_score.hpp"
+#include "eval/cli/shared/options.hpp"
+#include "eval/cli/shared/output_check.hpp"
+#include "eval/cli/shared/truth_source.hpp"
+#include "eval/cli/shared/view_flag.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/cli/view_flag.hpp"
-#include "eval/report/error_ply.hpp"
-#include "eval/report/map_pictures.hpp"
-#include "eval/report/pictures_view.hpp"
+#include "eval/report/pictures/error_ply.hpp"
+#include "eval/report/pictures/map_pictures.hpp"
+#include "eval/report/pictures/view.hpp"
 #include "eval/report/table.hpp"
 #include "eval/score/label_images.hpp"
-#include "files/folder_lock.hpp"
 
 #include <fmt/format.h>
 
@@ -86,11 +86,7 @@ void note(const ScoreFlags& flags, const std::string& text) {
 void write_errors(const ScoreFlags& flags, const InputMap& map, const MapScore& score,
                   const TruthSource& source) {
   if (flags.picture.empty() && flags.errors_ply.empty()) return;
-  std::optional<FolderLock> lock;  // the two files belong together
-  const std::filesystem::path folder =
-      std::filesystem::absolute(flags.picture.empty() ? flags.errors_ply : flags.picture)
-          .parent_path();
-  if (std::filesystem::is_directory(folder)) lock.emplace(folder);
+  const OutputLocks together({flags.picture, flags.errors_ply});
   const std::string name = std::filesystem::path(flags.map.file).filename().string();
   const JudgedMap judged =
       judged_map(name, name, map.snapshot, score.threshold, score.truth.surface,

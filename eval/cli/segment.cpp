@@ -5,8 +5,8 @@
 #include "core/geometry/oriented_box.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "core/whole_file.hpp"
-#include "eval/cli/choice_flags.hpp"
-#include "eval/cli/options.hpp"
+#include "eval/cli/shared/choice_flags.hpp"
+#include "eval/cli/shared/options.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/map_files/cloud_file.hpp"
 #include "eval/recording/recording.hpp"
@@ -16,7 +16,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -44,9 +43,7 @@ Frame frame_of(const Recording& recording, int frame) {
 }
 
 std::string_view name_of(SkipReason reason) {
-  constexpr std::array<std::string_view, 5> kReasons{"", "no_points", "eroded_away",
-                                                     "no_seed_point", "seed_off_object"};
-  return kReasons.at(static_cast<std::size_t>(reason));
+  return names_of(reason)[static_cast<std::size_t>(reason)];
 }
 
 std::vector<std::string> columns() {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/cli/options.hpp"
-#include "eval/cli/truth_source.hpp"
+#include "eval/cli/shared/options.hpp"
+#include "eval/cli/shared/truth_source.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/truth/truth_file.hpp"
 

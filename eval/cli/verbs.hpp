@@ -26,4 +26,24 @@ void add_figures(CLI::App& program);
 void add_check(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program);
 
+/// All of them, in the order of the help.
+inline void add_verbs(CLI::App& program, int& exit_code) {
+  add_record(program);
+  add_run(program);
+  add_frames(program);
+  add_sweep(program);
+  add_map(program);
+  add_localize(program);
+  add_segment(program);
+  add_objects(program);
+  add_truth(program);
+  add_score(program);
+  add_resolutions(program);
+  add_table(program);
+  add_compare(program);
+  add_figures(program);
+  add_check(program, exit_code);
+  add_info(program);
+}
+
 }  // namespace mapscore::eval

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/recording/pose_text.hpp"
 #include "eval/recording/stamped_lines.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/localization/pose_estimate.hpp"
-#include "core/mapping/pose_belief.hpp"
+#include "core/placement/pose_belief.hpp"
 #include "eval/recording/odometry_file.hpp"
 
 #include <vector>

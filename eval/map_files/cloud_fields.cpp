@@ -3,9 +3,9 @@
 
 #include "eval/map_files/cloud_fields.hpp"
 
-#include "eval/map_files/lower_case.hpp"
 #include "eval/map_files/refusal.hpp"
-#include "eval/map_files/text_rows.hpp"
+#include "files/lower_case.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
-#include "eval/recording/little_endian.hpp"
+#include "files/point_ply.hpp"
 
 #include <fmt/format.h>
 
@@ -14,14 +14,6 @@
 
 namespace mapscore::eval {
 namespace {
-
-std::string ply_header(std::size_t count) {
-  return fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
-      "property float x\nproperty float y\nproperty float z\n"
-      "property uint label\nproperty uint instance\nend_header\n",
-      count);
-}
 
 std::string pcd_header(std::size_t count) {
   return fmt::format(
@@ -39,12 +31,12 @@ void write_cloud(const std::filesystem::path& file, std::span<const Eigen::Vecto
   if (!ply && file.extension() != ".pcd")
     throw Error(file.string() +
                 ": clouds are written as .ply or .pcd; give the file one of these endings");
-  std::string bytes = ply ? ply_header(points.size()) : pcd_header(points.size());
-  for (const Eigen::Vector3d& p : points) {
-    for (const double x : p) append_little_endian(bytes, static_cast<float>(x));
-    append_little_endian(bytes, std::uint32_t{class_id});
-    append_little_endian(bytes, std::uint32_t{instance});
-  }
+  PointPly points_ply(points.size(), {"uint label", "uint instance"});
+  for (const Eigen::Vector3d& p : points)
+    points_ply.add(p, std::uint32_t{class_id}, std::uint32_t{instance});
+  // A PCD has the same rows below another header.
+  std::string bytes = points_ply.bytes();
+  if (!ply) bytes.replace(0, points_ply.header_bytes(), pcd_header(points.size()));
   write_whole_file(file, bytes);
 }
 

@@ -3,12 +3,12 @@
 
 #include "eval/map_files/map_file.hpp"
 
-#include "eval/map_files/lower_case.hpp"
 #include "eval/map_files/octree_file.hpp"
 #include "eval/map_files/pcd_file.hpp"
 #include "eval/map_files/ply_file.hpp"
 #include "eval/map_files/refusal.hpp"
 #include "eval/map_files/voxel_csv.hpp"
+#include "files/lower_case.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,24 +16,45 @@
 namespace mapscore::eval {
 namespace {
 
-std::string ending_of(const std::filesystem::path& file) {
-  return lower_case(file.extension().string());
+/// A format by its ending.
+struct Reader {
+  std::string_view ending;
+  MapFile (*read)(const std::filesystem::path& file, NotFinite not_finite);
+};
+
+MapFile read_tree(const std::filesystem::path& file, NotFinite) {
+  return read_octree(file);
+}
+
+constexpr auto kReaders = std::to_array<Reader>({{".ot", read_tree},
+                                                 {".bt", read_tree},
+                                                 {".ply", read_ply},
+                                                 {".pcd", read_pcd},
+                                                 {".csv", read_voxel_csv}});
+
+/// nullptr where no format has the file's ending.
+const Reader* reader_of(const std::filesystem::path& file) {
+  const auto found =
+      std::ranges::find(kReaders, lower_case(file.extension().string()), &Reader::ending);
+  return found == kReaders.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
+std::string map_endings() {
+  std::string endings;
+  for (const Reader& reader : kReaders)
+    endings.append(endings.empty() ? "" : ", ").append(reader.ending);
+  return endings;
+}
+
 bool has_ending_of_a_map(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 5> kEndings{".ot", ".bt", ".ply", ".pcd", ".csv"};
-  return std::ranges::find(kEndings, ending_of(file)) != kEndings.end();
+  return reader_of(file) != nullptr;
 }
 
 MapFile read_map_file(const std::filesystem::path& file, NotFinite not_finite) {
-  const std::string ending = ending_of(file);
-  if (ending == ".ot" || ending == ".bt") return read_octree(file);
-  if (ending == ".ply") return read_ply(file, not_finite);
-  if (ending == ".pcd") return read_pcd(file, not_finite);
-  if (ending == ".csv") return read_voxel_csv(file, not_finite);
-  refuse(file, "maps are read from .ot, .bt, .ply, .pcd and .csv; convert it to one of these");
+  if (const Reader* reader = reader_of(file)) return reader->read(file, not_finite);
+  refuse(file, "maps are read from " + map_endings() + "; convert it to one of these");
 }
 
 }  // namespace mapscore::eval

@@ -42,12 +42,14 @@ struct MapFile {
 /// What to do with points that have a coordinate that is not finite.
 enum class NotFinite { refuse, skip };
 
+/// The endings that read_map_file knows: ".ot, .bt, ...".
+[[nodiscard]] std::string map_endings();
+
 /// Whether read_map_file would try the file; it need not be there. Capitals do not matter.
 [[nodiscard]] bool has_ending_of_a_map(const std::filesystem::path& file);
 
-/// Reads a map by its ending: .ot and .bt (octree_file.hpp), .ply and .pcd (ply_file.hpp,
-/// pcd_file.hpp), .csv (voxel_csv.hpp). Throws Error naming the file, with where and why, for what
-/// is missing, truncated, damaged or empty.
+/// Reads a map by its ending (docs/formats.md). Throws Error naming the file, with where and why,
+/// for what is missing, truncated, damaged or empty.
 [[nodiscard]] MapFile read_map_file(const std::filesystem::path& file,
                                     NotFinite not_finite = NotFinite::refuse);
 

@@ -5,9 +5,9 @@
 
 #include "core/error.hpp"
 #include "eval/map_files/refusal.hpp"
-#include "eval/map_files/text_rows.hpp"
-#include "eval/recording/file_bytes.hpp"
 #include "eval/recording/pose_text.hpp"
+#include "files/file_bytes.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 

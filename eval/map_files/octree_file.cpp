@@ -6,7 +6,7 @@
 #include "core/mapping/semantic_octree.hpp"
 #include "eval/map_files/octree_leaves.hpp"
 #include "eval/map_files/refusal.hpp"
-#include "eval/recording/file_bytes.hpp"
+#include "files/file_bytes.hpp"
 
 #include <fmt/format.h>
 

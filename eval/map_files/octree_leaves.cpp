@@ -3,7 +3,7 @@
 
 #include "eval/map_files/octree_leaves.hpp"
 
-#include "core/mapping/class_beliefs.hpp"
+#include "core/fusion/class_beliefs.hpp"
 #include "core/mapping/semantic_octree.hpp"
 #include "eval/map_files/refusal.hpp"
 

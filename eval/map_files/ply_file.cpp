@@ -6,8 +6,8 @@
 #include "eval/map_files/cloud_builder.hpp"
 #include "eval/map_files/ply_header.hpp"
 #include "eval/map_files/refusal.hpp"
-#include "eval/map_files/text_rows.hpp"
-#include "eval/recording/file_bytes.hpp"
+#include "files/file_bytes.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "eval/map_files/ply_header.hpp"
 
 #include "eval/map_files/refusal.hpp"
-#include "eval/map_files/text_rows.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 

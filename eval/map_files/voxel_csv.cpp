@@ -3,11 +3,11 @@
 
 #include "eval/map_files/voxel_csv.hpp"
 
-#include "eval/map_files/lower_case.hpp"
 #include "eval/map_files/refusal.hpp"
-#include "eval/map_files/text_rows.hpp"
-#include "eval/recording/file_bytes.hpp"
 #include "files/csv.hpp"
+#include "files/file_bytes.hpp"
+#include "files/lower_case.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
-#include "eval/recording/little_endian.hpp"
+#include "files/point_ply.hpp"
 
 #include <fmt/format.h>
 
@@ -18,24 +18,16 @@ std::string voxel_ply_bytes(const SemanticMap& map, const ClassTable& table, dou
   std::erase_if(voxels, [&](const MapVoxel& voxel) {
     return !voxel.occupied || voxel.best_class == kBackground || voxel.probability < threshold;
   });
-  std::string bytes = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
-      "property float x\nproperty float y\nproperty float z\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
-      "property uint label\nproperty float probability\nend_header\n",
-      voxels.size());
+  PointPly ply(voxels.size(),
+               {"uchar red", "uchar green", "uchar blue", "uint label", "float probability"});
   for (const MapVoxel& voxel : voxels) {
     if (voxel.best_class >= table.classes.size())
       throw Error(fmt::format("map: class {} is not in the class table", voxel.best_class));
-    for (const double x : centre_of(voxel.key, map.edge_m()))
-      append_little_endian(bytes, static_cast<float>(x));
     const Colour colour = table.classes[voxel.best_class].colour;
-    for (const std::uint8_t channel : {colour.r, colour.g, colour.b})
-      append_little_endian(bytes, channel);
-    append_little_endian(bytes, std::uint32_t{voxel.best_class});
-    append_little_endian(bytes, static_cast<float>(voxel.probability));
+    ply.add(centre_of(voxel.key, map.edge_m()), colour.r, colour.g, colour.b,
+            std::uint32_t{voxel.best_class}, static_cast<float>(voxel.probability));
   }
-  return bytes;
+  return ply.bytes();
 }
 
 void write_voxel_ply(const std::filesystem::path& file, const SemanticMap& map,

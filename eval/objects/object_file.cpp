@@ -6,8 +6,9 @@
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
 #include "eval/recording/pose_text.hpp"
-#include "eval/recording/yaml_value.hpp"
 #include "files/text.hpp"
+#include "files/text_rows.hpp"
+#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -42,13 +43,13 @@ template <std::size_t kSize>
 std::array<double, kSize> numbers_at(const YamlValue& parent, const std::string& key,
                                      const char* expected) {
   const YamlValue value = parent.at(key);
-  const std::vector<YamlValue> items = value.items();
+  const std::vector<YamlValue> items = value.elements();
   std::array<double, kSize> numbers{};
-  if (items.size() != kSize) value.refuse(std::string("expected ") + expected);
+  if (items.size() != kSize) value.fail(std::string("expected ") + expected);
   for (std::size_t n = 0; n < kSize; ++n) {
     numbers[n] = items[n].number();
     if (std::abs(numbers[n]) > kMaxReach_m)
-      items[n].refuse(fmt::format("beyond {:g}; give metres", kMaxReach_m));
+      items[n].fail(fmt::format("beyond {:g}; give metres", kMaxReach_m));
   }
   return numbers;
 }
@@ -61,7 +62,7 @@ ClassId class_at(const YamlValue& item, const ClassTable& table) {
     if (c.name == value.text()) return c.id;
     names.push_back(c.name);
   }
-  value.refuse(fmt::format("no class '{}'; there are: {}", value.text(), fmt::join(names, ", ")));
+  value.fail(fmt::format("no class '{}'; there are: {}", value.text(), fmt::join(names, ", ")));
 }
 
 int count_at(const YamlValue& item, const std::string& key) {
@@ -76,11 +77,11 @@ MapObject object_of(const YamlValue& item, const ClassTable& table) {
       static_cast<ObjectId>(item.at("id").whole(1, std::numeric_limits<ObjectId>::max() - 1));
   object.class_id = class_at(item, table);
   const auto pose = pose_of(numbers_at<7>(item, "T_map_object", "[tx, ty, tz, qx, qy, qz, qw]"));
-  if (!pose) item.at("T_map_object").refuse("quaternion is not of length 1; normalise it");
+  if (!pose) item.at("T_map_object").fail("quaternion is not of length 1; normalise it");
   object.box.T_frame_box = *pose;
   const auto size = numbers_at<3>(item, "size_m", "[x, y, z], the box's lengths");
   if (*std::min_element(size.begin(), size.end()) < 0.0)
-    item.at("size_m").refuse("a negative length; give the box's lengths along its axes");
+    item.at("size_m").fail("a negative length; give the box's lengths along its axes");
   object.box.size_m = {size[0], size[1], size[2]};
   if (item.has("model")) object.model = item.at("model").text();
   object.last_seen_s = item.at("last_seen_s").number();
@@ -89,7 +90,7 @@ MapObject object_of(const YamlValue& item, const ClassTable& table) {
   object.age = count_at(item, "age");
   object.confidence = item.at("confidence").number();
   if (object.confidence < 0.0 || object.confidence > 1.0)
-    item.at("confidence").refuse("expected a number from 0 to 1");
+    item.at("confidence").fail("expected a number from 0 to 1");
   return object;
 }
 
@@ -117,22 +118,22 @@ void write_objects(const std::filesystem::path& path, const ObjectFile& file,
 }
 
 ObjectFile read_objects(const std::filesystem::path& path, const ClassTable& table) {
-  const YamlValue root = YamlValue::load(path);
+  const YamlValue root = load_yaml(path);
   const YamlValue version = root.at("format_version");
   if (version.text() != std::to_string(kObjectFileFormat))
-    version.refuse(
+    version.fail(
         fmt::format("an object map of another format; this program reads {}", kObjectFileFormat));
   root.only({"format_version", "map_origin_m", "map_yaw_deg", "objects"});
   ObjectFile file;
   const auto origin = numbers_at<3>(root, "map_origin_m", "[x, y, z]");
   file.map_origin_m = {origin[0], origin[1], origin[2]};
   file.map_yaw_deg = root.at("map_yaw_deg").number();
-  if (std::abs(file.map_yaw_deg) > 360.0) root.at("map_yaw_deg").refuse("expected -360 to 360");
-  for (const YamlValue& item : root.at("objects").items()) {
+  if (std::abs(file.map_yaw_deg) > 360.0) root.at("map_yaw_deg").fail("expected -360 to 360");
+  for (const YamlValue& item : root.at("objects").elements()) {
     file.objects.push_back(object_of(item, table));
     const std::size_t count = file.objects.size();
     if (count > 1 && file.objects[count - 2].id >= file.objects.back().id)
-      item.at("id").refuse("not above that of the object before; sort them, each id once");
+      item.at("id").fail("not above that of the object before; sort them, each id once");
   }
   return file;
 }

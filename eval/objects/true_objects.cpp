@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/depth_rays.hpp"
-#include "eval/truth/shape_tests.hpp"
+#include "eval/truth/shapes/shape_tests.hpp"
 
 #include <fmt/format.h>
 

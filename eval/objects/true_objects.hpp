@@ -49,8 +49,8 @@ class SeenInstances {
                                                       const ClassTable& table,
                                                       std::int64_t min_samples = 1);
 
-/// What simulated perception is told of the truth: a box about each drawn surface of the instances
-/// of detected classes, along the surface's own axes, or one about each instance.
+/// The true boxes that simulated perception knows: one about each instance of a detected class or,
+/// with `by_surface`, about each of its drawn surfaces, along the surface's own axes.
 [[nodiscard]] std::vector<PerceivedModel> models_of(const std::vector<Shape>& shapes,
                                                     const Pose& T_map_world,
                                                     const ClassTable& table, bool by_surface);

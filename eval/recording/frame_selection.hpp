@@ -11,11 +11,11 @@
 
 namespace mapscore::eval {
 
-/// Which frames of a recording, told apart from how many it has: all of them, or those of a list of
-/// single frames and slices, `3,7,9`, `0:50:2`, `:10,40:`. A slice is first:end:step as in Python,
-/// without `end`; first is 0, end the number of frames and step 1 where left out. Frames count from
-/// 0. Unlike in Python, no number is negative, the step is at least 1, and a number beyond the
-/// recording is an error.
+/// A selection of a recording's frames, independent of their number: all of them, or those of a
+/// list of single frames and slices, `3,7,9`, `0:50:2`, `:10,40:`. A slice is first:end:step as in
+/// Python, without `end`; first is 0, end the number of frames and step 1 where left out. Frames
+/// count from 0. Unlike in Python, no number is negative, the step is at least 1, and a number
+/// beyond the recording is an error.
 class FrameSelection {
  public:
   /// All frames.

@@ -5,10 +5,10 @@
 
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
-#include "eval/recording/file_bytes.hpp"
-#include "eval/recording/pgm.hpp"
-#include "eval/recording/yaml_value.hpp"
+#include "files/file_bytes.hpp"
+#include "files/pgm.hpp"
 #include "files/text.hpp"
+#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ std::array<Occupancy, 256> meanings(const GreyRule& rule) {
 double share_at(const YamlValue& root, const std::string& key) {
   const YamlValue value = root.at(key);
   const double share = value.number();
-  if (!(share >= 0 && share <= 1)) value.refuse("is a probability; give 0 to 1");
+  if (!(share >= 0 && share <= 1)) value.fail("is a probability; give 0 to 1");
   return share;
 }
 
@@ -54,12 +54,12 @@ GreyRule rule_of(const YamlValue& root) {
   rule.occupied_thresh = share_at(root, "occupied_thresh");
   rule.free_thresh = share_at(root, "free_thresh");
   if (rule.free_thresh >= rule.occupied_thresh)
-    root.at("free_thresh").refuse("must lie below occupied_thresh");
+    root.at("free_thresh").fail("must lie below occupied_thresh");
   if (!root.has("mode")) return rule;
   const YamlValue mode = root.at("mode");
   rule.scale = mode.text() == "scale";
   if (!rule.scale && mode.text() != "trinary")
-    mode.refuse("must be trinary or scale; write one of them");
+    mode.fail("must be trinary or scale; write one of them");
   return rule;
 }
 
@@ -67,9 +67,9 @@ GridFrame frame_of(const YamlValue& root) {
   GridFrame frame;
   frame.resolution_m = root.at("resolution").positive();
   const YamlValue origin = root.at("origin");
-  const std::vector<YamlValue> items = origin.items();
+  const std::vector<YamlValue> items = origin.elements();
   if (items.size() != 3)
-    origin.refuse("expected [x, y, yaw] in metres and radians; write three numbers");
+    origin.fail("expected [x, y, yaw] in metres and radians; write three numbers");
   frame.T_map_grid = {items[0].number(), items[1].number(), items[2].number()};
   return frame;
 }
@@ -77,7 +77,7 @@ GridFrame frame_of(const YamlValue& root) {
 std::filesystem::path image_file(const YamlValue& root, const std::filesystem::path& yaml_file) {
   const YamlValue value = root.at("image");
   const std::string name = value.text();
-  if (name.empty() || name != shown(name)) value.refuse("must name a PGM file");
+  if (name.empty() || name != shown(name)) value.fail("must name a PGM file");
   return yaml_file.parent_path() / name;  // an absolute name stays as it is
 }
 
@@ -116,7 +116,7 @@ std::array<std::uint8_t, 102> levels_of(const GreyRule& rule) {
 }  // namespace
 
 OccupancyGrid load_grid(const std::filesystem::path& yaml_file) {
-  const YamlValue root = YamlValue::load(yaml_file);
+  const YamlValue root = load_yaml(yaml_file);
   root.only({"image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"});
   GridFrame frame = frame_of(root);
   const std::array<Occupancy, 256> values = meanings(rule_of(root));

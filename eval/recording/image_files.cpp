@@ -4,7 +4,7 @@
 #include "eval/recording/image_files.hpp"
 
 #include "core/error.hpp"
-#include "eval/recording/file_bytes.hpp"
+#include "files/file_bytes.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>

@@ -3,10 +3,11 @@
 
 #include "eval/recording/info_yaml.hpp"
 
-#include "eval/recording/png_size.hpp"
 #include "eval/recording/pose_text.hpp"
-#include "eval/recording/yaml_value.hpp"
+#include "files/png_size.hpp"
 #include "files/text.hpp"
+#include "files/text_rows.hpp"
+#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 
@@ -42,7 +43,7 @@ CameraModel camera_of(const YamlValue& value) {
   camera.height_px = static_cast<int>(value.at("height_px").whole(1, kMostImageSide_px));
   if (const std::string problem = too_many_pixels(camera.width_px, camera.height_px);
       !problem.empty())
-    value.refuse(problem);
+    value.fail(problem);
   camera.fx_px = value.at("fx_px").positive();
   camera.fy_px = value.at("fy_px").positive();
   camera.cx_px = value.at("cx_px").number();
@@ -52,46 +53,46 @@ CameraModel camera_of(const YamlValue& value) {
 
 Pose pose_at(const YamlValue& root, const std::string& key) {
   const YamlValue value = root.at(key);
-  const std::vector<YamlValue> items = value.items();
+  const std::vector<YamlValue> items = value.elements();
   PoseNumbers numbers{};
-  if (items.size() != numbers.size()) value.refuse("expected [tx, ty, tz, qx, qy, qz, qw]");
+  if (items.size() != numbers.size()) value.fail("expected [tx, ty, tz, qx, qy, qz, qw]");
   std::transform(items.begin(), items.end(), numbers.begin(),
                  [](const YamlValue& item) { return item.number(); });
   const auto pose = pose_of(numbers);
-  if (!pose) value.refuse("quaternion qx, qy, qz, qw is not of length 1; normalise it");
+  if (!pose) value.fail("quaternion qx, qy, qz, qw is not of length 1; normalise it");
   return *pose;
 }
 
 /// Ids stand in order without gaps, so the n-th entry has id n.
 std::uint16_t id_of(const YamlValue& item, std::size_t expected) {
-  if (expected > std::numeric_limits<std::uint16_t>::max()) item.refuse("more than 65536 entries");
+  if (expected > std::numeric_limits<std::uint16_t>::max()) item.fail("more than 65536 entries");
   return static_cast<std::uint16_t>(item.at("id").whole(expected, expected));
 }
 
 std::vector<SemanticClass> classes_of(const YamlValue& value) {
   std::vector<SemanticClass> classes;
-  for (const YamlValue& item : value.items()) {
+  for (const YamlValue& item : value.elements()) {
     item.only({"id", "name", "colour", "detect"});
     SemanticClass c{id_of(item, classes.size()), item.at("name").name(), item.at("colour").colour(),
                     item.at("detect").boolean()};
     for (const SemanticClass& other : classes)
-      if (other.name == c.name) item.refuse("two classes have this name; rename one");
+      if (other.name == c.name) item.fail("two classes have this name; rename one");
     classes.push_back(std::move(c));
   }
-  if (classes.empty()) value.refuse("no classes; list at least background with id 0");
+  if (classes.empty()) value.fail("no classes; list at least background with id 0");
   return classes;
 }
 
 std::vector<Instance> instances_of(const YamlValue& value, std::size_t class_count) {
   std::vector<Instance> instances;
-  for (const YamlValue& item : value.items()) {
+  for (const YamlValue& item : value.elements()) {
     item.only({"id", "name", "class"});
     const InstanceId id = id_of(item, instances.size());
     const auto class_id = static_cast<ClassId>(item.at("class").whole(0, class_count - 1));
-    if (id == 0 && class_id != kBackground) item.refuse("instance 0 is background, class 0");
+    if (id == 0 && class_id != kBackground) item.fail("instance 0 is background, class 0");
     instances.push_back({id, item.at("name").name(), class_id});
   }
-  if (instances.empty()) value.refuse("no instances; list at least background with id 0");
+  if (instances.empty()) value.fail("no instances; list at least background with id 0");
   return instances;
 }
 
@@ -108,7 +109,7 @@ Calibration calibration_of(const YamlValue& root) {
   calibration.range_min_m = depth.at("range_min_m").number();
   calibration.range_max_m = depth.at("range_max_m").number();
   if (calibration.range_min_m < 0.0 || calibration.range_max_m <= calibration.range_min_m)
-    depth.refuse("expected 0 <= range_min_m < range_max_m");
+    depth.fail("expected 0 <= range_min_m < range_max_m");
   return calibration;
 }
 
@@ -119,15 +120,15 @@ BakedFaults baked_of(const YamlValue& value) {
   baked.depth = value.at("depth").text();
   baked.labels = value.at("labels").text();
   if (baked.depth.empty() && baked.labels.empty())
-    value.refuse("names no fault; say which, or remove the key");
+    value.fail("names no fault; say which, or remove the key");
   return baked;
 }
 
 void check_version(const YamlValue& root) {
   const YamlValue version = root.at("format_version");
   if (version.text() != std::to_string(kRecordingFormat))
-    version.refuse(fmt::format("recording of format {}, this program reads {}; record it again",
-                               version.text(), kRecordingFormat));
+    version.fail(fmt::format("recording of format {}, this program reads {}; record it again",
+                             version.text(), kRecordingFormat));
 }
 
 /// 0 where the key is left out.
@@ -167,7 +168,7 @@ std::string info_text(const RecordingInfo& info) {
 }
 
 RecordingInfo read_info(const std::filesystem::path& file) {
-  const YamlValue root = YamlValue::load(file);
+  const YamlValue root = load_yaml(file);
   check_version(root);
   root.only({"format_version", "scene", "scene_hash", "mujoco_version", "seed", "motion",
              "motion_hash", "baked", "frame_count", "has_truth", "odometry_count", "scan_count",
@@ -180,7 +181,7 @@ RecordingInfo read_info(const std::filesystem::path& file) {
   if (root.has("motion") || root.has("motion_hash")) {
     info.motion = root.at("motion").text();
     info.motion_hash = root.at("motion_hash").text();
-    if (info.motion.empty()) root.at("motion").refuse("is empty; name the motion's file");
+    if (info.motion.empty()) root.at("motion").fail("is empty; name the motion's file");
   }
   if (root.has("baked")) info.baked = baked_of(root.at("baked"));
   info.frame_count = static_cast<int>(root.at("frame_count").whole(1, kMaxFrames));

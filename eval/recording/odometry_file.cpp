@@ -5,6 +5,7 @@
 
 #include "eval/recording/pose_text.hpp"
 #include "eval/recording/stamp_list.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 

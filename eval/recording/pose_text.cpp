@@ -3,9 +3,6 @@
 
 #include "eval/recording/pose_text.hpp"
 
-#include <fmt/format.h>
-
-#include <charconv>
 #include <cmath>
 
 namespace mapscore::eval {
@@ -31,18 +28,6 @@ std::optional<Pose> pose_of(const PoseNumbers& numbers) {
   pose.linear() = q.normalized().toRotationMatrix();
   pose.translation() = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
   return pose;
-}
-
-std::string join_numbers(std::span<const double> numbers, std::string_view separator) {
-  return fmt::format("{}", fmt::join(numbers, separator));
-}
-
-std::optional<double> parse_number(std::string_view text) {
-  double number = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || stop != end || !std::isfinite(number)) return std::nullopt;
-  return number;
 }
 
 }  // namespace mapscore::eval

@@ -7,9 +7,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 
 namespace mapscore::eval {
 
@@ -21,11 +18,5 @@ using PoseNumbers = std::array<double, 7>;
 /// smaller error is taken for rounding and removed. The identity comes back as exactly the
 /// identity.
 [[nodiscard]] std::optional<Pose> pose_of(const PoseNumbers& numbers);
-
-/// Shortest texts that read back as the same doubles, with `separator` between them.
-[[nodiscard]] std::string join_numbers(std::span<const double> numbers, std::string_view separator);
-
-/// The finite number that is the whole of `text`.
-[[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
 }  // namespace mapscore::eval

@@ -4,13 +4,13 @@
 #include "eval/recording/recording.hpp"
 
 #include "core/error.hpp"
-#include "eval/recording/file_bytes.hpp"
 #include "eval/recording/image_files.hpp"
 #include "eval/recording/info_yaml.hpp"
-#include "eval/recording/png.hpp"
 #include "eval/recording/shape_table.hpp"
 #include "eval/recording/stamp_list.hpp"
 #include "eval/recording/triangle_ply.hpp"
+#include "files/file_bytes.hpp"
+#include "files/png.hpp"
 
 #include <fmt/format.h>
 

@@ -47,8 +47,7 @@ struct RecordingInfo {
   std::uint64_t seed = 0;
   std::optional<BakedFaults> baked;  ///< none: the images are exact
   int frame_count = 0;
-  bool has_truth =
-      true;  ///< truth/ and depth_label/ are there; without, maps can be made but not scored
+  bool has_truth = true;   ///< truth/ and depth_label/ exist; maps can be scored only with them
   int odometry_count = 0;  ///< lines of odometry.txt; 0 where there is none
   int scan_count = 0;      ///< turns of scan/scans.bin; 0 where there is none
 };
@@ -111,15 +110,16 @@ class Recording {
   /// One side of a frame alone: color and label, or depth, depth_label, stamp and pose.
   void read_color(int index, Channels channels, Frame& frame) const;
   void read_depth(int depth_index, Channels channels, Frame& frame) const;
-  /// Exact drawn surfaces in the world frame, background included (instance 0).
-  /// Those that move stand where they were before they did; see read_poses.
+  /// Exact drawn surfaces in the world frame, background included (instance 0); moving ones at
+  /// their place before the motion, see read_poses.
   [[nodiscard]] std::vector<Shape> read_shapes() const;
   /// Where the moving ones of read_shapes were at each depth image; empty where nothing moves.
   [[nodiscard]] ShapePoses read_poses() const;
 
   [[nodiscard]] bool has_odometry() const { return info_.odometry_count > 0; }
   [[nodiscard]] bool has_scans() const { return info_.scan_count > 0; }
-  /// What the wheels' encoders say. Throws Error where there is none, too, or other than announced.
+  /// Odometry from the wheels' encoders. Throws Error when the recording has none, or another
+  /// number of lines than recording.yaml announces.
   [[nodiscard]] std::vector<OdometryPose> read_odometry() const;
   /// The lidar's turns, without noise. Throws Error likewise.
   [[nodiscard]] ScanLog read_scans() const;
@@ -140,39 +140,6 @@ class Recording {
   std::vector<StampedImage> color_;
   std::vector<DepthImage> depth_;
   std::vector<TrajectoryPose> trajectory_;
-};
-
-/// Writes a recording aside (FOLDER.partial) and renames it in `finish`; without `finish` the
-/// destructor removes what was written, so that nothing half-written is ever taken for whole.
-class RecordingWriter {
- public:
-  RecordingWriter(const std::filesystem::path& folder, RecordingInfo info);
-  ~RecordingWriter();
-  RecordingWriter(const RecordingWriter&) = delete;
-  RecordingWriter& operator=(const RecordingWriter&) = delete;
-
-  /// Encodes and writes a colour image and its labels, or a depth image and its labels, with the
-  /// pose of base_footprint at its stamp. Images of a side are numbered from 0. Safe to call from
-  /// several threads, in any order.
-  void write_color(const Frame& frame);
-  void write_depth(const Frame& frame);
-  /// Both sides of a frame, at one stamp, both numbered `frame.index`.
-  void write(const Frame& frame);
-  /// `poses`: where those of `shapes` that move were at each depth image; written, even if nothing
-  /// moved, where the recording has a motion.
-  void write_shapes(const std::vector<Shape>& shapes, const ShapePoses& poses = {});
-  /// Writes odometry.txt, or the lidar's turns, and announces them in recording.yaml.
-  void write_odometry(const std::vector<OdometryPose>& poses);
-  void write_scans(const ScanLog& scans);
-  /// True poses between those of the images: further lines of groundtruth.txt.
-  void add_poses(const std::vector<TrajectoryPose>& poses);
-  /// Writes lists, trajectory and recording.yaml; checks that every frame 0..n-1 was written;
-  /// renames.
-  void finish();
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
 };
 
 }  // namespace mapscore::eval

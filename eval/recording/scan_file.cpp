@@ -4,8 +4,8 @@
 #include "eval/recording/scan_file.hpp"
 
 #include "core/error.hpp"
-#include "eval/recording/file_bytes.hpp"
 #include "eval/recording/pose_text.hpp"
+#include "files/file_bytes.hpp"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,9 @@
 #include "eval/recording/shape_poses.hpp"
 
 #include "core/error.hpp"
-#include "eval/recording/file_bytes.hpp"
 #include "eval/recording/pose_text.hpp"
+#include "files/file_bytes.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 

@@ -4,10 +4,11 @@
 #include "eval/recording/shape_table.hpp"
 
 #include "core/error.hpp"
-#include "eval/recording/file_bytes.hpp"
 #include "eval/recording/pose_text.hpp"
 #include "files/csv.hpp"
+#include "files/file_bytes.hpp"
 #include "files/text.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 

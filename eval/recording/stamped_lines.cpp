@@ -4,9 +4,10 @@
 #include "eval/recording/stamped_lines.hpp"
 
 #include "core/error.hpp"
-#include "eval/recording/file_bytes.hpp"
 #include "eval/recording/pose_text.hpp"
+#include "files/file_bytes.hpp"
 #include "files/text.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,9 @@
 #include "eval/recording/triangle_ply.hpp"
 
 #include "core/error.hpp"
-#include "eval/recording/file_bytes.hpp"
-#include "eval/recording/little_endian.hpp"
 #include "eval/recording/pose_text.hpp"
+#include "files/file_bytes.hpp"
+#include "files/little_endian.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>

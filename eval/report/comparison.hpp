@@ -5,7 +5,7 @@
 
 #include "eval/report/summary.hpp"
 #include "eval/report/table.hpp"
-#include "eval/score/paired.hpp"
+#include "eval/statistics/paired.hpp"
 
 #include <optional>
 #include <string>

@@ -10,8 +10,8 @@
 
 namespace mapscore::eval {
 
-/// Looks at the lattice ceilings of a study: true labels at the true pose, which a recording that
-/// belongs to its truth maps almost without error (docs/ceilings.md).
+/// Checks by a study's lattice ceilings that its recording and truth belong together: true labels
+/// at the true pose must then give an almost perfect map (docs/ceilings.md).
 class LatticeCheck {
  public:
   /// Neither precision nor recall of a sound recording is below this.

@@ -4,8 +4,8 @@
 #include "eval/report/summary.hpp"
 
 #include "core/error.hpp"
-#include "eval/experiment/study_store.hpp"
 #include "eval/report/best_threshold.hpp"
+#include "eval/results/study_store.hpp"
 
 #include <fmt/format.h>
 

@@ -4,12 +4,12 @@
 #pragma once
 
 #include "core/classes.hpp"
-#include "eval/experiment/grid.hpp"
-#include "eval/experiment/plan.hpp"
-#include "eval/experiment/store.hpp"
-#include "eval/experiment/study.hpp"
-#include "eval/score/intervals.hpp"
+#include "eval/results/plan.hpp"
+#include "eval/results/store.hpp"
 #include "eval/score/metrics.hpp"
+#include "eval/statistics/intervals.hpp"
+#include "eval/study/grid.hpp"
+#include "eval/study/study.hpp"
 
 #include <filesystem>
 #include <optional>

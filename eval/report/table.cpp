@@ -55,7 +55,7 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
   for (const ResultLine& line : summary.lattice_ceilings)
     for (const TrialResult& result : line.results) check.add(result.counts);
   if (const std::string note = check.note(); !note.empty()) caption.push_back("note: " + note);
-  if (study.score.instances)
+  if (study.score.asked.instances)
     caption.emplace_back("PQ: of instances; a predicted one is a connected piece of one class");
   return caption;
 }

@@ -3,7 +3,6 @@
 
 #include "eval/report/tidy_csv.hpp"
 
-#include "eval/experiment/result_fields.hpp"
 #include "eval/report/best_threshold.hpp"
 #include "files/csv.hpp"
 
@@ -14,25 +13,21 @@
 namespace mapscore::eval {
 namespace {
 
-std::vector<Metric> counts_as_metrics(const ClassCounts& c) {
+template <class Owner>
+void append_counts(const Owner& owner, std::vector<Metric>& metrics) {
+  for (const CountField<Owner>& field : Owner::counts())
+    if (field.in_tables)
+      metrics.push_back({std::string(field.name), static_cast<double>(owner.*field.member)});
+}
+
+std::vector<Metric> counts_as_metrics(const ClassCounts& counts) {
   std::vector<Metric> metrics;
-  const auto add = [&](const std::string& name, std::int64_t value) {
-    metrics.push_back({name, static_cast<double>(value)});
-  };
-  for (const auto& [name, member] : kClassCountFields) add(name, c.*member);
-  for (const ToleranceCounts& at : c.at_tolerance) {
-    add(fmt::format("true_predicted_t{}", at.voxels), at.true_predicted);
-    add(fmt::format("found_t{}", at.voxels), at.found);
+  append_counts(counts, metrics);
+  for (const ToleranceCounts& at : counts.at_tolerance) {
+    metrics.push_back({fmt::format("true_predicted_t{}", at.voxels), double(at.true_predicted)});
+    metrics.push_back({fmt::format("found_t{}", at.voxels), double(at.found)});
   }
-  add("boxes", c.boxes.detections);
-  add("boxes_unseen", c.boxes.unseen);
-  if (c.thin)
-    for (const auto& [name, member] : kThinCountFields) add(name, (*c.thin).*member);
-  if (!c.instances) return metrics;
-  add("instances_true_positive", c.instances->true_positive);
-  add("instances_false_positive", c.instances->false_positive);
-  add("instances_false_negative", c.instances->false_negative);
-  add("instances_void", c.instances->void_predicted);
+  for_each_part(counts, [&](const char*, const auto& part) { append_counts(part, metrics); });
   return metrics;
 }
 
@@ -59,8 +54,8 @@ void write_result(const ResultLine& line, std::size_t seed, const StudySummary& 
     write(groups[g], kBestF1, text_of(best[g].by_seed[seed].f1));
     write(groups[g], kBestThreshold, text_of(best[g].by_seed[seed].threshold));
   }
-  for (const auto& [name, member] : kAccountingFields)
-    write("all", name, std::to_string(result.accounting.*member));
+  for (const CountField<Accounting>& field : Accounting::counts())
+    write("all", std::string(field.name), std::to_string(result.accounting.*field.member));
 }
 
 void write_line(const ResultLine& line, const StudySummary& summary, std::ostream& out) {

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "eval/experiment/trial_run.hpp"
+#include "eval/lab/trial_run.hpp"
 #include "eval/report/summary.hpp"
 
 #include <iosfwd>

@@ -3,8 +3,12 @@
 
 #pragma once
 
+#include "eval/score/metric.hpp"
+
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
+#include <vector>
 
 namespace mapscore::eval {
 
@@ -24,8 +28,25 @@ struct BoxCounts {
   /// Counts one detection: the box of its kept points (empty when it was skipped) against the
   /// truth's of its instance in the same frame (empty when it has no sample).
   void add(const Eigen::AlignedBox3d& box, const Eigen::AlignedBox3d& truth, double widen_m);
+  /// box_iou, box_25, box_50, box_75, in this order; nullopt without a detection that could be
+  /// judged.
+  [[nodiscard]] std::vector<Metric> metrics() const;
+
+  static auto counts() {
+    return std::to_array<CountField<BoxCounts>>({
+        {"boxes", &BoxCounts::detections},
+        {"boxes_unseen", &BoxCounts::unseen},
+        {"iou_sum_billionth", &BoxCounts::iou_sum_nano, false},
+        {"at_25", &BoxCounts::at_25, false},
+        {"at_50", &BoxCounts::at_50, false},
+        {"at_75", &BoxCounts::at_75, false},
+    });
+  }
   /// Pools.
-  BoxCounts& operator+=(const BoxCounts& other);
+  BoxCounts& operator+=(const BoxCounts& other) {
+    add_counts(*this, other);
+    return *this;
+  }
   bool operator==(const BoxCounts&) const = default;
 };
 

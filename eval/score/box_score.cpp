@@ -76,21 +76,11 @@ void BoxCounts::add(const Eigen::AlignedBox3d& box, const Eigen::AlignedBox3d& t
   at_75 += 4 * iou >= 3 * kNano;
 }
 
-BoxCounts& BoxCounts::operator+=(const BoxCounts& other) {
-  detections += other.detections;
-  unseen += other.unseen;
-  iou_sum_nano += other.iou_sum_nano;
-  at_25 += other.at_25;
-  at_50 += other.at_50;
-  at_75 += other.at_75;
-  return *this;
-}
-
-std::vector<Metric> box_metrics(const BoxCounts& counts) {
-  return {{"box_iou", ratio(counts.iou_sum_nano, counts.detections * kNano)},
-          {"box_25", ratio(counts.at_25, counts.detections)},
-          {"box_50", ratio(counts.at_50, counts.detections)},
-          {"box_75", ratio(counts.at_75, counts.detections)}};
+std::vector<Metric> BoxCounts::metrics() const {
+  return {{"box_iou", ratio(iou_sum_nano, detections * kNano)},
+          {"box_25", ratio(at_25, detections)},
+          {"box_50", ratio(at_50, detections)},
+          {"box_75", ratio(at_75, detections)}};
 }
 
 }  // namespace mapscore::eval

@@ -6,7 +6,6 @@
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
 #include "eval/score/box_counts.hpp"
-#include "eval/score/metrics.hpp"
 
 #include <Eigen/Geometry>
 #include <cstddef>
@@ -22,9 +21,5 @@ namespace mapscore::eval {
 [[nodiscard]] std::vector<Eigen::AlignedBox3d> truth_boxes(const Frame& frame,
                                                            const Calibration& true_calibration,
                                                            std::size_t instance_count);
-
-/// box_iou, box_25, box_50, box_75, in this order; nullopt without a detection that could be
-/// judged.
-[[nodiscard]] std::vector<Metric> box_metrics(const BoxCounts& counts);
 
 }  // namespace mapscore::eval

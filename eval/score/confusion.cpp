@@ -4,8 +4,8 @@
 #include "eval/score/confusion.hpp"
 
 #include "core/error.hpp"
-#include "eval/score/prediction.hpp"
-#include "eval/score/row_window.hpp"
+#include "eval/score/map_snapshot.hpp"
+#include "eval/score/voxel_window.hpp"
 
 #include <fmt/format.h>
 
@@ -30,7 +30,7 @@ void count_visible(const MapSnapshot& map, double threshold, const VisibleTruth&
     const ClassId owner = rest.front().owner;
     check_class(rest.front().key, owner, class_count);
     const auto of_class = visible.of(owner);
-    RowWindow<MapVoxel> rows(map.voxels(), 0);
+    VoxelWindow<MapVoxel> rows(map.voxels(), 0);
     for (const VisibleVoxel& truth : of_class) {
       matrix.count(owner, answer_of(rows.at(truth.key), threshold, class_count));
     }
@@ -40,7 +40,7 @@ void count_visible(const MapSnapshot& map, double threshold, const VisibleTruth&
 
 void count_from_nothing(const MapSnapshot& map, double threshold, const SurfaceTruth& surface,
                         const VisibleTruth& visible, ConfusionMatrix& matrix) {
-  RowWindow<SurfaceVoxel> rows(surface.voxels(), 0);
+  VoxelWindow<SurfaceVoxel> rows(surface.voxels(), 0);
   for (const MapVoxel& voxel : map.voxels()) {
     if (!predicted(voxel, threshold)) continue;
     check_class(voxel.key, voxel.best_class, matrix.class_count());

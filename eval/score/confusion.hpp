@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/classes.hpp"
-#include "eval/score/prediction.hpp"
+#include "eval/score/map_snapshot.hpp"
 #include "eval/truth/surface_truth.hpp"
 #include "eval/truth/visible_truth.hpp"
 

@@ -5,6 +5,8 @@
 
 #include "core/error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -35,27 +37,19 @@ void pool_tolerances(std::vector<ToleranceCounts>& total,
   }
 }
 
-void pool_instances(std::optional<InstanceCounts>& total,
-                    const std::optional<InstanceCounts>& other) {
-  if (total.has_value() != other.has_value()) {
-    throw Error(
-        "score: counts with and without instances cannot be pooled; score both with the same "
-        "score.instances");
-  }
-  if (total) *total += *other;
+template <class Part>
+void pool(const char*, Part& total, const Part& other) {
+  total += other;
 }
 
-void pool_thin(std::optional<ThinCounts>& total, const std::optional<ThinCounts>& other) {
-  if (total.has_value() != other.has_value()) {
+template <class Part>
+void pool(const char* name, std::optional<Part>& total, const std::optional<Part>& other) {
+  if (total.has_value() != other.has_value())
     throw Error(
-        "score: counts with and without thin parts cannot be pooled; score both with the same "
-        "score.thin");
-  }
-  if (!total) return;
-  total->predicted += other->predicted;
-  total->true_predicted += other->true_predicted;
-  total->visible += other->visible;
-  total->found += other->found;
+        fmt::format("score: counts with and without {0} cannot be pooled; score both with the same "
+                    "score.{0}",
+                    name));
+  if (total) *total += *other;
 }
 
 }  // namespace
@@ -75,31 +69,27 @@ void check(const ScoreOptions& options) {
 
 ClassCounts& ClassCounts::operator+=(const ClassCounts& other) {
   pool_tolerances(at_tolerance, other.at_tolerance);
-  pool_instances(instances, other.instances);
-  pool_thin(thin, other.thin);
-  predicted += other.predicted;
-  true_predicted += other.true_predicted;
-  visible += other.visible;
-  found += other.found;
-  false_near += other.false_near;
-  false_leak += other.false_leak;
-  false_floating += other.false_floating;
-  missed_mislabelled += other.missed_mislabelled;
-  missed_unlabelled += other.missed_unlabelled;
-  missed_unmapped += other.missed_unmapped;
-  visible_4 += other.visible_4;
-  found_4 += other.found_4;
+  std::apply(
+      [&](const auto&... part) { (pool(part.first, this->*part.second, other.*part.second), ...); },
+      parts());
+  add_counts(*this, other);
   accuracy += other.accuracy;
   completeness += other.completeness;
   curve += other.curve;
-  boxes += other.boxes;
   return *this;
 }
 
 Counts zero_counts(std::size_t class_count, const ScoreOptions& options) {
   ClassCounts zero;
   for (const int tolerance : options.tolerances) zero.at_tolerance.push_back({tolerance, 0, 0});
-  if (options.thin) zero.thin.emplace();
+  AskedParts::fields(options.asked, [&](bool asked, const Field& field) {
+    const auto take = [&](std::string_view name, auto& part) {
+      if constexpr (requires { part.emplace(); })
+        if (asked && name == field.key) part.emplace();
+    };
+    std::apply([&](const auto&... part) { (take(part.first, zero.*part.second), ...); },
+               ClassCounts::parts());
+  });
   return Counts(class_count, zero);
 }
 

@@ -4,22 +4,49 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "core/parameters.hpp"
 #include "eval/score/box_counts.hpp"
 #include "eval/score/class_curve.hpp"
 #include "eval/score/distance_tally.hpp"
 #include "eval/score/instance_counts.hpp"
+#include "eval/score/metric.hpp"
+#include "eval/score/thin_counts.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace mapscore::eval {
+
+/// Version of everything between a frame and its counts; part of every key, so that results of
+/// different definitions never stand side by side. Raise it when a definition changes, or when a
+/// count is added that every study has.
+inline constexpr int kScoringVersion = 3;
+
+/// The parts of a score that a study must ask for, by their names in ClassCounts::parts().
+struct AskedParts {
+  bool instances = false, thin = false;
+
+  static void fields(auto& s, auto&& visit) {
+    const auto part = [&](auto& member, std::string_view key, std::string_view meaning) {
+      visit(member, Field{.key = key, .meaning = meaning, .later = true, .swept = false});
+    };
+    part(s.instances, "instances",
+         "score instances too, the connected pieces of each class: PQ and AP");
+    part(s.thin, "thin", "count the voxels of thin parts (chair legs) by themselves too");
+  }
+  bool operator==(const AskedParts&) const = default;
+};
 
 /// What is counted beside the plain voxel counts.
 struct ScoreOptions {
   std::vector<int> tolerances{1};                           ///< voxels, each in 1..5, ascending
   std::vector<double> distances_m{0.01, 0.02, 0.05, 0.10};  ///< tau of the F-score, ascending
-  bool thin = false;                                        ///< voxels of thin parts by themselves
+  AskedParts asked{};
 };
 
 /// Throws Error when a list is not ascending or a value is out of range.
@@ -35,14 +62,6 @@ struct ToleranceCounts {
   std::int64_t true_predicted = 0, found = 0;
 
   bool operator==(const ToleranceCounts&) const = default;
-};
-
-/// Of the voxels of P_c and V_c those that belong to thin parts (thin_score.hpp).
-struct ThinCounts {
-  std::int64_t predicted = 0, true_predicted = 0;
-  std::int64_t visible = 0, found = 0;
-
-  bool operator==(const ThinCounts&) const = default;
 };
 
 /// Everything counted for one class: integers that add over frames and trials. Pool them with +=,
@@ -75,16 +94,52 @@ struct ClassCounts {
   std::optional<InstanceCounts> instances;  ///< where instances were scored
   std::optional<ThinCounts> thin;           ///< where thin parts were scored
 
-  /// Pools. Throws Error when tolerances or distances differ, or one alone has instances or
-  /// thin parts.
+  static auto counts() {
+    return std::to_array<CountField<ClassCounts>>({
+        {"predicted", &ClassCounts::predicted},
+        {"true_predicted", &ClassCounts::true_predicted},
+        {"visible", &ClassCounts::visible},
+        {"found", &ClassCounts::found},
+        {"false_near", &ClassCounts::false_near},
+        {"false_leak", &ClassCounts::false_leak},
+        {"false_floating", &ClassCounts::false_floating},
+        {"missed_mislabelled", &ClassCounts::missed_mislabelled},
+        {"missed_unlabelled", &ClassCounts::missed_unlabelled},
+        {"missed_unmapped", &ClassCounts::missed_unmapped},
+        {"visible_4", &ClassCounts::visible_4},
+        {"found_4", &ClassCounts::found_4},
+    });
+  }
+  /// The parts that are counted by themselves: structs with `counts()`, `metrics()` and +=. Each is
+  /// written once, here; pooling, store, tidy CSV and figures follow, in this order.
+  static auto parts() {
+    return std::tuple{std::pair{"boxes", &ClassCounts::boxes},
+                      std::pair{"thin", &ClassCounts::thin},
+                      std::pair{"instances", &ClassCounts::instances}};
+  }
+
+  /// Pools. Throws Error when tolerances or distances differ, or one alone has an optional part.
   ClassCounts& operator+=(const ClassCounts& other);
   bool operator==(const ClassCounts&) const = default;
 };
 
+/// Calls act(name, part) for each part of `counts` that was counted.
+void for_each_part(const ClassCounts& counts, auto&& act) {
+  const auto visit = [&]<class Part>(const char* name, const Part& part) {
+    if constexpr (requires { part.has_value(); }) {
+      if (part) act(name, *part);
+    } else {
+      act(name, part);
+    }
+  };
+  std::apply([&](const auto&... part) { (visit(part.first, counts.*part.second), ...); },
+             ClassCounts::parts());
+}
+
 /// Indexed by class id; entry 0 (background) stays zero, since background is never predicted.
 using Counts = std::vector<ClassCounts>;
 
-/// Zero counts for every class, with tolerances as asked for and no distances.
+/// Zero counts for every class, with tolerances and parts as asked for and no distances.
 [[nodiscard]] Counts zero_counts(std::size_t class_count, const ScoreOptions& options);
 
 /// Pools class by class; an empty `total` takes `counts`. Throws Error when sizes or options

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "eval/score/metric.hpp"
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -30,6 +32,18 @@ struct InstanceCounts {
 
   /// True instances with visible voxels.
   [[nodiscard]] std::int64_t visible() const { return true_positive + false_negative; }
+  /// pq, sq, rq, ap_25, ap_50, ap_75, ap_mean, in this order.
+  [[nodiscard]] std::vector<Metric> metrics() const;
+
+  static auto counts() {
+    return std::to_array<CountField<InstanceCounts>>({
+        {"instances_true_positive", &InstanceCounts::true_positive},
+        {"instances_false_positive", &InstanceCounts::false_positive},
+        {"instances_false_negative", &InstanceCounts::false_negative},
+        {"instances_iou_sum_billionth", &InstanceCounts::iou_sum_nano, false},
+        {"instances_void", &InstanceCounts::void_predicted},
+    });
+  }
   /// Pools.
   InstanceCounts& operator+=(const InstanceCounts& other);
   bool operator==(const InstanceCounts&) const = default;

@@ -4,8 +4,8 @@
 #include "eval/score/instance_match.hpp"
 
 #include "core/error.hpp"
-#include "eval/score/prediction.hpp"
-#include "eval/score/row_window.hpp"
+#include "eval/score/map_snapshot.hpp"
+#include "eval/score/voxel_window.hpp"
 
 #include <fmt/format.h>
 
@@ -116,7 +116,7 @@ InstanceOverlap overlap_of(const PredictedInstances& predicted, const SurfaceTru
                            const VisibleTruth& visible, const ClassTable& table) {
   check(predicted, surface, visible, table);
   OverlapCounter counter(predicted, visible, table);
-  RowWindow<SurfaceVoxel> rows(surface.voxels(), 0);
+  VoxelWindow<SurfaceVoxel> rows(surface.voxels(), 0);
   for (std::size_t row = 0; row < predicted.voxels.size(); ++row) {
     if (predicted.members[row] == PredictedInstances::kNone) continue;
     counter.count(row, rows.at(predicted.voxels[row]));

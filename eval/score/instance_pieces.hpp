@@ -5,7 +5,7 @@
 
 #include "core/classes.hpp"
 #include "core/geometry/voxel.hpp"
-#include "eval/score/prediction.hpp"
+#include "eval/score/map_snapshot.hpp"
 
 #include <cstddef>
 #include <cstdint>

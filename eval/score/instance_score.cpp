@@ -87,11 +87,7 @@ void check_size(const std::vector<InstanceCounts>& counts, const ClassTable& tab
 }  // namespace
 
 InstanceCounts& InstanceCounts::operator+=(const InstanceCounts& other) {
-  true_positive += other.true_positive;
-  false_positive += other.false_positive;
-  false_negative += other.false_negative;
-  iou_sum_nano += other.iou_sum_nano;
-  void_predicted += other.void_predicted;
+  add_counts(*this, other);
   steps.insert(steps.end(), other.steps.begin(), other.steps.end());
   tidy(steps);
   return *this;
@@ -144,24 +140,23 @@ std::optional<double> instance_ap(const InstanceCounts& counts, std::size_t thre
   return area;
 }
 
-std::vector<Metric> instance_metrics(const InstanceCounts& counts) {
-  const std::int64_t twice =
-      2 * counts.true_positive + counts.false_positive + counts.false_negative;
-  std::vector<Metric> metrics{{"pq", ratio(2 * counts.iou_sum_nano, twice * kNano)},
-                              {"sq", ratio(counts.iou_sum_nano, counts.true_positive * kNano)},
-                              {"rq", ratio(2 * counts.true_positive, twice)}};
+std::vector<Metric> InstanceCounts::metrics() const {
+  const std::int64_t twice = 2 * true_positive + false_positive + false_negative;
+  std::vector<Metric> figures{{"pq", ratio(2 * iou_sum_nano, twice * kNano)},
+                              {"sq", ratio(iou_sum_nano, true_positive * kNano)},
+                              {"rq", ratio(2 * true_positive, twice)}};
   std::optional<double> sum;
   for (std::size_t t = 0; t < kInstancePercents.size(); ++t) {
     const int percent = kInstancePercents[t];
-    const std::optional<double> ap = instance_ap(counts, t);
+    const std::optional<double> ap = instance_ap(*this, t);
     if (percent == 25 || percent == 50 || percent == 75) {
-      metrics.push_back({fmt::format("ap_{}", percent), ap});
+      figures.push_back({fmt::format("ap_{}", percent), ap});
     }
     if (ap && t > 0) sum = sum.value_or(0.0) + *ap;
   }
   if (sum) *sum /= static_cast<double>(kInstancePercents.size() - 1);
-  metrics.push_back({"ap_mean", sum});
-  return metrics;
+  figures.push_back({"ap_mean", sum});
+  return figures;
 }
 
 InstanceCounts pool_detected_instances(const std::vector<InstanceCounts>& counts,
@@ -180,7 +175,7 @@ std::vector<Metric> macro_instance_metrics(const std::vector<InstanceCounts>& co
   std::vector<std::vector<Metric>> classes;
   for (const SemanticClass& semantic : table.classes) {
     if (!semantic.detect || counts[semantic.id].visible() == 0) continue;
-    classes.push_back(instance_metrics(counts[semantic.id]));
+    classes.push_back(counts[semantic.id].metrics());
   }
   if (classes.empty()) return {};
   return mean_over_classes(classes);

@@ -6,7 +6,6 @@
 #include "core/classes.hpp"
 #include "eval/score/instance_counts.hpp"
 #include "eval/score/instance_pieces.hpp"
-#include "eval/score/metrics.hpp"
 #include "eval/truth/surface_truth.hpp"
 #include "eval/truth/visible_truth.hpp"
 
@@ -28,9 +27,6 @@ namespace mapscore::eval {
 /// AP at kInstancePercents[threshold]; nullopt when no instance is visible.
 [[nodiscard]] std::optional<double> instance_ap(const InstanceCounts& counts,
                                                 std::size_t threshold);
-
-/// pq, sq, rq, ap_25, ap_50, ap_75, ap_mean, in this order.
-[[nodiscard]] std::vector<Metric> instance_metrics(const InstanceCounts& counts);
 
 /// Counts pooled over the detected classes. Throws Error when sizes differ.
 [[nodiscard]] InstanceCounts pool_detected_instances(const std::vector<InstanceCounts>& counts,

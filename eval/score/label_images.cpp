@@ -5,9 +5,9 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "eval/recording/file_bytes.hpp"
-#include "eval/recording/png.hpp"
 #include "eval/recording/stamp_list.hpp"
+#include "files/file_bytes.hpp"
+#include "files/png.hpp"
 
 #include <fmt/format.h>
 

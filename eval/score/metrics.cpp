@@ -4,12 +4,10 @@
 #include "eval/score/metrics.hpp"
 
 #include "core/error.hpp"
-#include "eval/score/box_score.hpp"
 #include "eval/score/instance_score.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace mapscore::eval {
@@ -63,12 +61,6 @@ void append_distances(const ClassCounts& counts, std::vector<Metric>& metrics) {
   metrics.push_back({"completeness_p95_m", completeness.percentile_m(kPercentile)});
 }
 
-void append_thin(const ThinCounts& thin, std::vector<Metric>& metrics) {
-  metrics.push_back({"thin_precision", ratio(thin.true_predicted, thin.predicted)});
-  metrics.push_back({"thin_recall", ratio(thin.found, thin.visible)});
-  metrics.push_back({"thin_f1", f1(thin.true_predicted, thin.predicted, thin.found, thin.visible)});
-}
-
 /// The figures of a class as they enter the mean over classes: without those of instances.
 std::vector<Metric> metrics_for_mean(ClassCounts counts) {
   counts.instances.reset();
@@ -84,23 +76,10 @@ std::vector<Metric> mean_instance_metrics(const Counts& counts, const ClassTable
     instances.push_back(*of_class.instances);
   }
   std::vector<Metric> macro = macro_instance_metrics(instances, table);
-  return macro.empty() ? instance_metrics({}) : macro;
+  return macro.empty() ? InstanceCounts{}.metrics() : macro;
 }
 
 }  // namespace
-
-std::optional<double> ratio(std::int64_t part, std::int64_t whole) {
-  if (whole == 0) return std::nullopt;
-  return static_cast<double>(part) / static_cast<double>(whole);
-}
-
-std::optional<double> f1(std::int64_t true_predicted, std::int64_t predicted, std::int64_t found,
-                         std::int64_t visible) {
-  if (predicted == 0 && visible == 0) return std::nullopt;
-  const double p = ratio(true_predicted, predicted).value_or(0.0);
-  const double r = ratio(found, visible).value_or(0.0);
-  return p + r == 0.0 ? 0.0 : 2.0 * p * r / (p + r);
-}
 
 std::optional<double> precision(const ClassCounts& counts) {
   return ratio(counts.true_predicted, counts.predicted);
@@ -129,26 +108,10 @@ std::vector<Metric> metrics_of(const ClassCounts& counts) {
   metrics.push_back({"ap", average_precision(counts.curve)});
   metrics.push_back({"brier", brier(counts.curve)});
   metrics.push_back({"ece", expected_calibration_error(counts.curve)});
-  for (Metric& metric : box_metrics(counts.boxes)) metrics.push_back(std::move(metric));
-  if (counts.thin) append_thin(*counts.thin, metrics);
-  if (!counts.instances) return metrics;
-  for (Metric& metric : instance_metrics(*counts.instances)) metrics.push_back(std::move(metric));
+  for_each_part(counts, [&](const char*, const auto& part) {
+    for (Metric& metric : part.metrics()) metrics.push_back(std::move(metric));
+  });
   return metrics;
-}
-
-std::vector<Metric> mean_over_classes(const std::vector<std::vector<Metric>>& classes) {
-  std::vector<Metric> mean = classes.front();
-  for (std::size_t figure = 0; figure < mean.size(); ++figure) {
-    double sum = 0.0;
-    int defined = 0;
-    for (const std::vector<Metric>& metrics : classes) {
-      if (!metrics[figure].value) continue;
-      sum += *metrics[figure].value;
-      ++defined;
-    }
-    mean[figure].value = defined == 0 ? std::nullopt : std::optional(sum / defined);
-  }
-  return mean;
 }
 
 std::vector<Metric> macro_metrics(const Counts& counts, const ClassTable& table) {
@@ -167,16 +130,6 @@ std::vector<Metric> macro_metrics(const Counts& counts, const ClassTable& table)
   macro.push_back({"mpa", value_of(macro, "recall")});
   macro.push_back({"miou", value_of(macro, "iou")});
   return macro;
-}
-
-std::optional<double> value_of(const std::vector<Metric>& metrics, const std::string& name) {
-  const auto metric = std::find_if(metrics.begin(), metrics.end(),
-                                   [&name](const Metric& m) { return m.name == name; });
-  if (metric == metrics.end()) {
-    throw Error("metric '" + name +
-                "': there is none of that name; score with the tolerance or distance it needs");
-  }
-  return metric->value;
 }
 
 }  // namespace mapscore::eval

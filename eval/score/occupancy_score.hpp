@@ -3,8 +3,8 @@
 
 #pragma once
 
+#include "eval/score/map_snapshot.hpp"
 #include "eval/score/metrics.hpp"
-#include "eval/score/prediction.hpp"
 #include "eval/truth/occupancy_truth.hpp"
 #include "eval/truth/surface_truth.hpp"
 

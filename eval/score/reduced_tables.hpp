@@ -4,14 +4,14 @@
 #pragma once
 
 #include "core/classes.hpp"
-#include "eval/score/prediction.hpp"
+#include "eval/score/map_snapshot.hpp"
 
 #include <vector>
 
 namespace mapscore::eval {
 
-// Other readings of a scene's class table: truth made with them (surface_truth, SampleCounter,
-// make_lattice_truth) is that of instances, or of all surfaces as one.
+// Class tables derived from a scene's. Truth made with them (surface_truth, SampleCounter,
+// make_lattice_truth) treats each instance, or all surfaces together, as one class.
 
 /// Every instance, background among them, is a class of its own, under its own id, name and its
 /// class's colour; detected where its class is.

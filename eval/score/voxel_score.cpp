@@ -3,8 +3,8 @@
 
 #include "eval/score/voxel_score.hpp"
 
-#include "eval/score/prediction.hpp"
-#include "eval/score/row_window.hpp"
+#include "eval/score/map_snapshot.hpp"
+#include "eval/score/voxel_window.hpp"
 
 #include <algorithm>
 #include <span>
@@ -16,7 +16,8 @@ namespace {
 /// Neighbours whose surface makes a false voxel `near`.
 constexpr int kNearVoxels = 1;
 
-void count_predicted(const MapVoxel& voxel, RowWindow<SurfaceVoxel>& surface, ClassCounts& counts) {
+void count_predicted(const MapVoxel& voxel, VoxelWindow<SurfaceVoxel>& surface,
+                     ClassCounts& counts) {
   const auto of_class = [&](const SurfaceVoxel& row) { return row.class_id == voxel.best_class; };
   const auto rows = surface.at(voxel.key);
   const bool is_true = std::any_of(rows.begin(), rows.end(), of_class);
@@ -34,7 +35,7 @@ void count_predicted(const MapVoxel& voxel, RowWindow<SurfaceVoxel>& surface, Cl
   }
 }
 
-void count_visible(const VisibleVoxel& truth, RowWindow<MapVoxel>& map, double threshold,
+void count_visible(const VisibleVoxel& truth, VoxelWindow<MapVoxel>& map, double threshold,
                    ClassCounts& counts) {
   const auto predicts_class = [&](const MapVoxel& voxel) {
     return voxel.best_class == truth.owner && predicted(voxel, threshold);
@@ -61,7 +62,7 @@ void count_visible(const VisibleVoxel& truth, RowWindow<MapVoxel>& map, double t
 
 void count_predictions(const MapSnapshot& map, double threshold, const SurfaceTruth& surface,
                        int reach, Counts& counts) {
-  RowWindow<SurfaceVoxel> rows(surface.voxels(), std::max(reach, kNearVoxels));
+  VoxelWindow<SurfaceVoxel> rows(surface.voxels(), std::max(reach, kNearVoxels));
   for (const MapVoxel& voxel : map.voxels()) {
     if (!predicted(voxel, threshold)) continue;
     check_class(voxel.key, voxel.best_class, counts.size());
@@ -76,7 +77,7 @@ void count_visibles(const MapSnapshot& map, double threshold, const VisibleTruth
     const ClassId owner = rest.front().owner;
     check_class(rest.front().key, owner, counts.size());
     const auto of_class = visible.of(owner);
-    RowWindow<MapVoxel> rows(map.voxels(), reach);
+    VoxelWindow<MapVoxel> rows(map.voxels(), reach);
     for (const VisibleVoxel& truth : of_class) count_visible(truth, rows, threshold, counts[owner]);
     rest = rest.subspan(of_class.size());
   }

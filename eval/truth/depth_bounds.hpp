@@ -10,8 +10,8 @@
 
 namespace mapscore::eval {
 
-/// Greatest value of a depth image in tiles of 16 x 16 pixels, to pass over what lies behind
-/// everything. Immutable.
+/// Greatest value of a depth image by tiles of 16 x 16 pixels, to skip voxels that lie behind all
+/// measured surfaces. Immutable.
 class DepthBounds {
  public:
   explicit DepthBounds(const cv::Mat1w& depth)

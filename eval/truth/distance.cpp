@@ -3,7 +3,7 @@
 
 #include "eval/truth/distance.hpp"
 
-#include "eval/truth/convex_gap.hpp"
+#include "eval/truth/shapes/convex_gap.hpp"
 
 #include <algorithm>
 #include <array>

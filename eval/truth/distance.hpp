@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/classes.hpp"
-#include "eval/truth/shape_tests.hpp"
+#include "eval/truth/shapes/shape_tests.hpp"
 
 #include <limits>
 #include <span>

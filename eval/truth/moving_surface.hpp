@@ -6,9 +6,9 @@
 #include "core/classes.hpp"
 #include "core/geometry/pose.hpp"
 #include "core/geometry/shape.hpp"
-#include "eval/truth/shape_tests.hpp"
-#include "eval/truth/slabs.hpp"
+#include "eval/truth/shapes/shape_tests.hpp"
 #include "eval/truth/surface_truth.hpp"
+#include "eval/truth/voxel_slabs.hpp"
 
 #include <vector>
 

@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "eval/truth/shape_tests.hpp"
-#include "eval/truth/slabs.hpp"
+#include "eval/truth/shapes/shape_tests.hpp"
+#include "eval/truth/voxel_slabs.hpp"
 #include "eval/truth/voxelise.hpp"
 
 #include <fmt/format.h>

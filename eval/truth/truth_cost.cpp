@@ -4,7 +4,7 @@
 #include "eval/truth/truth_cost.hpp"
 
 #include "core/error.hpp"
-#include "eval/truth/shape_tests.hpp"
+#include "eval/truth/shapes/shape_tests.hpp"
 
 #include <fmt/format.h>
 

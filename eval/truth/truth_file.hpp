@@ -17,12 +17,11 @@ namespace mapscore::eval {
 /// at any min_samples n is the rows of c with samples >= n. By the file's ending:
 ///
 /// - `.csv`: header `i,j,k,class,touch_only,samples`, class by its name, touch_only 0 or 1;
-/// - `.ply`: binary little-endian points at the voxels' centres: float x y z (metres, map frame),
-/// uchar
+/// - `.ply`: binary little-endian points at voxel centres: float x y z (metres, map frame), uchar
 ///   red green blue (the class's colour), ushort class, uchar touch_only, uint samples.
 ///
-/// Written aside and renamed, so that a file of this name is whole. Throws Error when the ending is
-/// another, the file cannot be written, or the two truths have different edges.
+/// Written aside and renamed, so that a file of this name is complete. Throws Error for any other
+/// ending, a file that cannot be written, and truths with different edges.
 void write_truth(const std::filesystem::path& file, const SurfaceTruth& truth,
                  const VisibleTruth* visible, const ClassTable& table);
 

@@ -56,8 +56,8 @@ class VisibleTruth {
 [[nodiscard]] VisibleTruth visible_truth(const SampleCounter& samples, const SurfaceTruth& surface,
                                          int min_samples = 1);
 
-/// What there is to see where nothing tells what was seen: every voxel of the surface, without
-/// samples. The owner is the lowest class, background apart, whose surface the open cube meets (not
+/// Visible truth without a camera, as of a scene: every voxel of the surface, with 0 samples. The
+/// owner is the lowest class, background apart, whose surface the open cube meets (not
 /// `touch_only`), or else the lowest that touches it. Voxels of background alone belong to none.
 [[nodiscard]] VisibleTruth whole_surface(const SurfaceTruth& surface);
 

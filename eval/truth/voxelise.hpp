@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/geometry/voxel.hpp"
-#include "eval/truth/shape_tests.hpp"
-#include "eval/truth/slabs.hpp"
+#include "eval/truth/shapes/shape_tests.hpp"
+#include "eval/truth/voxel_slabs.hpp"
 
 #include <span>
 #include <vector>

@@ -17,7 +17,7 @@ namespace mapscore::sim {
 struct RigidDose {
   double magnitude_m = 0;  ///< along a direction uniform on the circle in the image plane
   Degrees angle_deg{};     ///< about an axis uniform on the circle in the image plane
-  std::array<double, 3> translation_m{};  ///< in the optical axes that the error stands in
+  std::array<double, 3> translation_m{};  ///< in the optical axes of the camera concerned
   std::array<Degrees, 3> rotation_deg{};  ///< rotation vector, in the same axes
 
   /// What differs between two rigid errors in the words for people.

@@ -90,7 +90,7 @@ struct LabelDose {
 /// True when masks stay as they are: no miss, boundary, hole or island.
 [[nodiscard]] bool keeps_masks(const LabelDose& dose);
 
-/// The same without what images of instance ids cannot show: wrong classes and scores.
+/// The dose without wrong classes and scores, which images of instance ids cannot express.
 [[nodiscard]] LabelDose masks_alone(LabelDose dose);
 
 /// Throws Error naming the key of a number that is out of its range or does not fit another. A

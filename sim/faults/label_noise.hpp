@@ -29,13 +29,14 @@ namespace mapscore::sim {
 [[nodiscard]] cv::Mat1w corrupt_labels(const cv::Mat1w& label, const ClassTable& table,
                                        const LabelDose& dose, std::uint64_t seed, int frame);
 
-/// Classes and scores as a network would have given them, in place. A wrong class comes with
-/// 1 - its matrix's diagonal, or min(1, confusion) spread evenly over the other detected classes
-/// (none: the class stays). Of a right class the score is drawn from Beta(a + 1, b), of a wrong one
-/// from Beta(a, b + 1), a = c m, b = c (1 - m), c = score_concentration, m = score_mean or the
-/// chance of a right class; with the latter, P(right | score) = score. What is reported is 1 -
-/// min(1, scores) (1 - score). Streams (seed, "labels.class" or "labels.score", frame, instance).
-/// Throws Error on a bad dose, and when the matrix has not a row for each detected class.
+/// Classes and scores as a network would have given them, in place. The named class is drawn from
+/// the true class's row of the matrix, or is wrong with the chance min(1, confusion), evenly over
+/// the other detected classes (none: the class stays). The score of a right class is drawn from
+/// Beta(a + 1, b), of a wrong one from Beta(a, b + 1), a = c m, b = c (1 - m), c =
+/// score_concentration, m = score_mean or the chance of a right class; with the latter,
+/// P(right | score) = score. The reported score is 1 - min(1, scores) (1 - score). Streams (seed,
+/// "labels.class" or "labels.score", frame, instance). Throws Error on a bad dose, and when the
+/// matrix has not a row for each detected class.
 void corrupt_verdicts(std::vector<Detection>& detections, const ClassTable& table,
                       const LabelDose& dose, std::uint64_t seed, int frame);
 

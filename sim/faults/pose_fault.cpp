@@ -3,7 +3,7 @@
 
 #include "sim/faults/pose_fault.hpp"
 
-#include "core/mapping/pose_belief.hpp"
+#include "core/placement/pose_belief.hpp"
 #include "core/random_stream.hpp"
 
 namespace mapscore::sim {

@@ -75,7 +75,7 @@ struct PoseNoise {
 
 /// E of the poses' error.
 [[nodiscard]] Covariance6 covariance_of(const PoseNoise& noise);
-/// Covariance that the mapper is told: reported_scale times the true one.
+/// Covariance that is reported to the mapper: reported_scale times the true one.
 [[nodiscard]] Covariance6 reported_covariance(const PoseNoise& noise);
 
 /// Believed poses T_world_base = T_true * Exp(xi) of a drive. Frame n draws from the stream (seed,

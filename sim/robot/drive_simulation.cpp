@@ -4,6 +4,7 @@
 #include "sim/robot/drive_simulation.hpp"
 
 #include "core/error.hpp"
+#include "sim/recorder/recorded_drive.hpp"
 #include "sim/robot/way_check.hpp"
 
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "sim/recorder/recorded_drive.hpp"
 #include "sim/robot/drive_physics.hpp"
 #include "sim/robot/odometry.hpp"
 #include "sim/robot/waypoint_controller.hpp"
@@ -51,9 +52,9 @@ struct DriveLog {
 };
 
 /// Drives along the waypoints with wheels, motors and contacts (see DriveModel), the controller fed
-/// with the true pose, as by a perfect localisation; ends a little after the last one, at rest, or
-/// stands there until `drive.until_s`.
-/// The scene stands still at its pose of loading. No random numbers: same input, same bytes.
+/// with the true pose, as by a perfect localisation. Ends a little after the last waypoint, at
+/// rest, or waits there until `drive.until_s`. The scene does not move from its pose of loading. No
+/// random numbers: same input, same bytes.
 ///
 /// Throws Error, one line, naming waypoint (counted from 1) and body: when the robot would stand in
 /// something at a waypoint or has no floor there; when something stands in the way, found before

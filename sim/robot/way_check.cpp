@@ -4,6 +4,7 @@
 #include "sim/robot/way_check.hpp"
 
 #include "core/error.hpp"
+#include "sim/recorder/recorded_drive.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "sim/recorder.hpp"
+#include "sim/recorder/recorded_drive.hpp"
 #include "sim/robot/clearance.hpp"
 
 #include <cstddef>

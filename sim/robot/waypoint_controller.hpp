@@ -3,14 +3,14 @@
 
 #pragma once
 
-#include "sim/recorder.hpp"
+#include "sim/recorder/recorded_drive.hpp"
 
 #include <cstddef>
 #include <vector>
 
 namespace mapscore::sim {
 
-/// What a differential drive is told: forwards and counter-clockwise positive.
+/// Command to a differential drive: forwards and counter-clockwise positive.
 struct VelocityCommand {
   double v_mps = 0.0, omega_radps = 0.0;
 };
@@ -35,11 +35,10 @@ struct ControllerParams {
 /// A robot that slipped or was pushed off sets out anew from where it is.
 ///
 ///   speed on a leg      min(speed, sqrt(2 b s)), s the way left, b = 0.8 acceleration
-///   turn on a leg       gain * (leg's heading - atan(e / lookahead) - yaw), e the offset to the
-///   left turn on the spot    min(turn rate, sqrt(2 b |error|)) towards it, the short way, b
-///   likewise
+///   turn on a leg       gain * (leg's heading - atan(e / lookahead) - yaw), e the left offset
+///   turn on the spot    min(turn rate, sqrt(2 b |error|)), the short way, b likewise
 ///
-/// Commands change by at most the accelerations allow.
+/// Commands change at most as fast as the accelerations allow.
 class WaypointController {
  public:
   /// The robot stands at the first waypoint. Throws Error when a parameter is not above 0.

@@ -27,9 +27,9 @@ struct LidarSettings {
 using LidarRanges = std::vector<float>;
 
 /// Casts rays against the exact surfaces that the renderer draws, at the pose of loading or at an
-/// instant of the world's motion: solid
-/// geoms of groups 0 to 2, glass where its class is opaque, planes from their front alone; never
-/// the robot. Round shapes are exact, not faceted. Immutable and safe to share between threads.
+/// instant of the world's motion: solid geoms of groups 0 to 2, glass where its class is opaque,
+/// planes from their front alone; never the robot. Round shapes are exact, not faceted. Immutable
+/// and safe to share between threads.
 class Lidar {
  public:
   /// Throws Error when a setting is out of range, or the robot has no site `lidar` and no pose is
@@ -43,8 +43,8 @@ class Lidar {
   /// One turn at a pose of the base, without noise, all beams from one place. A tilted base tilts
   /// the lidar's plane.
   [[nodiscard]] LidarRanges scan(const Pose& T_world_base) const;
-  /// One turn at each pose, the scene as its motion has it at that stamp
-  /// (a world without a motion, also one of World::at, as it was loaded).
+  /// One turn at each pose, the scene as its motion has it at that stamp (without a motion, as for
+  /// a world made by World::at, as it was loaded).
   [[nodiscard]] std::vector<LidarRanges> scans(const std::vector<StampedPose>& poses,
                                                int jobs) const;
   /// One turn at each pose, the scene at its pose of loading; the same bytes for any number of

@@ -14,9 +14,9 @@ struct TrialLimits {
   unsigned processor_s = 60;    ///< and twice that by the clock
 };
 
-/// Does `work` in a process of its own, within `limits`, so that its end does no harm; nothing else
-/// comes of it. Throws Error naming `scene` when the process died or needed more, and whatever
-/// Error `work` threw.
+/// Runs `work` in a child process within `limits`, to find out whether it would crash this one or
+/// fill the memory; its results are lost. Throws Error naming `scene` when the child died or needed
+/// more, and with the message of whatever `work` threw.
 void try_apart(const std::filesystem::path& scene, const std::function<void()>& work,
                const TrialLimits& limits = {});
 

@@ -23,10 +23,10 @@ struct Motion;
 /// Files that make a world.
 struct WorldFiles {
   std::filesystem::path scene;  ///< MJCF
-  std::optional<std::filesystem::path>
-      classes;  ///< default: SCENE stem + .classes.yaml if it exists
-  std::filesystem::path
-      robot;  ///< MJCF with body base_footprint, cameras color, depth; empty: none
+  /// Default: SCENE stem + .classes.yaml if it exists.
+  std::optional<std::filesystem::path> classes;
+  /// MJCF with body base_footprint, cameras color and depth; empty: none.
+  std::filesystem::path robot;
 };
 
 /// What the camera settings of a study override in the robot's MJCF.

@@ -27,7 +27,7 @@ SCENE, ROBOT = (os.path.join(SOURCE, "scenes", name) for name in ("home.xml", "r
 # MuJoCo's release in build/deps is 4.0.1, of which there are no Python bindings: 4.0.0 are the nearest.
 PACKAGES = ["mujoco==4.0.0", "numpy", "opencv-python-headless"]
 WORKERS = 2
-LEVEL = 1  # of deflate: ours, eval/recording/png.cpp
+LEVEL = 1  # of deflate: ours, files/png.cpp
 BAR_RATIO = 1.5
 BAR_FRAMES_PER_S = {0: 15, 1: 8}
 # Base poses x, y (m), yaw (degrees) in all rooms of the home.

@@ -3,6 +3,7 @@
 
 #ifdef MAPSCORE_SIMULATOR
 
+#include "sim/recorder/recorded_drive.hpp"
 #include "sim/robot/drive_simulation.hpp"
 #include "sim/sensors/lidar.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/segmentation/depth_edges.hpp"
-#include "core/segmentation/edge_aligned.hpp"
-#include "core/segmentation/outline_alignment.hpp"
-#include "core/segmentation/outline_field.hpp"
+#include "core/segmentation/edge_aligned/depth_edges.hpp"
+#include "core/segmentation/edge_aligned/edge_aligned.hpp"
+#include "core/segmentation/edge_aligned/outline_alignment.hpp"
+#include "core/segmentation/edge_aligned/outline_field.hpp"
 #include "synthetic_person.hpp"
 
 #include <benchmark/benchmark.h>

@@ -9,8 +9,8 @@
 // (results/notes/octree.md).
 
 #include "core/mapping/free_space.hpp"
-#include "core/mapping/placement.hpp"
 #include "core/mapping/semantic_map.hpp"
+#include "core/placement/placement.hpp"
 #include "eval/recording/recording.hpp"
 #include "tests/bench/peak_memory.hpp"
 #include "tests/core/mapping/voxel_filter.hpp"

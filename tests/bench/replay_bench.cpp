@@ -6,15 +6,16 @@
 // thread; then the same with 100 draws. What placing alone costs against plain passes, for 1 to 100
 // draws and three sizes of voxels.
 
-#include "core/mapping/placement.hpp"
-#include "core/mapping/pose_belief.hpp"
-#include "eval/experiment/plan.hpp"
-#include "eval/experiment/study_recording.hpp"
-#include "eval/experiment/study_store.hpp"
-#include "eval/experiment/trial_run.hpp"
+#include "core/placement/placement.hpp"
+#include "core/placement/pose_belief.hpp"
+#include "eval/lab/trial_run.hpp"
+#include "eval/lab/truth_cache.hpp"
 #include "eval/recording/frame_cache.hpp"
+#include "eval/render/study_recording.hpp"
+#include "eval/results/plan.hpp"
+#include "eval/results/study_store.hpp"
 #include "sim/faults/label_noise.hpp"
-#include "tests/core/mapping/counted_draws.hpp"
+#include "tests/core/placement/counted_draws.hpp"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/random_stream.hpp"
-#include "eval/score/curve.hpp"
-#include "eval/score/distance_score.hpp"
-#include "eval/score/prediction.hpp"
+#include "eval/score/curve_score.hpp"
+#include "eval/score/distances/distance_score.hpp"
+#include "eval/score/map_snapshot.hpp"
 #include "eval/score/voxel_score.hpp"
 #include "tests/bench/peak_memory.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/segmentation/detection.hpp"
-#include "core/segmentation/region_growing.hpp"
+#include "core/segmentation/growing/region_growing.hpp"
 #include "core/segmentation/registered_cloud.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "synthetic_person.hpp"

@@ -3,7 +3,7 @@
 
 #include "core/parallel.hpp"
 #include "core/random_stream.hpp"
-#include "eval/experiment/study_recording.hpp"
+#include "eval/render/study_recording.hpp"
 #include "eval/truth/distance.hpp"
 #include "eval/truth/surface_truth.hpp"
 #include "eval/truth/visible_truth.hpp"

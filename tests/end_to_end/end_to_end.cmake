@@ -18,10 +18,11 @@ endforeach()
 list(REMOVE_DUPLICATES suites)
 
 add_executable(end_to_end_test ${sources} ${rendered})
-target_link_libraries(end_to_end_test PRIVATE mapscore_experiment mapscore_test_support GTest::gtest_main
+target_link_libraries(end_to_end_test PRIVATE mapscore_lab mapscore_test_support GTest::gtest_main
                       GTest::gmock)
 target_compile_definitions(end_to_end_test PRIVATE MAPSCORE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                            MAPSCORE_PROGRAM="$<TARGET_FILE:mapscore>")
+mapscore_use_precompiled(end_to_end_test mapscore_test_headers)
 add_dependencies(end_to_end_test mapscore)
 foreach(suite IN LISTS suites)
   add_test(NAME end_to_end.${suite}
@@ -34,7 +35,7 @@ endif()
 
 # A mapscore that is wrong by half a voxel (mutant/rounding_placement.cpp), whichever way a frame is placed. Its
 # object comes before the library's, so the library's is never linked.
-set(placement ${PROJECT_SOURCE_DIR}/core/mapping/placement.cpp)
+set(placement ${PROJECT_SOURCE_DIR}/core/placement/placement.cpp)
 set(mutant ${CMAKE_CURRENT_BINARY_DIR}/mutant)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${placement})
 file(READ ${placement} text)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/recording/png.hpp"
 #include "eval/recording/recording.hpp"
+#include "files/png.hpp"
 #include "tests/end_to_end/program.hpp"
 #include "tests/support/tiny_recording.hpp"
 
@@ -74,9 +74,9 @@ class MapFolder : public ::testing::Test {
   void rewrite(const std::string& images, const std::function<cv::Mat1w(cv::Mat1w)>& change) const {
     const CameraModel& camera = tiny_info().calibration.color;
     for (const auto& entry : fs::directory_iterator(fs::path(path("theirs")) / images)) {
-      const cv::Mat1w image = eval::decode_grey16_png(
+      const cv::Mat1w image = decode_grey16_png(
           bytes_of(entry.path()), {camera.width_px, camera.height_px}, entry.path().string());
-      write_text(entry.path(), eval::encode_png(change(image)));
+      write_text(entry.path(), encode_png(change(image)));
     }
   }
 

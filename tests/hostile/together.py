@@ -28,7 +28,7 @@ from program import Failures, Program, shown
 from whole import files_of, unsteady_files
 
 
-QUICK = ("record", "sweep", "sweep that records", "map", "figures", "score")
+QUICK = ("record", "sweep", "sweep that records", "map", "figures", "score", "resolutions")
 
 
 class Pair:

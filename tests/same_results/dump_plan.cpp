@@ -5,7 +5,7 @@
 // the key of every task. Compiles against this version and against older ones (compare.py).
 
 #if __has_include("eval/study/study.hpp")
-#include "eval/lab/plan.hpp"
+#include "eval/results/plan.hpp"
 #include "eval/study/grid.hpp"
 #include "eval/study/study.hpp"
 #else

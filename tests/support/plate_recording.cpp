@@ -4,6 +4,7 @@
 #include "tests/support/plate_recording.hpp"
 
 #include "eval/recording/recording.hpp"
+#include "eval/recording/recording_writer.hpp"
 
 #include <cmath>
 

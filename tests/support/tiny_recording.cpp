@@ -3,6 +3,8 @@
 
 #include "tests/support/tiny_recording.hpp"
 
+#include "eval/recording/recording_writer.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>

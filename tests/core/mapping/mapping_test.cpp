@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "core/mapping/placement.hpp"
-#include "core/mapping/pose_belief.hpp"
 #include "core/mapping/semantic_map.hpp"
+#include "core/placement/placement.hpp"
+#include "core/placement/pose_belief.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Placement that is wrong by half a voxel: it rounds where it should take the floor. It stands in
-// for core/mapping/placement.cpp, whose own place() CMake writes, as exactly_placed(), into this:
+// for core/placement/placement.cpp, whose own place() CMake writes, as exactly_placed(), into this:
 #include "exact_placement.cpp"
 
 namespace mapscore {

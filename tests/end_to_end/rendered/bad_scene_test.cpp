@@ -71,7 +71,7 @@ TEST_F(BadScene, ThatDoesNotCompile) {
 
 TEST_F(BadScene, WithABrokenClassFile) {
   write_text(folder() / "room.classes.yaml", "classes:\n  - {nam: cup}\n");
-  expect_refused_without_a_trace({"room.classes.yaml:2", "nam", "known here"});
+  expect_refused_without_a_trace({"room.classes.yaml:2", "classes[0].nam", "did you mean 'name'?"});
   write_text(folder() / "room.classes.yaml", "classes: [\n");
   expect_refused_without_a_trace({"room.classes.yaml:", "YAML"});
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/segmentation/region_growing.hpp"
+#include "core/segmentation/growing/region_growing.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "eval/recording/recording.hpp"
 #include "tests/end_to_end/program.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/experiment/store.hpp"
+#include "eval/results/store.hpp"
 #include "tests/end_to_end/program.hpp"
 #include "tests/support/tiny_recording.hpp"
 

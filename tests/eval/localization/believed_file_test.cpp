@@ -4,7 +4,7 @@
 #include "eval/localization/believed_file.hpp"
 
 #include "core/error.hpp"
-#include "eval/recording/file_bytes.hpp"
+#include "files/file_bytes.hpp"
 #include "tests/support/mutations.hpp"
 
 #include <gmock/gmock.h>

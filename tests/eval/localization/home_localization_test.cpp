@@ -6,6 +6,7 @@
 #include "eval/localization/localization_score.hpp"
 #include "eval/localization/odometry_run.hpp"
 #include "eval/truth/floor_grid.hpp"
+#include "sim/recorder/recorded_drive.hpp"
 #include "sim/robot/drive_simulation.hpp"
 #include "sim/sensors/lidar.hpp"
 #include "tests/eval/localization/home_drives.hpp"

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/classes.hpp"
-#include "eval/recording/file_bytes.hpp"
+#include "files/file_bytes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ class MapFiles : public ::testing::Test {
 
   /// A file of this name with these bytes.
   std::filesystem::path file(const std::string& name, const std::string& bytes) const {
-    eval::write_file(folder_ / name, bytes);
+    write_file(folder_ / name, bytes);
     return folder_ / name;
   }
 

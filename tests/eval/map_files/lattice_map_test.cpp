@@ -4,7 +4,7 @@
 #include "eval/map_files/lattice_map.hpp"
 
 #include "core/random_stream.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "eval/map_files/legend.hpp"
 
 #include "tests/eval/map_files/cloud_bytes.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace mapscore::eval {
 namespace {
@@ -39,29 +39,32 @@ TEST_F(LegendFile, ManyValuesAreRefusedBeforeParsing) {
 }
 
 TEST_F(LegendFile, BadLegends) {
-  expect_refusal("", "legend.yaml:1: expected the sections colours, ids or names");
-  expect_refusal("[cup]", "legend.yaml:1: expected the sections");
-  expect_refusal("ids: {3: chair\nnames: }", "broken YAML");
+  expect_refusal("", "legend.yaml:1: the file is empty");
+  expect_refusal("[cup]", "legend.yaml:1: is a list; write a section");
+  expect_refusal("ids: {3: chair\nnames: }", "not YAML");
   expect_refusal("ids: {3: chair}\nlabels: {}\n",
-                 "legend.yaml:2: unknown section 'labels'; known are colours, ids, names");
-  expect_refusal("ids: {3: chair}\nids: {4: cup}\n", "legend.yaml:2: section 'ids' stands twice");
-  expect_refusal("ids: chair\n", "legend.yaml:1: expected entries label: class");
-  expect_refusal("ids:\n", "expected entries label: class");
-  expect_refusal("ids: {3: [chair]}\n", "legend.yaml:1: expected one word");
-  expect_refusal("ids: {[3]: chair}\n", "legend.yaml:1: expected one word");
-  expect_refusal("ids: {3: }\n", "expected one word");
-  expect_refusal("ids:\n  3: chair\n  3.5: cup\n", "legend.yaml:3: '3.5' is not a whole number");
-  expect_refusal("ids: {4294967296: cup}", "'4294967296' is not a whole number of 32 bits");
-  expect_refusal("colours: {red: cup}\n", "'red' is not six hexadecimal digits in quotes");
-  expect_refusal("colours: {\"FF00GG\": cup}\n", "'FF00GG' is not six hexadecimal digits");
-  expect_refusal("colours: {\"0xFF00\": cup}\n", "'0xFF00' is not six hexadecimal digits");
-  expect_refusal("ids:\n  3: chair\n  3: cup\n", "legend.yaml:3: '3' stands twice");
-  expect_refusal("ids:\n  3: chair\n  03: cup\n", "legend.yaml:3: '03' stands twice");
+                 "legend.yaml:2: labels: unknown key 'labels'; write one of colours, ids, names");
+  expect_refusal("ids: {3: chair}\nids: {4: cup}\n", "legend.yaml:2: ids: key 'ids' stands twice");
+  expect_refusal("ids: chair\n", "legend.yaml:1: ids: is chair; write a section, key: value");
+  expect_refusal("ids:\n", "ids: has no value; write a section");
+  expect_refusal("ids: {3: [chair]}\n",
+                 "legend.yaml:1: ids.3: is a list; write a class of the truth");
+  expect_refusal("ids: {[3]: chair}\n", "legend.yaml:1: ids: a key is not a word");
+  expect_refusal("ids: {3: }\n", "ids.3: has no value; write a class of the truth");
+  expect_refusal("ids:\n  3: chair\n  3.5: cup\n",
+                 "legend.yaml:3: ids.3.5: is 3.5; write a whole number");
+  expect_refusal("ids: {4294967296: cup}", "is 4294967296; write a whole number of 32 bits");
+  expect_refusal("colours: {red: cup}\n", "is red; write six hexadecimal digits in quotes");
+  expect_refusal("colours: {\"FF00GG\": cup}\n", "is FF00GG; write six hexadecimal digits");
+  expect_refusal("colours: {\"0xFF00\": cup}\n", "is 0xFF00; write six hexadecimal digits");
+  expect_refusal("ids:\n  3: chair\n  3: cup\n", "legend.yaml:3: ids.3: key '3' stands twice");
+  expect_refusal("ids:\n  3: chair\n  03: cup\n", "legend.yaml:3: ids.03: '03' stands twice");
   expect_refusal("colours:\n  \"FF0000\": chair\n  \"ff0000\": cup\n",
-                 "legend.yaml:3: 'ff0000' stands twice");
-  expect_refusal("ids:\n  3: stool\n",
-                 "legend.yaml:2: the truth has no class 'stool'; its classes are background, cup, "
-                 "chair, sofa");
+                 "legend.yaml:3: colours.ff0000: 'ff0000' stands twice");
+  expect_refusal(
+      "ids:\n  3: stool\n",
+      "legend.yaml:2: ids.3: the truth has no class 'stool'; its classes are background, cup, "
+      "chair, sofa");
   expect_refusal("ids: {}\n", "legend.yaml:1: the legend names no class");
   expect_refusal("ids: {3: background}\n",
                  "the legend names no class; give one of background, cup");

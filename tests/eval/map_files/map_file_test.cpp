@@ -5,7 +5,7 @@
 
 #include "core/mapping/semantic_map.hpp"
 #include "tests/eval/map_files/cloud_bytes.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace mapscore::eval {
 namespace {
@@ -38,7 +38,7 @@ TEST_F(MapFileByEnding, CapitalsDoNotMatter) {
 
 TEST_F(MapFileByEnding, OtherEndingsAreRefusedWithTheListOfThose) {
   for (const char* name : {"a.pcl", "a", "a.ply.gz"})
-    expect_error("maps are read from .ot, .bt, .ply, .pcd and .csv; convert it to one of these",
+    expect_error("maps are read from .ot, .bt, .ply, .pcd, .csv; convert it to one of these",
                  [&] { (void)read_map_file(file(name, "ply\n")); });
 }
 

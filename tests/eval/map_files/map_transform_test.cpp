@@ -4,7 +4,7 @@
 #include "eval/map_files/map_transform.hpp"
 
 #include "tests/eval/map_files/cloud_bytes.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 namespace mapscore::eval {
 namespace {

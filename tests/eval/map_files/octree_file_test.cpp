@@ -5,7 +5,7 @@
 
 #include "tests/eval/map_files/cloud_bytes.hpp"
 #include "tests/eval/map_files/octree_maps.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 #include <fmt/format.h>
 #include <octomap/OcTreeStamped.h>

@@ -3,7 +3,7 @@
 
 #include "core/mapping/semantic_map.hpp"
 #include "eval/map_files/octree_file.hpp"
-#include "eval/recording/file_bytes.hpp"
+#include "files/file_bytes.hpp"
 #include "tests/eval/map_files/octree_maps.hpp"
 #include "tests/support/mutations.hpp"
 #include "tests/support/tiny_recording.hpp"

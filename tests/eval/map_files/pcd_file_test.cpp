@@ -4,7 +4,7 @@
 #include "eval/map_files/pcd_file.hpp"
 
 #include "tests/eval/map_files/cloud_bytes.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 #include <fmt/format.h>
 #include <liblzf/lzf.h>

@@ -3,10 +3,10 @@
 
 #include "eval/map_files/ply_file.hpp"
 
-#include "eval/map_files/text_rows.hpp"
 #include "eval/truth/truth_file.hpp"
+#include "files/text_rows.hpp"
 #include "tests/eval/map_files/cloud_bytes.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include "eval/truth/truth_file.hpp"
 #include "files/csv.hpp"
 #include "tests/eval/map_files/cloud_bytes.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "tests/support/expect_error.hpp"
 
 #include <limits>
 

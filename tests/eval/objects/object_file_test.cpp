@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/objects/object_mjcf.hpp"
-#include "eval/recording/file_bytes.hpp"
+#include "files/file_bytes.hpp"
 #include "tests/support/mutations.hpp"
 #include "tests/support/tiny_recording.hpp"
 
@@ -99,12 +99,12 @@ TEST(ObjectFile, RefusalsNameLineKeyAndMend) {
               HasSubstr("no class 'chairs'; there are: chair, tea"));
   EXPECT_THAT(refusal(replaced(good, "id: 8", "id: 3")), HasSubstr("not above"));
   EXPECT_THAT(refusal(replaced(good, "0.4,", "-0.4,")), HasSubstr("negative length"));
-  EXPECT_THAT(refusal(replaced(good, "0.4,", "nan,")), HasSubstr("finite number"));
+  EXPECT_THAT(refusal(replaced(good, "0.4,", "nan,")), HasSubstr("is nan; write a finite number"));
   EXPECT_THAT(refusal(replaced(good, "0.7", "1.7")), HasSubstr("from 0 to 1"));
   EXPECT_THAT(refusal(replaced(good, "format_version: 1", "format_version: 2")),
               HasSubstr("another format"));
   EXPECT_THAT(refusal(good.substr(0, good.find("objects:\n")) + "objects: 3\n"),
-              HasSubstr("objects.yaml:6: objects: expected a list"));
+              HasSubstr("objects.yaml:6: objects: is 3; write a list"));
   ObjectFile foreign = two_objects();
   foreign.objects[0].class_id = 9;
   EXPECT_THROW((void)object_text(foreign, table()), Error);

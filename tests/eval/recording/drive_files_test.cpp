@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/recording/file_bytes.hpp"
 #include "eval/recording/odometry_file.hpp"
 #include "eval/recording/scan_file.hpp"
+#include "files/file_bytes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

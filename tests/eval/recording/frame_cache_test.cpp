@@ -3,8 +3,8 @@
 
 #include "eval/recording/frame_cache.hpp"
 
-#include "eval/recording/file_bytes.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "files/file_bytes.hpp"
+#include "tests/support/expect_error.hpp"
 #include "tests/support/tiny_recording.hpp"
 
 #include <gtest/gtest.h>

@@ -4,9 +4,9 @@
 #include "eval/recording/grid_file.hpp"
 
 #include "core/random_stream.hpp"
-#include "eval/recording/file_bytes.hpp"
-#include "eval/recording/pgm.hpp"
-#include "expect_error.hpp"
+#include "files/file_bytes.hpp"
+#include "files/pgm.hpp"
+#include "tests/support/expect_error.hpp"
 #include "tests/support/mutations.hpp"
 #include "tests/support/tiny_recording.hpp"
 
@@ -99,7 +99,7 @@ TEST_F(GridFile, RefusesToSaveWhatItCannotSay) {
 TEST_F(GridFile, RefusesWrongYaml) {
   refuses("resolution", with(kYaml, "0.05", "-0.05"));
   refuses("resolution", with(kYaml, "0.05", "fine"));
-  refuses("key 'origin' is missing", with(kYaml, "origin: [-1.5, 2.25, 0.5]\n", ""));
+  refuses("'origin' is missing", with(kYaml, "origin: [-1.5, 2.25, 0.5]\n", ""));
   refuses("[x, y, yaw]", with(kYaml, ", 0.5]", "]"));
   refuses("origin", with(kYaml, "2.25", ".nan"));
   refuses("negate", with(kYaml, "negate: 0", "negate: 2"));

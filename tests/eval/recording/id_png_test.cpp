@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/random_stream.hpp"
-#include "eval/recording/png.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "files/png.hpp"
+#include "tests/support/expect_error.hpp"
 
 #include <gtest/gtest.h>
 #include <libdeflate.h>

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/recording/file_bytes.hpp"
 #include "eval/recording/recording.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "eval/recording/recording_writer.hpp"
+#include "files/file_bytes.hpp"
+#include "tests/support/expect_error.hpp"
 #include "tests/support/mutations.hpp"
 #include "tests/support/tiny_recording.hpp"
 

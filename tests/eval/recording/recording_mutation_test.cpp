@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/recording/file_bytes.hpp"
 #include "eval/recording/recording.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "eval/recording/recording_writer.hpp"
+#include "files/file_bytes.hpp"
+#include "tests/support/expect_error.hpp"
 #include "tests/support/mutations.hpp"
 #include "tests/support/tiny_recording.hpp"
 
@@ -97,7 +98,7 @@ TEST_F(DamagedRecording, YamlNestedWithoutEndIsRefused) {
 TEST_F(DamagedRecording, WhatRefersToItselfIsRefused) {
   expect_refusal("recording.yaml", "&a {format_version: 1, depth: *a, color: *a}",
                  "recording.yaml:");
-  expect_refusal("recording.yaml", "format_version: &a [*a, *a]\n", "expected a text");
+  expect_refusal("recording.yaml", "format_version: &a [*a, *a]\n", "is a list; write a text");
 }
 
 TEST_F(DamagedRecording, LineBreaksInAMessageAreNotRepeated) {

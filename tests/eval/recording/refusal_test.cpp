@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/recording/file_bytes.hpp"
 #include "eval/recording/recording.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "files/file_bytes.hpp"
+#include "tests/support/expect_error.hpp"
 #include "tests/support/tiny_recording.hpp"
 
 #include <gtest/gtest.h>
@@ -93,9 +93,9 @@ TEST_F(BrokenRecording, NoRecordingYaml) {
 
 TEST_F(BrokenRecording, BrokenYaml) {
   write_file(tiny_ / "recording.yaml", "format_version: 1\nscene: [a, b\n");
-  expect_refusal("broken YAML");
+  expect_refusal("not YAML");
   write_file(tiny_ / "recording.yaml", "");
-  expect_refusal("recording.yaml:1: not a map");
+  expect_refusal("recording.yaml:1: the file is empty; write key: value");
 }
 
 TEST_F(BrokenRecording, OtherFormatVersion) {
@@ -122,38 +122,41 @@ TEST_P(BrokenYaml, IsRefusedWithKeyAndReason) {
 INSTANTIATE_TEST_SUITE_P(
     Every, BrokenYaml,
     ::testing::Values(
-        YamlCase{"no_seed", "seed: 7\n", "", "key 'seed' is missing"},
+        YamlCase{"no_seed", "seed: 7\n", "", "'seed' is missing; write seed: ..."},
         YamlCase{"seed_below_0", "seed: 7", "seed: -7",
-                 "recording.yaml:5: seed: expected a whole number"},
-        YamlCase{"key_of_no_meaning", "seed: 7", "seed: 7\nspeed: 1", "unknown key 'speed'"},
+                 "recording.yaml:5: seed: is \"-7\"; write a whole number from 0 to"},
+        YamlCase{"key_of_no_meaning", "seed: 7", "seed: 7\nspeed: 1",
+                 "recording.yaml:6: speed: unknown key 'speed'; did you mean 'seed'?"},
         YamlCase{"key_twice", "seed: 7", "seed: 7\nseed: 8", "key 'seed' stands twice"},
         YamlCase{"truth_neither_true_nor_false", "has_truth: true", "has_truth: maybe",
-                 "has_truth: expected true or false"},
+                 "has_truth: is maybe; write true or false"},
         YamlCase{"rate_0", "rate_hz: 2}", "rate_hz: 0}", "color.rate_hz: 0 is not above 0"},
         YamlCase{"width_in_powers_of_ten", "width_px: 64", "width_px: 1e9",
-                 "color.width_px: expected a whole number"},
-        YamlCase{"cx_nan", "cx_px: 31.5", "cx_px: .nan", "color.cx_px: expected a finite number"},
+                 "color.width_px: is 1e9; write a whole number"},
+        YamlCase{"cx_nan", "cx_px: 31.5", "cx_px: .nan",
+                 "color.cx_px: is .nan; write a finite number"},
         YamlCase{"cy_infinite", "cy_px: 23.5", "cy_px: .inf",
-                 "color.cy_px: expected a finite number"},
+                 "color.cy_px: is .inf; write a finite number"},
         YamlCase{"cy_the_word_nan", "cy_px: 23.5", "cy_px: nan",
-                 "color.cy_px: expected a finite number"},
-        YamlCase{"no_cy", "cy_px: 23.5, ", "", "color: key 'cy_px' is missing"},
+                 "color.cy_px: is nan; write a finite number"},
+        YamlCase{"no_cy", "cy_px: 23.5, ", "", "color: 'cy_px' is missing"},
         YamlCase{"camera_key_of_no_meaning", "cy_px: 23.5", "cy_px: 23.5, k1: 0",
-                 "color: unknown key 'k1'"},
+                 "color.k1: unknown key 'k1'"},
         YamlCase{"range_from_beyond_its_end", "range_min_m: 0.6", "range_min_m: 9",
                  "depth: expected 0 <= range_min_m"},
         YamlCase{"pose_of_six_numbers", "T_color_depth: [0.025, 0", "T_color_depth: [0.025",
                  "T_color_depth: expected [tx"},
         YamlCase{"pose_with_a_letter", "T_color_depth: [0.025", "T_color_depth: [x",
-                 "T_color_depth[0]: expected a finite"},
+                 "T_color_depth[0]: is x; write a finite number"},
         YamlCase{"quaternion_too_long", "0, 0, 0, 1]", "0, 0, 0, 2]", "T_color_depth: quaternion"},
         YamlCase{"classes_no_list", "classes:\n", "classes: 3\nold:\n", "unknown key 'old'"},
         YamlCase{"class_left_out", "{id: 1, name: \"crate\"", "{id: 3, name: \"crate\"",
-                 "classes[1].id: expected"},
+                 "classes[1].id: is 3; write a whole number from 1 to 1"},
         YamlCase{"class_name_twice", "\"wall\"", "\"crate\"", "two classes have this name"},
-        YamlCase{"colour_by_name", "\"FF0000\"", "\"red\"", "classes[1].colour: expected a colour"},
+        YamlCase{"colour_by_name", "\"FF0000\"", "\"red\"",
+                 "classes[1].colour: is red; write six hexadecimal digits in quotes"},
         YamlCase{"class_beyond_the_table", "class: 2", "class: 3",
-                 "instances[2].class: expected a whole number from 0 to 2"},
+                 "instances[2].class: is 3; write a whole number from 0 to 2"},
         YamlCase{"background_with_a_class", "class: 0", "class: 1", "instance 0 is background"},
         YamlCase{"frame_too_many", "frame_count: 4", "frame_count: 5",
                  "color.txt: 4 lines, recording.yaml says frame_count 5"}));

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/random_stream.hpp"
-#include "eval/recording/file_bytes.hpp"
 #include "eval/recording/info_yaml.hpp"
 #include "eval/recording/pose_text.hpp"
 #include "eval/recording/recording.hpp"
-#include "tests/eval/recording/expect_error.hpp"
+#include "eval/recording/recording_writer.hpp"
+#include "files/file_bytes.hpp"
+#include "files/text_rows.hpp"
+#include "tests/support/expect_error.hpp"
 #include "tests/support/tiny_recording.hpp"
 
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 
 #include "eval/report/baseline.hpp"
 
-#include "tests/eval/recording/expect_error.hpp"
 #include "tests/eval/report/synthetic_summary.hpp"
+#include "tests/support/expect_error.hpp"
 #include "tests/support/tiny_recording.hpp"
 
 #include <gmock/gmock.h>

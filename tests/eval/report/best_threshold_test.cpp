@@ -3,8 +3,8 @@
 
 #include "eval/report/best_threshold.hpp"
 
-#include "tests/eval/recording/expect_error.hpp"
 #include "tests/eval/report/synthetic_summary.hpp"
+#include "tests/support/expect_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 
 #include "eval/report/summary.hpp"
 
-#include "tests/eval/recording/expect_error.hpp"
-#include "tests/eval/report/swept_plate.hpp"
+#include "tests/eval/report/pictures/swept_plate.hpp"
 #include "tests/eval/report/synthetic_summary.hpp"
+#include "tests/support/expect_error.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 #include "eval/report/tidy_csv.hpp"
 
 #include "files/csv.hpp"
-#include "tests/eval/report/swept_plate.hpp"
+#include "tests/eval/report/pictures/swept_plate.hpp"
 
 #include <gmock/gmock.h>
 

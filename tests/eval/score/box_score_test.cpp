@@ -69,12 +69,12 @@ TEST(BoxScore, CountsAndPools) {
   counts.add(kUnit, AlignedBox3d(), 0.0);           // its instance has no sample
   counts.add(AlignedBox3d(), AlignedBox3d(), 0.0);  // skipped, and no sample
   EXPECT_EQ(counts, (BoxCounts{4, 2, 1750000000, 3, 2, 1}));
-  EXPECT_EQ(box_metrics(counts),
+  EXPECT_EQ(counts.metrics(),
             (std::vector<Metric>{
                 {"box_iou", 0.4375}, {"box_25", 0.75}, {"box_50", 0.5}, {"box_75", 0.25}}));
   counts += counts;
   EXPECT_EQ(counts, (BoxCounts{8, 4, 3500000000, 6, 4, 2}));
-  for (const Metric& metric : box_metrics(BoxCounts{0, 3, 0, 0, 0, 0}))
+  for (const Metric& metric : BoxCounts{0, 3, 0, 0, 0, 0}.metrics())
     EXPECT_EQ(metric.value, std::nullopt);
 }
 

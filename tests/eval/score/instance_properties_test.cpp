@@ -70,7 +70,7 @@ TEST(InstanceProperties, RatiosLieInTheirRangeAndBelongTogether) {
         score_instances(pieces_of(MapSnapshot(made.map), 0.2), surface_of(made.surface),
                         visible_of(made.owners), cups_and_chairs());
     for (const InstanceCounts& c : counts) {
-      const std::vector<Metric> metrics = instance_metrics(c);
+      const std::vector<Metric> metrics = c.metrics();
       for (const Metric& metric : metrics) {
         const double value = metric.value.value_or(0.0);
         EXPECT_TRUE(value >= 0.0 && value <= 1.0) << metric.name;

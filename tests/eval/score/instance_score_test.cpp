@@ -61,7 +61,7 @@ std::vector<InstanceCounts> score(const World& world, const std::vector<Bar>& ma
 }
 
 double figure(const InstanceCounts& counts, const std::string& name) {
-  return value_of(instance_metrics(counts), name).value_or(-1.0);
+  return value_of(counts.metrics(), name).value_or(-1.0);
 }
 
 TEST(InstanceScore, OneObjectByHand) {
@@ -110,7 +110,7 @@ TEST(InstanceScore, ASplitObjectIsFoundOnceAtMost) {
   EXPECT_EQ(even.true_positive, 0);  // 5 / 10 is not above a half ...
   EXPECT_EQ(even.false_negative, 1);
   EXPECT_EQ(figure(even, "pq"), 0.0);
-  EXPECT_EQ(value_of(instance_metrics(even), "sq"), std::nullopt);
+  EXPECT_EQ(value_of(even.metrics(), "sq"), std::nullopt);
   EXPECT_EQ(figure(even, "ap_50"), 0.5);  // ... but at one; of equal scores all at once
 }
 
@@ -121,7 +121,7 @@ TEST(InstanceScore, AWrongClassMatchesNothing) {
   EXPECT_EQ(counts[kCup].true_positive + counts[kCup].false_positive, 0);
   EXPECT_EQ(counts[kChair].false_positive, 1);
   EXPECT_EQ(counts[kChair].visible(), 0);
-  EXPECT_EQ(value_of(instance_metrics(counts[kChair]), "ap_50"), std::nullopt);
+  EXPECT_EQ(value_of(counts[kChair].metrics(), "ap_50"), std::nullopt);
   EXPECT_EQ(figure(counts[kChair], "pq"), 0.0);
 }
 

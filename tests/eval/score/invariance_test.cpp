@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/random_stream.hpp"
-#include "eval/score/curve.hpp"
-#include "eval/score/distance_score.hpp"
+#include "eval/score/curve_score.hpp"
+#include "eval/score/distances/distance_score.hpp"
 #include "eval/score/voxel_score.hpp"
 #include "tests/eval/score/random_scene.hpp"
 

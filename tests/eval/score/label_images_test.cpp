@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "core/random_stream.hpp"
-#include "eval/recording/file_bytes.hpp"
-#include "eval/recording/png.hpp"
+#include "files/file_bytes.hpp"
+#include "files/png.hpp"
 #include "tests/support/tiny_recording.hpp"
 
 #include <gmock/gmock.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/random_stream.hpp"
-#include "eval/score/distance_score.hpp"
+#include "eval/score/distances/distance_score.hpp"
 #include "eval/score/voxel_score.hpp"
 #include "tests/eval/score/plain_score.hpp"
 

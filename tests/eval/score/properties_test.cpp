@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/score/curve.hpp"
-#include "eval/score/distance_score.hpp"
+#include "eval/score/curve_score.hpp"
+#include "eval/score/distances/distance_score.hpp"
 #include "eval/score/metrics.hpp"
 #include "eval/score/voxel_score.hpp"
 #include "tests/eval/score/plain_score.hpp"

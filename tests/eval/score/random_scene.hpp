@@ -7,7 +7,7 @@
 #include "core/frame.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/mapping/semantic_map.hpp"
-#include "eval/score/sample_set.hpp"
+#include "eval/score/distances/sample_set.hpp"
 #include "eval/truth/sample_counter.hpp"
 #include "eval/truth/surface_truth.hpp"
 #include "eval/truth/visible_truth.hpp"

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/score/metrics.hpp"
-#include "eval/score/voxel_shell.hpp"
+#include "eval/score/voxel_window.hpp"
 #include "tests/eval/score/score_cases.hpp"
 
 #include <gmock/gmock.h>

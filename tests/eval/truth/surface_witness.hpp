@@ -4,7 +4,7 @@
 #pragma once
 
 #include "eval/truth/surface_truth.hpp"
-#include "tests/eval/truth/closest_point.hpp"
+#include "tests/eval/truth/shapes/closest_point.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "sim/recorder.hpp"
+#include "sim/recorder/recorder.hpp"
 
 #include "core/error.hpp"
+#include "sim/recorder/recorded_drive.hpp"
 #include "tests/sim/world/scene_files.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "sim/recorder.hpp"
+#include "sim/recorder/recorded_drive.hpp"
 #include "sim/world/world.hpp"
 #include "tests/sim/world/scene_files.hpp"
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "sim/recorder/recorded_drive.hpp"
 #include "sim/robot/drive_simulation.hpp"
 #include "tests/sim/robot/drive_scenes.hpp"
 

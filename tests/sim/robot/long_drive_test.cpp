@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include "sim/recorder/recorded_drive.hpp"
 #include "sim/robot/drive_simulation.hpp"
 #include "tests/sim/robot/drive_scenes.hpp"
 

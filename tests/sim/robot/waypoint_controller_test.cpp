@@ -4,6 +4,7 @@
 #include "sim/robot/waypoint_controller.hpp"
 
 #include "core/error.hpp"
+#include "sim/recorder/recorded_drive.hpp"
 
 #include <gtest/gtest.h>
 

@@ -66,21 +66,23 @@ TEST(ClassFile, WorldIsMatchedByItsOwnNameOnly) {
 }
 
 TEST(ClassFile, RefusesWithFileLineAndKey) {
-  EXPECT_THAT(refusal("classes:\n  - {name: cup}\n  - {name: tv, color: \"FF0000\"}\n"),
-              HasSubstr("room.classes.yaml:3: classes[1].color: is not a key"));
+  EXPECT_THAT(
+      refusal("classes:\n  - {name: cup}\n  - {name: tv, color: \"FF0000\"}\n"),
+      HasSubstr(
+          "room.classes.yaml:3: classes[1].color: unknown key 'color'; did you mean 'colour'?"));
   EXPECT_THAT(refusal("classes:\n  - {name: cup, colour: red}\n"),
-              HasSubstr("room.classes.yaml:2: classes[0].colour: must be six hexadecimal"));
+              HasSubstr("room.classes.yaml:2: classes[0].colour: is red; write six hexadecimal"));
   EXPECT_THAT(refusal("classes:\n  - {name: cup, detect: 3}\n"),
-              HasSubstr("[0].detect: must be true"));
+              HasSubstr("[0].detect: is 3; write true or false"));
   EXPECT_THAT(refusal("classes:\n  - {name: cup}\n  - {name: cup}\n"), HasSubstr("twice"));
   EXPECT_THAT(refusal("classes:\n  - {name: cup, bodies: [a]}\n  - {name: tv, bodies: [a]}\n"),
               HasSubstr("room.classes.yaml:3: classes[1].bodies: pattern `a` stands twice"));
   EXPECT_THAT(refusal("classes:\n  - {name: background}\n"), HasSubstr("background"));
-  EXPECT_THAT(refusal("classes:\n  - {bodies: [a]}\n"), HasSubstr("classes[0].name: is missing"));
+  EXPECT_THAT(refusal("classes:\n  - {bodies: [a]}\n"), HasSubstr("classes[0]: 'name' is missing"));
   EXPECT_THAT(refusal("classes:\n  - {name: cup, name: mug}\n"),
-              HasSubstr("room.classes.yaml:2: classes[0].name: stands twice"));
-  EXPECT_THAT(refusal("classes: 3\n"), HasSubstr("classes: must be a list"));
-  EXPECT_THAT(refusal("classes: [\n"), HasSubstr("not valid YAML"));
+              HasSubstr("room.classes.yaml:2: classes[0].name: key 'name' stands twice"));
+  EXPECT_THAT(refusal("classes: 3\n"), HasSubstr("classes: is 3; write a list"));
+  EXPECT_THAT(refusal("classes: [\n"), HasSubstr("not YAML"));
   EXPECT_THROW((void)read_class_file("/nowhere/x.yaml"), Error);
 }
 

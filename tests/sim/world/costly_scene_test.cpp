@@ -3,8 +3,8 @@
 
 #include "core/error.hpp"
 #include "scene_files.hpp"
+#include "sim/inventory/scene_inventory.hpp"
 #include "sim/world/mjcf_cost.hpp"
-#include "sim/world/scene_inventory.hpp"
 #include "sim/world/trial_process.hpp"
 
 #include <gmock/gmock.h>

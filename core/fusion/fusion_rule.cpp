@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/fusion/fusion_rule.hpp"
+
+#include "core/error.hpp"
+#include "core/fusion/bayes_fusion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <type_traits>
+
+namespace mapscore {
+namespace {
+
+/// Below this a decayed class is forgotten; no threshold in use comes near it.
+constexpr double kForgotten = 1e-6;
+
+void check_classes(const auto&) {}
+void check_classes(const BayesRule& rule) {
+  if (rule.priors.size() < 2 || rule.priors.size() >= kOtherClasses)
+    throw Error("priors: need one for each class of the table, at least two");
+  for (const double prior : rule.priors)
+    if (!(prior > 0.0 && prior < 1.0))
+      throw Error(
+          "priors: each must lie above 0 and below 1; a class of prior 0 is never believed");
+  const double sum = std::accumulate(rule.priors.begin(), rule.priors.end(), 0.0);
+  if (std::abs(sum - 1.0) > 1e-9) throw Error("priors: must add up to 1; divide them by their sum");
+}
+void check_classes(const Top3Rule& rule) {
+  if (rule.classes < 2 || rule.classes >= kOtherClasses)
+    throw Error("classes: need at least two in the class table");
+}
+
+/// Whether a is the class to keep of two: the more confident, ties to the lower id.
+bool surer(const ClassProbability& a, const ClassProbability& b) {
+  return a.probability != b.probability ? a.probability > b.probability : a.class_id < b.class_id;
+}
+
+void keep_surer(const ClassProbability& candidate, ClassBeliefs& beliefs) {
+  if (beliefs.empty() || surer(candidate, beliefs.entries().front()))
+    beliefs = ClassBeliefs({candidate});
+}
+
+ClassBeliefs merged_by(const BlendRule&, const ClassBeliefs&, const ClassBeliefs&) {
+  throw Error(
+      "blend: maps made by it cannot be merged, since each frame outweighs those before it; map "
+      "all frames in one run, or use another fusion rule");
+}
+ClassBeliefs merged_by(const MaxConfidenceRule&, const ClassBeliefs& a, const ClassBeliefs& b) {
+  ClassBeliefs sum = a;
+  for (const ClassProbability& entry : b.entries()) keep_surer(entry, sum);
+  return sum;
+}
+ClassBeliefs merged_by(const VoteRule&, const ClassBeliefs& a, const ClassBeliefs& b) {
+  ClassBeliefs sum = a;
+  for (const ClassProbability& entry : b.entries())
+    sum.weight_of(entry.class_id) += entry.probability;
+  return sum;
+}
+ClassBeliefs merged_by(const BayesRule& rule, const ClassBeliefs& a, const ClassBeliefs& b) {
+  return product(rule, a, b);
+}
+ClassBeliefs merged_by(const Top3Rule& rule, const ClassBeliefs& a, const ClassBeliefs& b) {
+  return product(rule, a, b);
+}
+
+ClassBeliefs mean_of(std::span<const ClassBeliefs* const> children) {
+  ClassBeliefs mean;
+  int count = 0;
+  for (const ClassBeliefs* child : children) {
+    if (child == nullptr || child->empty()) continue;
+    ++count;
+    for (const ClassProbability& entry : child->entries())
+      mean.weight_of(entry.class_id) += entry.probability;
+  }
+  for (ClassProbability& entry : mean.entries()) entry.probability /= count;
+  return mean;
+}
+
+/// By class id: the given ones for detected classes, the rest in equal shares for the others.
+std::vector<double> priors_of(const std::vector<double>& given, const ClassTable& table) {
+  const auto detected = static_cast<std::size_t>(
+      std::ranges::count_if(table.classes, [](const SemanticClass& c) { return c.detect; }));
+  if (given.size() != detected)
+    throw Error("fusion.bayes.priors: has " + std::to_string(given.size()) + " numbers, but " +
+                std::to_string(detected) + " classes are detected; write one for each");
+  const double rest = 1.0 - std::accumulate(given.begin(), given.end(), 0.0);
+  if (!(rest > 0.0))
+    throw Error(
+        "fusion.bayes.priors: add up to 1 or more; leave a share for the classes that are not "
+        "detected");
+  std::vector<double> priors;
+  auto next = given.begin();
+  const auto others = static_cast<double>(table.classes.size() - detected);
+  for (const SemanticClass& c : table.classes) priors.push_back(c.detect ? *next++ : rest / others);
+  return priors;
+}
+
+}  // namespace
+
+std::vector<double> uniform_priors(int classes) {
+  if (classes < 2) throw Error("classes: need at least two in the class table");
+  return std::vector<double>(static_cast<std::size_t>(classes), 1.0 / classes);
+}
+
+Fusion for_classes(const DrawnFusion& fusion, const ClassTable& table) {
+  Fusion fitted = std::visit(
+      [](const auto& kind) {
+        return Fusion{kind.rule, kind.draws};
+      },
+      fusion);
+  const auto classes = static_cast<int>(table.classes.size());
+  if (auto* top3 = std::get_if<Top3Rule>(&fitted.rule)) top3->classes = classes;
+  if (auto* bayes = std::get_if<BayesRule>(&fitted.rule))
+    bayes->priors =
+        bayes->priors.empty() ? uniform_priors(classes) : priors_of(bayes->priors, table);
+  return fitted;
+}
+
+void check(const FusionRule& rule) {
+  std::visit(
+      [](const auto& kind) {
+        check_ranges(Drawn<std::remove_cvref_t<decltype(kind)>>{kind, {}});
+        check_classes(kind);
+      },
+      rule);
+}
+
+void decay(const BlendRule& rule, ClassBeliefs& beliefs) {
+  for (ClassProbability& entry : beliefs.entries()) entry.probability *= rule.K;
+  beliefs.forget_below(kForgotten);
+}
+
+void fuse(const BlendRule& rule, std::span<const VoxelHit> hits, int draws, ClassBeliefs& beliefs) {
+  for (ClassProbability& entry : beliefs.entries()) entry.probability *= rule.K;
+  for (const VoxelHit& hit : hits)
+    beliefs.weight_of(hit.class_id) += (1.0 - rule.K) * hit.score_sum / draws;
+  beliefs.forget_below(kForgotten);
+}
+
+void fuse(const MaxConfidenceRule&, std::span<const VoxelHit> hits, int draws,
+          ClassBeliefs& beliefs) {
+  for (const VoxelHit& hit : hits) keep_surer({hit.class_id, hit.score_sum / draws}, beliefs);
+}
+
+void fuse(const VoteRule&, std::span<const VoxelHit> hits, int, ClassBeliefs& beliefs) {
+  for (const VoxelHit& hit : hits) beliefs.weight_of(hit.class_id) += hit.draws;
+}
+
+void fuse(const BayesRule& rule, std::span<const VoxelHit> hits, int draws, ClassBeliefs& beliefs) {
+  beliefs = product(rule, beliefs, observed(rule, hits, draws));
+}
+
+void fuse(const Top3Rule& rule, std::span<const VoxelHit> hits, int draws, ClassBeliefs& beliefs) {
+  beliefs = product(rule, beliefs, observed(rule, hits, draws));
+}
+
+ClassBeliefs merged(const FusionRule& rule, const ClassBeliefs& a, const ClassBeliefs& b) {
+  return std::visit([&](const auto& kind) { return merged_by(kind, a, b); }, rule);
+}
+
+ClassBeliefs combined(const FusionRule& rule, std::span<const ClassBeliefs* const> children) {
+  if (std::holds_alternative<BlendRule>(rule)) return mean_of(children);
+  ClassBeliefs whole;
+  for (const ClassBeliefs* child : children)
+    if (child != nullptr && !child->empty()) whole = merged(rule, whole, *child);
+  return whole;
+}
+
+double first_full_hit(const FusionRule& rule) {
+  if (const auto* blend = std::get_if<BlendRule>(&rule)) return 1.0 - blend->K;
+  ClassBeliefs beliefs;
+  fuse(rule, std::vector<VoxelHit>{{{}, kBackground, 1, 1.0}}, 1, beliefs);
+  return beliefs.weight(kBackground);
+}
+
+}  // namespace mapscore

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/edge_aligned/edge_aligned.hpp"
+
+#include "core/geometry/depth_rays.hpp"
+#include "core/segmentation/edge_aligned/depth_edges.hpp"
+#include "core/segmentation/edge_aligned/outline_alignment.hpp"
+#include "core/segmentation/edge_aligned/outline_field.hpp"
+#include "core/segmentation/edge_aligned/outline_shifts.hpp"
+#include "core/segmentation/edge_aligned/settled_depth.hpp"
+#include "core/segmentation/edge_aligned/surface_vote.hpp"
+#include "core/segmentation/occupied_centres.hpp"
+
+#include <cmath>
+
+namespace mapscore {
+
+LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
+  check_ranges(params);
+  const Calibration& believed = sight.believed();
+  const std::vector<Detection>& detections = sight.detections();
+  const DepthEdges edges = find_depth_edges(sight.depth(), believed);
+  const int reach_px = static_cast<int>(std::ceil(1.3 * params.search_px)) + 16;
+  const OutlineField field =
+      outline_field(detections, believed.color.width_px, believed.color.height_px, reach_px);
+  const OutlineAlignment alignment = align_outlines(edges, field, believed, params.search_px);
+  const OutlineShifts shifts = find_outline_shifts(edges, field, alignment, believed);
+  LabelledDepth labelled;
+  labelled.labels = vote_on_surfaces(edges, field, alignment, shifts, believed, detections.size(),
+                                     params.reach_px);
+  if (is_noisy(edges)) labelled.inverse_depth = settle_on_surfaces(edges, labelled.labels);
+  return labelled;
+}
+
+std::vector<Segment> EdgeAligned::segment(const Sight& sight, double voxel_m,
+                                          bool with_voxels) const {
+  const auto [labels, inverse_depth] = label_surfaces(sight, *this);
+  const cv::Mat1w& depth = sight.depth();
+  const auto z_m = [&](int v, int u) {
+    return inverse_depth.empty() ? depth(v, u) / kDepthUnitsPerMetre
+                                 : 1.0 / static_cast<double>(inverse_depth(v, u));
+  };
+  std::vector<Segment> segments;
+  segments.reserve(sight.detections().size());
+  for (const Detection& detection : sight.detections()) {
+    Segment& segment = segments.emplace_back();
+    segment.class_id = detection.class_id;
+    segment.instance = detection.instance;
+    segment.score = detection.score;
+  }
+  const DepthRays rays(sight.believed().depth);
+  for (int v = 0; v < depth.rows; ++v)
+    for (int u = 0; u < depth.cols; ++u)
+      if (labels(v, u) != 0)
+        segments[labels(v, u) - std::size_t{1}].points.push_back(rays.point(u, v, z_m(v, u)));
+  for (Segment& segment : segments) {
+    for (const Eigen::Vector3d& point : segment.points) segment.box.extend(point);
+    if (segment.points.empty()) segment.skipped = SkipReason::no_points;
+    if (with_voxels) segment.voxel_centres = occupied_centres(segment.points, voxel_m);
+  }
+  return segments;
+}
+
+}  // namespace mapscore

@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/edge_aligned/outline_alignment.hpp"
+
+#include "core/geometry/pose.hpp"
+#include "core/segmentation/edge_aligned/edge_matching.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace mapscore {
+namespace {
+
+constexpr float kCoarse = 4.0F;  // pixels a cell of the coarse maps
+constexpr std::size_t kCoarseEdges = 800, kFineEdges = 4000;
+constexpr float kStepPx = 4.0F;   // between turns that are tried
+constexpr float kStepM = 0.005F;  // between shifts that are tried
+constexpr float kReachM = 0.06F;
+constexpr float kApartPx = 8.0F;  // between the turns that are kept for the fine fit
+
+constexpr float kNearest_m = 0.05F;   // from the colour camera
+constexpr float kLeastScore = 0.15F;  // below, the edges show nothing of the masks
+constexpr float kLabelOffset_px = 3.5F;
+constexpr float kPrior = 0.2F;
+constexpr float kCost = 0.03F;       // share of the outline that 20 px, or an offset of 4 px, cost
+constexpr float kShort_px = 150.0F;  // and as much of an outline of this length again
+
+using Parameters = Eigen::Matrix<float, 5, 1>;  // rx ry (px at the image's middle) tx ty (m) offset
+
+/// An edge in the colour camera's frame under the believed calibration.
+struct ProjectedEdge {
+  Eigen::Vector3f p;
+  Eigen::Vector2f outward;
+  std::uint8_t way;
+  float strength;
+};
+
+class Aligner {
+ public:
+  Aligner(const DepthEdges& edges, const OutlineField& field, const Calibration& believed,
+          double search_px)
+      : field_(field), project_(believed.color), search_px_(static_cast<float>(search_px)) {
+    const Eigen::Matrix3f R = believed.T_color_depth.linear().cast<float>();
+    const Eigen::Vector3f t = believed.T_color_depth.translation().cast<float>();
+    for (std::size_t way = 0; way < 4; ++way) votes_[way] = field.elements[way].clone();
+    for (const DepthEdge& edge : edges.steps) {
+      const Eigen::Vector3f p = R * edge.point + t;
+      if (!(p.z() > kNearest_m)) continue;
+      const Eigen::Vector2f at = project_(p);
+      if (distance_near(at) > 1.3F * search_px_ + 12.0F) continue;
+      edges_.push_back(
+          {p, direction_of(edge.outward), static_cast<std::uint8_t>(edge.outward), edge.strength});
+    }
+  }
+
+  OutlineAlignment align() {
+    if (edges_.empty() || field_.length_px == 0) return {};
+    OutlineAlignment best;
+    float most = -1e9F;
+    for (Candidate candidate : candidates()) {
+      if (candidate.family != Family::none) {
+        refine(candidate, 5.0F, 4, kCoarseEdges, free_of(candidate.family, 0));
+        refine(candidate, 3.0F, 3, kCoarseEdges, free_of(candidate.family, 1));
+      }
+      refine(candidate, 2.0F, 4, kCoarseEdges, Parameters::Ones());
+      candidate.score = fine_score(candidate, 1.5F);
+      const float value = candidate.score - penalty(candidate);
+      if (value > most) most = value, best = static_cast<OutlineAlignment>(candidate);
+    }
+    refine(best, 2.0F, 2, kFineEdges, Parameters::Ones());
+    refine(best, 1.2F, 4, kFineEdges, Parameters::Ones());
+    best.score = fine_score(best, 1.5F);
+    if (best.score < kLeastScore) return {};
+    best.sharpness = fine_score(best, 1.2F) / std::max(fine_score(best, 4.0F), 1e-6F);
+    return best;
+  }
+
+ private:
+  /// Distance to the nearest outline; beyond the image that of the nearest pixel, and the way to
+  /// it.
+  [[nodiscard]] float distance_near(const Eigen::Vector2f& at) const {
+    const float u = std::clamp(at.x(), 0.0F, static_cast<float>(field_.distance.cols - 1));
+    const float v = std::clamp(at.y(), 0.0F, static_cast<float>(field_.distance.rows - 1));
+    return std::abs(field_.distance(static_cast<int>(v), static_cast<int>(u))) +
+           std::abs(u - at.x()) + std::abs(v - at.y());
+  }
+
+  [[nodiscard]] float coarse_score(const OutlineAlignment& a) const {
+    const std::size_t stride = 1 + edges_.size() / kCoarseEdges;
+    const cv::Mat1b& any = field_.coarse[0];
+    float sum = 0;
+    for (std::size_t n = 0; n < edges_.size(); n += stride) {
+      const ProjectedEdge& edge = edges_[n];
+      const Eigen::Vector2f at = project_(a.rotation * edge.p + a.translation);
+      const float u = at.x() / kCoarse, v = at.y() / kCoarse;
+      if (!(u >= 0 && v >= 0 && u < static_cast<float>(any.cols) &&
+            v < static_cast<float>(any.rows)))
+        continue;
+      sum += edge.strength *
+             static_cast<float>(field_.coarse[edge.way](static_cast<int>(v), static_cast<int>(u)));
+    }
+    return sum * static_cast<float>(stride) / (255.0F * static_cast<float>(field_.length_px));
+  }
+
+  /// What large corrections cost: they need evidence, and a short outline holds little, since it
+  /// fits somewhere by chance.
+  [[nodiscard]] float penalty(const OutlineAlignment& a) const {
+    const Eigen::Vector2f turn(project_.fx * a.rotation(0, 2), project_.fy * a.rotation(1, 2));
+    const Eigen::Vector2f shift = a.translation.head<2>() * project_.fx / 2.0F;
+    return kCost * (1.0F + kShort_px / static_cast<float>(field_.length_px)) *
+           ((turn.squaredNorm() + shift.squaredNorm()) / (20.0F * 20.0F) +
+            a.offset_px * a.offset_px / (4.0F * 4.0F));
+  }
+
+  enum class Family { none, turn, shift };
+  struct Candidate : OutlineAlignment {
+    Family family = Family::none;
+  };
+
+  /// What the fit may change at its first stages: turns alone, or shifts alone.
+  [[nodiscard]] static Parameters free_of(Family family, int stage) {
+    const float turns = family == Family::shift ? 0.0F : 1.0F;
+    Parameters free;
+    free << turns, turns, 1.0F - turns, 1.0F - turns, stage > 0 ? 1.0F : 0.0F;
+    return free;
+  }
+
+  [[nodiscard]] OutlineAlignment turned(float du_px, float dv_px) const {
+    OutlineAlignment a;
+    const Eigen::Vector3d turn(-std::atan(dv_px / project_.fy), std::atan(du_px / project_.fx),
+                               0.0);
+    a.rotation = exp_rotation(turn).cast<float>();
+    return a;
+  }
+
+  /// The alignments that the fine fit starts from: none, which is believed unless something better
+  /// is found; none from farther away, with offsets; the best turns; the best shifts.
+  [[nodiscard]] std::vector<Candidate> candidates() const {
+    std::vector<Candidate> starts(4);
+    starts[1].family = starts[2].family = starts[3].family = Family::turn;
+    starts[2].offset_px = kLabelOffset_px;
+    starts[3].offset_px = -kLabelOffset_px;
+    std::vector<Candidate> tried;
+    for (float dv = -search_px_; dv <= search_px_; dv += kStepPx)
+      for (float du = -search_px_; du <= search_px_; du += kStepPx)
+        if (du * du + dv * dv <= search_px_ * search_px_)
+          tried.push_back({turned(du, dv), Family::turn});
+    keep_best(std::move(tried), 5, starts);
+    tried.clear();
+    for (float ty = -kReachM; ty <= kReachM; ty += kStepM)
+      for (float tx = -kReachM; tx <= kReachM; tx += kStepM)
+        if (tx * tx + ty * ty <= kReachM * kReachM) {
+          OutlineAlignment a;
+          a.translation = {tx, ty, 0};
+          tried.push_back({a, Family::shift});
+        }
+    keep_best(std::move(tried), 4, starts);
+    return starts;
+  }
+
+  void keep_best(std::vector<Candidate> tried, std::size_t most,
+                 std::vector<Candidate>& starts) const {
+    for (Candidate& a : tried) a.score = coarse_score(a) - penalty(a);
+    std::stable_sort(tried.begin(), tried.end(),
+                     [](const auto& a, const auto& b) { return a.score > b.score; });
+    std::vector<Eigen::Vector2f> kept;
+    for (const Candidate& a : tried) {
+      const Eigen::Vector2f middle =
+          project_(a.rotation * Eigen::Vector3f(0, 0, 2) + a.translation);
+      const bool near = std::any_of(kept.begin(), kept.end(), [&](const Eigen::Vector2f& other) {
+        return (middle - other).norm() < kApartPx;
+      });
+      if (near) continue;
+      kept.push_back(middle);
+      starts.push_back(a);
+      if (kept.size() == most) return;
+    }
+  }
+
+  /// A match, and the point that it was found for.
+  struct Match : EdgeMatch {
+    Eigen::Vector3f p;
+  };
+  [[nodiscard]] Match match(const ProjectedEdge& edge, const OutlineAlignment& a,
+                            float sigma) const {
+    const Eigen::Vector3f p = a.rotation * edge.p + a.translation;
+    if (!(p.z() > kNearest_m)) return {{}, p};
+    return {match_edge(field_, project_(p), edge.outward, edge.strength, a.offset_px, sigma), p};
+  }
+
+  /// Share of the outline elements that edges lie on. However many edges crowd around an element,
+  /// it counts once.
+  [[nodiscard]] float fine_score(const OutlineAlignment& a, float sigma) {
+    for (std::size_t way = 0; way < 4; ++way) votes_[way].setTo(0.0F);
+    const std::size_t stride = 1 + edges_.size() / kFineEdges;
+    const float weight = static_cast<float>(stride);
+    for (std::size_t n = 0; n < edges_.size(); n += stride) {
+      const Match m = match(edges_[n], a, sigma);
+      if (m.weight <= 0) continue;
+      const Eigen::Vector2f foot = project_(m.p) - (m.residual + a.offset_px) * m.gradient;
+      const int u = static_cast<int>(foot.x() / kCoarse), v = static_cast<int>(foot.y() / kCoarse);
+      if (foot.x() < 0 || foot.y() < 0 || u >= votes_[0].cols || v >= votes_[0].rows) continue;
+      const bool same_way = m.gradient.dot(edges_[n].outward) > 0;
+      votes_[same_way ? edges_[n].way : edges_[n].way ^ 1U](v, u) += weight * m.weight;
+    }
+    double sum = 0;
+    for (std::size_t way = 0; way < 4; ++way)
+      sum += cv::sum(cv::min(votes_[way], field_.elements[way]))[0];
+    return static_cast<float>(sum) / static_cast<float>(field_.length_px);
+  }
+
+  /// Gauss-Newton with weights of the last step (Welsch), pulled weakly to no correction at all.
+  void refine(OutlineAlignment& a, float sigma, int steps, std::size_t most_edges,
+              const Parameters& free) const {
+    const std::size_t stride = 1 + edges_.size() / most_edges;
+    for (int step = 0; step < steps; ++step) {
+      Eigen::Matrix<float, 5, 5> H = Eigen::Matrix<float, 5, 5>::Zero();
+      Parameters b = Parameters::Zero();
+      for (std::size_t n = 0; n < edges_.size(); n += stride) {
+        const Match m = match(edges_[n], a, sigma);
+        if (m.weight <= 0) continue;
+        const float x = m.p.x() / m.p.z(), y = m.p.y() / m.p.z();
+        const float gu = m.gradient.x() * project_.fx, gv = m.gradient.y() * project_.fy;
+        Parameters J;
+        J << (-gu * x * y - gv * (1 + y * y)) / project_.fx,
+            (gu * (1 + x * x) + gv * x * y) / project_.fx, gu / m.p.z(), gv / m.p.z(), -1.0F;
+        H.noalias() += m.weight * J * J.transpose();
+        b.noalias() -= m.weight * m.residual * J;
+      }
+      const float scale = static_cast<float>(stride);
+      H *= scale, b *= scale;
+      const Eigen::Vector3f turn = rotation_vector(a.rotation);
+      const Parameters now((Parameters() << project_.fx * turn.x(), project_.fx * turn.y(),
+                            a.translation.x(), a.translation.y(), a.offset_px)
+                               .finished());
+      Parameters prior;
+      prior << 1 / square(20.0F), 1 / square(20.0F), 1 / square(0.03F), 1 / square(0.03F),
+          1 / square(4.0F);
+      prior *= kPrior * (static_cast<float>(field_.length_px) + kShort_px);
+      H.diagonal() += prior;
+      b -= prior.cwiseProduct(now);
+      H = free.asDiagonal() * H * free.asDiagonal();
+      H.diagonal() += Parameters::Ones() - free;
+      b = b.cwiseProduct(free);
+      Parameters change = H.ldlt().solve(b);
+      if (!change.allFinite()) return;
+      const Eigen::Vector3d step_turn(change[0] / project_.fx, change[1] / project_.fx, 0);
+      const Eigen::Matrix3f R = exp_rotation(step_turn).cast<float>();
+      a.rotation = R * a.rotation;
+      a.translation = R * a.translation + Eigen::Vector3f(change[2], change[3], 0);
+      a.offset_px = std::clamp(a.offset_px + change[4], -6.0F, 6.0F);
+    }
+  }
+
+  static float square(float x) { return x * x; }
+  static Eigen::Vector3f rotation_vector(const Eigen::Matrix3f& R) {
+    return 0.5F * Eigen::Vector3f(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+  }
+
+  const OutlineField& field_;
+  Projection project_;
+  float search_px_;
+  std::vector<ProjectedEdge> edges_;
+  std::array<cv::Mat1f, 4> votes_;
+};
+
+}  // namespace
+
+OutlineAlignment align_outlines(const DepthEdges& edges, const OutlineField& field,
+                                const Calibration& believed, double search_px) {
+  return Aligner(edges, field, believed, search_px).align();
+}
+
+}  // namespace mapscore

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/camera.hpp"
+#include "core/segmentation/edge_aligned/depth_edges.hpp"
+#include "core/segmentation/edge_aligned/outline_field.hpp"
+
+#include <Eigen/Core>
+
+namespace mapscore {
+
+/// Correction of the believed registration for one frame, p_color = rotation *
+/// (T_believed_color_depth p_depth) + translation, and the error of the masks' size: objects end
+/// where the signed distance to the mask's outline is `offset_px` (positive: masks too small).
+struct OutlineAlignment {
+  Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
+  Eigen::Vector3f translation = Eigen::Vector3f::Zero();
+  float offset_px = 0;
+  float sharpness = 1;  ///< `score` at sigma 1.2 px over that at 4 px: near 1 for a rigid scene
+  float score = 0;      ///< share of the outline that depth edges explain at sigma 1.5 px, 0 to 1
+};
+
+/// Fits the outlines of a frame to its depth edges.
+[[nodiscard]] OutlineAlignment align_outlines(const DepthEdges& edges, const OutlineField& field,
+                                              const Calibration& believed, double search_px);
+
+}  // namespace mapscore

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/segmentation/detection.hpp"
+#include "core/segmentation/edge_aligned/depth_edges.hpp"
+
+#include <opencv2/core.hpp>
+
+#include <array>
+#include <vector>
+
+namespace mapscore {
+
+/// The masks of a frame as one field over the colour image. An outline runs half-way between a
+/// mask's pixels and the others; the image's own edge is none.
+struct OutlineField {
+  /// 1 + index of the detection whose mask holds the pixel, 0 for none.
+  cv::Mat1w owner;
+  /// Pixels to the nearest outline, negative inside a mask; +-kFar far from all masks.
+  cv::Mat1f distance;
+  /// How well an edge that faces Outward d fits at quarter size, 0 to 255: 255 on outlines that
+  /// face the same way, less within 8 pixels and for those that face the other way.
+  std::array<cv::Mat1b, 4> coarse;
+  /// Number of outline elements that face each way, by cell of 4 x 4 pixels. An element is a pair
+  /// of neighbouring pixels on either side of an outline, counted for each owner.
+  std::array<cv::Mat1f, 4> elements;
+  int length_px = 0;  ///< number of all outline elements
+
+  static constexpr float kFar = 1e4F;
+};
+
+/// Grows all masks together by up to `reach_px` steps along rows and columns: each background pixel
+/// gets the owner reached in the fewest steps, ties to the lower index.
+[[nodiscard]] cv::Mat1w spread_owners(const cv::Mat1w& masks, int reach_px);
+
+/// `reach_px`: how far from the masks the field is wanted.
+[[nodiscard]] OutlineField outline_field(const std::vector<Detection>& detections, int width_px,
+                                         int height_px, int reach_px);
+
+}  // namespace mapscore

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/edge_aligned/outline_shifts.hpp"
+
+#include "core/segmentation/edge_aligned/edge_matching.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace mapscore {
+namespace {
+
+constexpr int kPitch = OutlineShifts::kPitch_px;
+constexpr float kSharp = 0.85F;  // an alignment as sharp as this leaves nothing to shift
+constexpr float kSupport_px = 1.5F * kPitch;
+constexpr float kFine_px = 1.5F, kWide_px = 3.0F;  // sigmas of the matches
+constexpr float kGood = 0.6F;                      // share of an outline that shows a good fit
+constexpr float kGain = 1.5F;                      // that a shift must bring
+constexpr float kLeastLength = 12.0F;              // weighted outline elements about a node
+constexpr float kSearch_px = 15.0F, kStep_px = 3.0F;
+constexpr float kCostAtSearch = 0.15F;  // of the outline, for the largest shift
+
+struct PlacedEdge {
+  Eigen::Vector2f at, outward;
+  float strength;
+};
+
+class ShiftFinder {
+ public:
+  ShiftFinder(const DepthEdges& edges, const OutlineField& field, const OutlineAlignment& alignment,
+              const Calibration& believed)
+      : field_(field),
+        offset_px_(alignment.offset_px),
+        rows_(field.distance.rows / kPitch + 2),
+        columns_(field.distance.cols / kPitch + 2),
+        cells_(static_cast<std::size_t>(rows_ * columns_)) {
+    const Projection project(believed.color);
+    const Eigen::Matrix3f R = alignment.rotation * believed.T_color_depth.linear().cast<float>();
+    const Eigen::Vector3f t =
+        alignment.rotation * believed.T_color_depth.translation().cast<float>() +
+        alignment.translation;
+    for (const DepthEdge& edge : edges.steps) {
+      const Eigen::Vector3f p = R * edge.point + t;
+      if (!(p.z() > 0.05F)) continue;
+      const Eigen::Vector2f at = project(p);
+      if (!(at.x() >= 0 && at.y() >= 0 && at.x() < static_cast<float>(field.distance.cols) &&
+            at.y() < static_cast<float>(field.distance.rows)))
+        continue;
+      const int u = static_cast<int>(at.x()), v = static_cast<int>(at.y());
+      if (std::abs(field.distance(v, u)) > kSearch_px + 12.0F) continue;
+      cell(v / kPitch, u / kPitch).push_back({at, direction_of(edge.outward), edge.strength});
+    }
+  }
+
+  OutlineShifts find() {
+    const cv::Mat1f lengths = outline_lengths();
+    OutlineShifts shifts;
+    shifts.nodes = cv::Mat2f(rows_, columns_, cv::Vec2f(0, 0));
+    bool any = false;
+    for (int row = 0; row < rows_; ++row)
+      for (int column = 0; column < columns_; ++column) {
+        if (lengths(row, column) < kLeastLength) continue;
+        gather(row, column);
+        if (near_.empty()) continue;
+        const Eigen::Vector2f shift = shift_of(lengths(row, column));
+        shifts.nodes(row, column) = {shift.x(), shift.y()};
+        any = any || shift.squaredNorm() > 0;
+      }
+    if (!any) shifts.nodes.release();
+    return shifts;
+  }
+
+ private:
+  struct NearEdge : PlacedEdge {
+    float support;
+  };
+
+  std::vector<PlacedEdge>& cell(int row, int column) {
+    return cells_[static_cast<std::size_t>(row * columns_ + column)];
+  }
+
+  static float support(float du, float dv) {
+    return std::max(0.0F, 1 - std::abs(du) / kSupport_px) *
+           std::max(0.0F, 1 - std::abs(dv) / kSupport_px);
+  }
+
+  /// Outline elements about each node, weighted by their nearness.
+  [[nodiscard]] cv::Mat1f outline_lengths() const {
+    constexpr int kCell = 4;
+    cv::Mat1f lengths(rows_, columns_, 0.0F);
+    for (const cv::Mat1f& elements : field_.elements)
+      for (int r = 0; r < elements.rows; ++r)
+        for (int c = 0; c < elements.cols; ++c) {
+          if (elements(r, c) <= 0) continue;
+          const float u = static_cast<float>(kCell * c) + 1.5F,
+                      v = static_cast<float>(kCell * r) + 1.5F;
+          const int row = static_cast<int>(v) / kPitch, column = static_cast<int>(u) / kPitch;
+          for (int i = std::max(0, row - 1); i <= std::min(rows_ - 1, row + 2); ++i)
+            for (int j = std::max(0, column - 1); j <= std::min(columns_ - 1, column + 2); ++j)
+              lengths(i, j) += elements(r, c) * support(u - static_cast<float>(j * kPitch),
+                                                        v - static_cast<float>(i * kPitch));
+        }
+    return lengths;
+  }
+
+  void gather(int row, int column) {
+    near_.clear();
+    for (int i = std::max(0, row - 2); i <= std::min(rows_ - 1, row + 1); ++i)
+      for (int j = std::max(0, column - 2); j <= std::min(columns_ - 1, column + 1); ++j)
+        for (const PlacedEdge& edge : cell(i, j)) {
+          const float weight = support(edge.at.x() - static_cast<float>(column * kPitch),
+                                       edge.at.y() - static_cast<float>(row * kPitch));
+          if (weight > 0) near_.push_back({edge, weight});
+        }
+  }
+
+  [[nodiscard]] float score(const Eigen::Vector2f& shift, float sigma) const {
+    float sum = 0;
+    for (const NearEdge& edge : near_)
+      sum += edge.support *
+             match_edge(field_, edge.at + shift, edge.outward, edge.strength, offset_px_, sigma)
+                 .weight;
+    return sum;
+  }
+
+  [[nodiscard]] Eigen::Vector2f shift_of(float length) const {
+    const Eigen::Vector2f none(0, 0);
+    const float unshifted = score(none, kFine_px);
+    const auto gained = [&](const Eigen::Vector2f& shift, float least) {
+      return score(shift, kFine_px) > least * unshifted;
+    };
+    const Eigen::Vector2f near = refined(none, length);
+    const Eigen::Vector2f fallback = gained(near, 1.08F) ? near : none;
+    if (unshifted > kGood * length) return fallback;
+    Eigen::Vector2f best = none;
+    float most = score(none, kWide_px);
+    for (float dv = -kSearch_px; dv <= kSearch_px; dv += kStep_px)
+      for (float du = -kSearch_px; du <= kSearch_px; du += kStep_px) {
+        const Eigen::Vector2f shift(du, dv);
+        if (shift.norm() > kSearch_px) continue;
+        const float value = score(shift, kWide_px) - kCostAtSearch * length * shift.squaredNorm() /
+                                                         (kSearch_px * kSearch_px);
+        if (value > most) most = value, best = shift;
+      }
+    best = refined(best, length);
+    const float shifted = score(best, kFine_px);
+    const bool accepted = shifted > kGain * unshifted && shifted > 0.5F * kGood * length;
+    return accepted ? best : fallback;
+  }
+
+  /// Gauss-Newton about a shift, pulled weakly to none.
+  [[nodiscard]] Eigen::Vector2f refined(Eigen::Vector2f shift, float length) const {
+    const Eigen::Vector2f start = shift;
+    for (int step = 0; step < 5; ++step) {
+      Eigen::Matrix2f H = Eigen::Matrix2f::Identity() * (0.02F * length);
+      Eigen::Vector2f b = -0.02F * length * (shift - start);
+      for (const NearEdge& edge : near_) {
+        const EdgeMatch m =
+            match_edge(field_, edge.at + shift, edge.outward, edge.strength, offset_px_, kFine_px);
+        const float weight = edge.support * m.weight;
+        H += weight * m.gradient * m.gradient.transpose();
+        b -= weight * m.residual * m.gradient;
+      }
+      shift += H.inverse() * b;
+    }
+    return shift;
+  }
+
+  const OutlineField& field_;
+  float offset_px_;
+  int rows_, columns_;
+  std::vector<std::vector<PlacedEdge>> cells_;
+  std::vector<NearEdge> near_;
+};
+
+}  // namespace
+
+cv::Vec2f OutlineShifts::at(float u, float v) const {
+  const float x = u / kPitch_px, y = v / kPitch_px;
+  const int column = std::clamp(static_cast<int>(x), 0, nodes.cols - 2);
+  const int row = std::clamp(static_cast<int>(y), 0, nodes.rows - 2);
+  const float a = std::clamp(x - static_cast<float>(column), 0.0F, 1.0F);
+  const float b = std::clamp(y - static_cast<float>(row), 0.0F, 1.0F);
+  return (1 - b) * ((1 - a) * nodes(row, column) + a * nodes(row, column + 1)) +
+         b * ((1 - a) * nodes(row + 1, column) + a * nodes(row + 1, column + 1));
+}
+
+OutlineShifts find_outline_shifts(const DepthEdges& edges, const OutlineField& field,
+                                  const OutlineAlignment& alignment, const Calibration& believed) {
+  if (alignment.sharpness > kSharp) return {};
+  return ShiftFinder(edges, field, alignment, believed).find();
+}
+
+}  // namespace mapscore

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/segmentation/edge_aligned/depth_edges.hpp"
+
+#include <opencv2/core.hpp>
+
+namespace mapscore {
+
+/// True when the noise of the inverse depth exceeds 0.0005/m, so that 4 sigma exceed the least step
+/// that counts as an edge (0.002/m): only such images are smoothed by settle_on_surfaces.
+[[nodiscard]] bool is_noisy(const DepthEdges& edges);
+
+/// Smooths the inverse depth w = 1/z of labelled pixels: a plane w = a + b du + c dv is fitted
+/// around each pixel and gives its new w. The fit takes pixels of the same label in the 9 x 9
+/// window whose w differs from the pixel's by at most 4 sigma. If these are fewer than 4, or fewer
+/// than half of the label's pixels in the window, the pixel lies on no surface and its label
+/// becomes 0. `labels`: 0 for none; changed. Returns 1/m, 0 where there is no label.
+[[nodiscard]] cv::Mat1f settle_on_surfaces(const DepthEdges& edges, cv::Mat1w& labels);
+
+}  // namespace mapscore

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/camera.hpp"
+#include "core/segmentation/edge_aligned/depth_edges.hpp"
+#include "core/segmentation/edge_aligned/outline_alignment.hpp"
+#include "core/segmentation/edge_aligned/outline_field.hpp"
+#include "core/segmentation/edge_aligned/outline_shifts.hpp"
+
+#include <opencv2/core.hpp>
+
+namespace mapscore {
+
+/// Labels the depth image: 1 + index of the detection that a pixel belongs to, 0 for none.
+[[nodiscard]] cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
+                                         const OutlineAlignment& alignment,
+                                         const OutlineShifts& shifts, const Calibration& believed,
+                                         std::size_t detections, double reach_px);
+
+}  // namespace mapscore

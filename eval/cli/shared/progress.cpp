@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/cli/shared/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace mapscore::eval {
+
+Progress::Progress(std::string what, std::string unit, bool quiet)
+    : what_(std::move(what)),
+      unit_(std::move(unit)),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+  if (open_line_) std::fputs("\n", stderr);
+}
+
+void Progress::show(std::int64_t done, std::int64_t total) {
+  if (quiet_) return;
+  const std::scoped_lock lock(mutex_);
+  const Clock::time_point now = Clock::now();
+  const auto pause = terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(10);
+  if (done < total && now - (terminal_ ? shown_ : std::max(shown_, started_)) < pause) return;
+  shown_ = now;
+  const std::string text = line(done, total, std::chrono::duration<double>(now - started_).count());
+  // Not through std::cerr, whose guard would show the codes that renew the line.
+  std::fputs((terminal_ ? '\r' + text + "\x1b[K" : text + '\n').c_str(), stderr);
+  open_line_ = terminal_;
+}
+
+std::string Progress::line(std::int64_t done, std::int64_t total, double seconds) const {
+  std::string text = fmt::format("{} {}/{} {}", what_, done, total, unit_);
+  if (seconds > 0.0) text += fmt::format(", {:.0f}/s", static_cast<double>(done) / seconds);
+  if (done == total) return text + fmt::format(", {:.1f} s", seconds);
+  if (done == 0) return text;
+  const double left = seconds * static_cast<double>(total - done) / static_cast<double>(done);
+  const auto whole = static_cast<std::int64_t>(left + 0.5);
+  return text + fmt::format(", {}:{:02} left", whole / 60, whole % 60);
+}
+
+}  // namespace mapscore::eval

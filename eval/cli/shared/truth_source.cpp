@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/cli/shared/truth_source.hpp"
+
+#include "core/error.hpp"
+#include "eval/cli/shared/options.hpp"
+#include "eval/cli/shared/truth_size.hpp"
+#include "eval/render/study_recording.hpp"
+#include "eval/results/study_store.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+namespace mapscore::eval {
+
+void LatticeFlags::add_to(CLI::App& verb) {
+  verb.add_option("--voxel_m", voxel_m, "Voxel edge in metres [0.05]")
+      ->check(finite_within(1e-4, 100.0));
+  add_without_voxel_to(verb);
+}
+
+void LatticeFlags::add_without_voxel_to(CLI::App& verb) {
+  verb.add_option("--origin_m", origin_m, "Origin of the map frame in the world: x y z [0 0 0]")
+      ->expected(3)
+      ->check(finite_within(-1e6, 1e6));
+  verb.add_option("--yaw_deg", yaw_deg, "Heading of the map frame in the world [0]")
+      ->check(finite_within(-360, 360));
+  verb.add_option("--epsilon_m", epsilon_m, "How far a cube is widened on each side [0.0005]")
+      ->check(finite_within(0.0, 1.0));
+  verb.add_option("--min_samples", min_samples, "Depth samples that make a voxel visible [1]")
+      ->check(CLI::Range(1, 1000000));
+  verb.add_option("--at_s", at_s, "Where things move: the time whose surfaces count, seconds")
+      ->check(finite_within(-1e12, 1e12));
+  verb.add_option("--frame", frame, "The same, as the frame at whose depth stamp that is, from 0")
+      ->check(CLI::NonNegativeNumber);
+  add_yes_flag(verb, yes);
+  verb.add_option("--frames", frames,
+                  "Frames of the recording that count: 3,7,9 or first:end:step, from 0, without "
+                  "end [all]");
+}
+
+std::optional<double> LatticeFlags::time_in(const Recording& recording) const {
+  if (!frame) return at_s;
+  if (at_s) throw Error("--frame: stands beside --at_s; both say a time, keep one");
+  if (*frame >= recording.frame_count())
+    throw Error(fmt::format("--frame: {} is not in the recording; it has frames 0 to {}", *frame,
+                            recording.frame_count() - 1));
+  return recording.depth_stamp_s(recording.depth_of(*frame));
+}
+
+MapFrame LatticeFlags::map_frame() const {
+  return {voxel_m,
+          {origin_m.at(0), origin_m.at(1), origin_m.at(2)},
+          yaw_deg * std::numbers::pi / 180.0};
+}
+
+TruthSource::TruthSource(const std::string& source, const LatticeFlags& lattice,
+                         const WorkFlags& work)
+    : lattice_(lattice), jobs_(work.jobs) {
+  if (std::filesystem::path(source).extension() == ".xml") {
+    if (lattice.frames || lattice.frame || lattice.at_s)
+      throw Error("--frames, --frame, --at_s: " + source +
+                  " is a scene and has no frames; give a recording");
+    if (lattice.min_samples != LatticeFlags().min_samples)
+      throw Error("--min_samples: " + source + " is a scene and has no samples; leave it out");
+    SceneSurfaces scene = surfaces_of_scene(source);
+    table_ = std::move(scene.table);
+    shapes_ = std::move(scene.shapes);
+    return;
+  }
+  if (std::filesystem::is_regular_file(source))
+    throw Error(source + ": neither a recording's folder nor a scene (.xml); give one of these");
+  recording_.emplace(Recording::open(source));
+  if (!recording_->info().has_truth)
+    throw Error(source +
+                ": the recording has no truth/; only maps of rendered recordings can be scored");
+  if (lattice.frames) selection_ = FrameSelection(*lattice.frames);
+  table_ = recording_->info().table;
+  shapes_ = shapes_of(*recording_).at(lattice.time_in(*recording_));
+  frames_.emplace(*recording_,
+                  Channels{.color = false, .label = false, .depth = true, .depth_label = true},
+                  work.memory_bytes);
+}
+
+void TruthSource::detect(const std::vector<std::string>& classes) {
+  table_ = detected_table(classes, std::move(table_));
+}
+
+std::vector<int> TruthSource::frames() const {
+  return recording_ ? selection_.of(recording_->frame_count()) : std::vector<int>{};
+}
+
+LatticeTruth TruthSource::surfaces(const ClassTable& table, const TruthOptions& options,
+                                   bool whole_view) const {
+  const MapFrame map_frame = lattice_.map_frame();
+  TruthCost cost =
+      truth_cost(shapes_, map_frame.T_map_world(), {map_frame.edge_m, options.epsilon_m});
+  if (whole_view) cost.bytes += cost.whole_view;
+  check_truth_size(cost, map_frame.edge_m, lattice_.yes);
+  return make_surface_truth(shapes_, table, map_frame, options, jobs_);
+}
+
+SurfaceTruth TruthSource::surface() const {
+  return surfaces(table_, {.epsilon_m = lattice_.epsilon_m}, false).surface;
+}
+
+LatticeTruth TruthSource::truth(const ClassTable& table, bool distances) {
+  const MapFrame map_frame = lattice_.map_frame();
+  const TruthOptions options{.epsilon_m = lattice_.epsilon_m,
+                             .min_samples = lattice_.min_samples,
+                             .distances = distances,
+                             .frames = selection_};
+  LatticeTruth truth = surfaces(table, options, !recording_);
+  if (recording_)
+    truth.view = make_view(*recording_, table, *frames_, map_frame, options, truth.surface, jobs_);
+  else
+    truth.view = whole_surface_view(truth.surface, table.classes.size());
+  return truth;
+}
+
+OccupancyTruth TruthSource::occupancy(const SurfaceTruth& surface) {
+  return make_occupancy_truth(*frames_, frames(), recording_->info().calibration,
+                              lattice_.map_frame().T_map_world(), surface, lattice_.min_samples,
+                              jobs_);
+}
+
+}  // namespace mapscore::eval

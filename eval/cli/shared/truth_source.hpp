@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/classes.hpp"
+#include "core/geometry/shape.hpp"
+#include "eval/cli/shared/options.hpp"
+#include "eval/lab/lattice_truth.hpp"
+#include "eval/lab/map_frame.hpp"
+#include "eval/truth/occupancy_truth.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// Flags that say on which lattice the truth is taken, and of what.
+struct LatticeFlags {
+  double voxel_m = 0.05;
+  std::vector<double> origin_m{0, 0, 0};
+  double yaw_deg = 0.0;
+  double epsilon_m = 0.0005;
+  int min_samples = 1;
+  std::optional<std::string> frames;  ///< as FrameSelection reads them; none: all
+
+  std::optional<double> at_s;  ///< where things move: the time whose surfaces count
+  std::optional<int> frame;    ///< the same, as a frame
+  bool yes = false;            ///< make a truth of any size
+
+  void add_to(CLI::App& verb);
+  /// All but --voxel_m, for maps that have their own.
+  void add_without_voxel_to(CLI::App& verb);
+  [[nodiscard]] MapFrame map_frame() const;
+  /// The time given by the flags, if any. Throws Error for both `--at_s` and `--frame`, and for a
+  /// frame that the recording does not have.
+  [[nodiscard]] std::optional<double> time_in(const Recording& recording) const;
+};
+
+/// A scene or a recording, opened once, of which truths are made by any class table.
+class TruthSource {
+ public:
+  /// `source`: an MJCF file or a recording's folder. Throws Error when it is neither, or a
+  /// recording without truth.
+  TruthSource(const std::string& source, const LatticeFlags& lattice, const WorkFlags& work);
+  TruthSource(const TruthSource&) = delete;
+  TruthSource& operator=(const TruthSource&) = delete;
+
+  /// Detects these classes in place of the source's own; {"all"}: every one. Throws Error naming a
+  /// class that is not there.
+  void detect(const std::vector<std::string>& classes);
+  [[nodiscard]] const ClassTable& table() const { return table_; }
+  /// Drawn surfaces in the world frame, at the flags' time where they move.
+  [[nodiscard]] const std::vector<Shape>& shapes() const { return shapes_; }
+  /// Nothing for a scene, which no camera saw.
+  [[nodiscard]] const Recording* recording() const { return recording_ ? &*recording_ : nullptr; }
+  /// Indices of the recording's frames that count; none for a scene.
+  [[nodiscard]] std::vector<int> frames() const;
+
+  /// The surfaces of the source's own classes, without any view.
+  [[nodiscard]] SurfaceTruth surface() const;
+  /// Surfaces, and one view: what the frames saw, or all of a scene's surface. `table`: that of the
+  /// source, or another reading of its instances; depth samples are kept of its detected classes
+  /// where `distances` are asked for.
+  [[nodiscard]] LatticeTruth truth(const ClassTable& table, bool distances);
+  /// What the frames know to be occupied and free. Needs a recording.
+  [[nodiscard]] OccupancyTruth occupancy(const SurfaceTruth& surface);
+
+ private:
+  /// Throws Error when the flags do not allow a truth of this size, with a view of all of it.
+  [[nodiscard]] LatticeTruth surfaces(const ClassTable& table, const TruthOptions& options,
+                                      bool whole_view) const;
+
+  const LatticeFlags& lattice_;
+  int jobs_;
+  FrameSelection selection_;
+  ClassTable table_;
+  std::vector<Shape> shapes_;
+  std::optional<Recording> recording_;
+  std::optional<FrameCache> frames_;
+};
+
+}  // namespace mapscore::eval

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/pose.hpp"
+#include "core/mapping/mapper.hpp"
+#include "core/mapping/semantic_map.hpp"
+#include "eval/foreign/labelled_folder.hpp"
+#include "eval/study/study.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// How a folder is mapped, without any fault: its calibration and poses are believed as they are.
+struct FolderMapping {
+  Mapping mapping;                      ///< of one draw a frame: poses are known
+  Pose T_map_world = Pose::Identity();  ///< world: the frame of groundtruth.txt
+  Refinement refinement;                ///< of the finished map; without colours
+};
+
+/// What came of the frames.
+struct MappedCounts {
+  std::int64_t frames = 0, detections = 0, points = 0;
+  std::int64_t empty = 0;             ///< detections that yielded nothing
+  std::int64_t hits_beyond_span = 0;  ///< left out: the octree does not reach so far
+};
+
+/// Maps these frames of a folder in their order, as a trial at dose zero does. Calls
+/// `shown(done, all)` after each. Throws Error where an image cannot be read or a parameter is out
+/// of range.
+[[nodiscard]] SemanticMap map_folder(const LabelledFolder& folder, const std::vector<int>& frames,
+                                     const FolderMapping& mapping, MappedCounts& counts,
+                                     const std::function<void(int, int)>& shown);
+
+}  // namespace mapscore::eval

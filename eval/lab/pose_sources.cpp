@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/lab/pose_sources.hpp"
+
+#include "core/error.hpp"
+#include "eval/lab/map_frame.hpp"
+#include "eval/localization/believed_file.hpp"
+#include "eval/localization/filter_run.hpp"
+#include "eval/localization/odometry_run.hpp"
+#include "eval/recording/grid_file.hpp"
+#include "eval/truth/floor_grid.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace mapscore::eval {
+namespace {
+
+bool looks_up_at_depth(const Task& task) {
+  return task.config.faults.pose.stamp == sim::PoseStamp::depth;
+}
+
+std::vector<double> stamps_of(const Recording& recording, const Task& task,
+                              const std::vector<int>& depth_of) {
+  std::vector<double> stamps_s;
+  for (int frame = 0; frame < recording.frame_count(); ++frame)
+    stamps_s.push_back(looks_up_at_depth(task)
+                           ? recording.depth_stamp_s(depth_of[static_cast<std::size_t>(frame)])
+                           : recording.color_stamp_s(frame));
+  return stamps_s;
+}
+
+void check_logs(const Recording& recording, PoseSource source) {
+  const bool needs_scans = source == PoseSource::particle_filter;
+  if (recording.has_odometry() && (recording.has_scans() || !needs_scans)) return;
+  throw Error(fmt::format(
+      "localization.source: {} needs odometry.txt{}, which {} does not hold; record it with "
+      "trajectory.drive: {{wheels: {{}}}}",
+      needs_scans ? "particle_filter" : "odometry", needs_scans ? " and scan/scans.bin" : "",
+      recording.folder().string()));
+}
+
+/// True pose at the first line of the odometry.
+Pose start_of(const Recording& recording, const std::vector<OdometryPose>& odometry) {
+  const double stamp_s = odometry.front().stamp_s;
+  if (const auto pose = recording.T_world_base_at(stamp_s)) return *pose;
+  throw Error(
+      fmt::format("{}: does not reach stamp {}, where odometry.txt starts; lengthen the trajectory",
+                  (recording.folder() / "groundtruth.txt").string(), stamp_s));
+}
+
+/// The plane that localisation lives in lies at the height of the start.
+void lift(BelievedTrajectory& believed, double z_m) {
+  for (StampedBelief& entry : believed.entries)
+    entry.belief.T_map_odom.pretranslate(Eigen::Vector3d(0.0, 0.0, z_m));
+}
+
+/// The true poses under the doses of faults.pose; those of source truth under none.
+std::vector<PoseBelief> gaussian(const Recording& recording, const Task& task,
+                                 const std::vector<int>& depth_of, const Pose& T_map_world) {
+  sim::PoseNoise noise = task.config.faults.pose;
+  if (task.config.localization.source == PoseSource::truth) noise = {};
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < recording.frame_count(); ++frame)
+    poses.push_back(looks_up_at_depth(task)
+                        ? recording.T_world_base_of_depth(depth_of[static_cast<std::size_t>(frame)])
+                        : recording.T_world_base_of_color(frame));
+  const Covariance6 covariance = sim::reported_covariance(noise);
+  std::vector<PoseBelief> beliefs;
+  for (const Pose& pose :
+       sim::believe_poses(poses, sim::covariance_of(noise), noise.kind, trial_seed(task)))
+    beliefs.push_back({Pose::Identity(), T_map_world * pose, covariance});
+  return beliefs;
+}
+
+/// Names what decides the beliefs of a task whose source is no Gaussian.
+std::string poses_key(const Task& task) {
+  Study deciding;
+  deciding.localization = task.config.localization;
+  deciding.faults.lidar = task.config.faults.lidar;
+  deciding.faults.pose = task.config.faults.pose;
+  deciding.faults.time_offset_ms = task.config.faults.time_offset_ms;
+  return fmt::format("{}\n{}", trial_seed(task), to_key_yaml(deciding));
+}
+
+}  // namespace
+
+OccupancyGrid grid_of(const Recording& recording, const Study& config) {
+  check_logs(recording, PoseSource::particle_filter);
+  const Pose start = start_of(recording, recording.read_odometry());
+  if (config.localization.grid) {
+    const std::filesystem::path file = resolve_path(config, *config.localization.grid);
+    OccupancyGrid grid = load_grid(file);
+    check_start(grid, planar(start), file.string());
+    return grid;
+  }
+  if (!recording.info().has_truth)
+    throw Error(fmt::format(
+        "localization.grid: is missing, and {} has no truth to cut one from; write grid: FILE.yaml",
+        recording.folder().string()));
+  const Pose lidar = start * recording.read_scans().geometry.T_base_lidar;
+  return floor_grid(recording.read_shapes(), Pose::Identity(),
+                    {.height_m = lidar.translation().z(),
+                     .resolution_m = grid_resolution_m(config.localization),
+                     .start_m = start.translation().head<2>()});
+}
+
+BelievedTrajectory believed_trajectory(const Recording& recording, const Task& task,
+                                       const OccupancyGrid* grid,
+                                       const std::function<void(int, int)>& progress) {
+  const LocalizationSettings& settings = task.config.localization;
+  if (settings.source == PoseSource::trajectory)
+    return read_believed(resolve_path(task.config, settings.trajectory.value()));
+  check_logs(recording, settings.source);
+  const std::vector<OdometryPose> odometry = recording.read_odometry();
+  const Pose start = start_of(recording, odometry);
+  BelievedTrajectory believed =
+      settings.source == PoseSource::odometry
+          ? odometry_only(odometry, planar(start), settings.odometry_noise.values)
+          : run_filter(odometry, recording.read_scans(),
+                       grid ? *grid : grid_of(recording, task.config),
+                       filter_of(settings, task.config.faults.lidar), planar(start),
+                       trial_seed(task), progress);
+  lift(believed, start.translation().z());
+  return believed;
+}
+
+std::vector<PoseBelief> PoseSources::beliefs(const Task& task, const std::vector<int>& depth_of) {
+  const Pose T_map_world = map_frame(task.config, task.seed_index).T_map_world();
+  const PoseSource source = task.config.localization.source;
+  if (source == PoseSource::gaussian || source == PoseSource::truth)
+    return gaussian(recording_, task, depth_of, T_map_world);
+  std::vector<PoseBelief> beliefs = *shared(task, depth_of);
+  for (PoseBelief& belief : beliefs) belief.T_map_odom = T_map_world * belief.T_map_odom;
+  return beliefs;
+}
+
+PoseSources::Beliefs PoseSources::shared(const Task& task, const std::vector<int>& depth_of) {
+  std::promise<Beliefs> promise;
+  std::shared_future<Beliefs> made;
+  bool is_first = false;
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto [entry, is_new] = made_.try_emplace(poses_key(task), promise.get_future());
+    made = entry->second;
+    is_first = is_new;
+    if (is_new) order_.push_back(entry->first);
+    if (order_.size() > kHeld) {
+      made_.erase(order_.front());
+      order_.pop_front();
+    }
+  }
+  if (is_first) try {
+      promise.set_value(
+          std::make_shared<const std::vector<PoseBelief>>(believed_at(task, depth_of)));
+    } catch (...) {
+      promise.set_exception(std::current_exception());
+    }
+  return made.get();
+}
+
+std::vector<PoseBelief> PoseSources::believed_at(const Task& task,
+                                                 const std::vector<int>& depth_of) try {
+  const BelievedTrajectory believed = believed_trajectory(recording_, task, grid(task).get());
+  const double reported_scale = task.config.faults.pose.reported_scale;
+  std::vector<PoseBelief> beliefs;
+  for (const double stamp_s : stamps_of(recording_, task, depth_of)) {
+    beliefs.push_back(believed.at(stamp_s));
+    beliefs.back().covariance *= reported_scale;
+  }
+  return beliefs;
+} catch (const Error& error) {
+  const LocalizationSettings& settings = task.config.localization;
+  if (settings.source != PoseSource::trajectory) throw;
+  throw Error(fmt::format("localization.trajectory: {}: {}", *settings.trajectory, error.what()));
+}
+
+std::shared_ptr<const OccupancyGrid> PoseSources::grid(const Task& task) {
+  const LocalizationSettings& settings = task.config.localization;
+  if (settings.source != PoseSource::particle_filter) return nullptr;
+  const std::string key = settings.grid ? resolve_path(task.config, *settings.grid).string()
+                                        : fmt::format("{}", grid_resolution_m(settings));
+  const std::scoped_lock lock(grids_mutex_);
+  std::shared_ptr<const OccupancyGrid>& grid = grids_[key];
+  if (!grid) grid = std::make_shared<const OccupancyGrid>(grid_of(recording_, task.config));
+  return grid;
+}
+
+}  // namespace mapscore::eval

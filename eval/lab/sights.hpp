@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/classes.hpp"
+#include "core/frame.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/segmentation/sight.hpp"
+#include "eval/lab/simulated_labels.hpp"
+#include "eval/recording/recording.hpp"
+#include "eval/results/task_list.hpp"
+#include "eval/study/study.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// Makes what the methods of a trial see of a recording's frames: every fault of calibration, depth
+/// and labels comes in here. Trials with equal keys see the same. Immutable, safe to share between
+/// threads; `recording` and `table` must outlive it.
+class Sights {
+ public:
+  /// Throws Error as simulated_labels.
+  Sights(const Task& task, const Recording& recording, const ClassTable& table);
+
+  /// Equal for tasks of one plan and seed where their sights are: what of a configuration decides
+  /// them.
+  [[nodiscard]] static std::string key(const Study& config, Labels labels);
+
+  /// The depth image that a frame is paired with under the trial's time offset.
+  [[nodiscard]] int depth_of(int frame) const {
+    return depth_of_.at(static_cast<std::size_t>(frame));
+  }
+  [[nodiscard]] const std::vector<int>& depth_of_frames() const { return depth_of_; }
+  /// What the method believes of the cameras.
+  [[nodiscard]] const Calibration& believed() const { return believed_; }
+  /// The table of the instances in the detections: the recording's, or that of simulated
+  /// perception.
+  [[nodiscard]] const ClassTable& table() const;
+
+  /// What a method sees of a frame, which is read with the depth image that `depth_of` names. Of
+  /// the lattice ceiling: the exact depth image and no detections.
+  [[nodiscard]] Sight of(const Frame& frame) const;
+
+ private:
+  const ClassTable& table_;
+  Labels labels_;
+  std::uint64_t seed_;
+  CameraModel depth_camera_;  ///< true
+  Calibration believed_;
+  std::vector<int> depth_of_;  ///< by frame
+  FaultSettings faults_;
+  std::optional<SimulatedLabels> simulated_;  ///< in place of the recording's labels
+};
+
+/// The calibration that a task's method uses: the true one with the task's calibration faults.
+[[nodiscard]] Calibration believed_calibration(const Calibration& truth, const Task& task);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/lab/trial_run.hpp"
+
+#include "core/refinement/map_refinement.hpp"
+#include "eval/lab/map_frame.hpp"
+#include "eval/lab/truth_cache.hpp"
+#include "eval/score/instance_score.hpp"
+#include "eval/study/trial_seed.hpp"
+
+#include <limits>
+#include <utility>
+
+namespace mapscore::eval {
+namespace {
+
+ObservedObject& object_of(ClassId class_id, Observation& observation) {
+  for (ObservedObject& object : observation)
+    if (object.class_id == class_id) return object;
+  return observation.emplace_back(ObservedObject{class_id, 1.0, {}});
+}
+
+std::vector<int> positive(const std::vector<int>& tolerances) {
+  std::vector<int> kept;
+  for (const int tolerance : tolerances)
+    if (tolerance > 0) kept.push_back(tolerance);
+  return kept;
+}
+
+}  // namespace
+
+TruthOptions truth_options(const Study& config) {
+  return {.epsilon_m = config.score.epsilon_m,
+          .min_samples = config.score.min_samples,
+          .at_s = config.score.at_s,
+          .distances = !config.score.distances_m.empty()};
+}
+
+TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
+                   TruthCache& truths, PoseSources& poses, std::shared_ptr<const Sights> sights)
+    : task_(task),
+      table_(table),
+      true_(recording.info().calibration),
+      sights_(sights ? std::move(sights) : std::make_shared<Sights>(task, recording, table)),
+      beliefs_(poses.beliefs(task, sights_->depth_of_frames())),
+      mapping_(mapping_of(task.config, table)),
+      threshold_(
+          task.config.score.threshold.value.value_or(default_threshold(mapping_.fusion.rule))),
+      score_options_{positive(task.config.score.tolerances), task.config.score.distances_m,
+                     task.config.score.asked},
+      map_frame_(map_frame(task.config, task.seed_index)),
+      truths_(truths),
+      boxes_(truths.boxes()),
+      mapper_(mapping_, table.classes.size()) {
+  result_.counts = zero_counts(table_.classes.size(), score_options_);
+  if (task.config.score.unit == ScoreUnit::frame) return;
+  truth_ = truths.get(map_frame_, truth_options(task.config));
+  if (score_options_.asked.instances)
+    instance_truth_ = truths.of_instances(map_frame_, truth_options(task.config));
+}
+
+void TrialRun::advance(const Frame& frame, const Sight& sight) {
+  const bool by_itself = task_.config.score.unit == ScoreUnit::frame;
+  if (by_itself) mapper_ = Mapper(mapping_, table_.classes.size());
+  Counts counts = zero_counts(table_.classes.size(), score_options_);
+  const PoseBelief& belief = beliefs_.at(static_cast<std::size_t>(frame.index));
+  RandomStream draws(trial_seed(task_), "belief", {static_cast<std::uint64_t>(frame.index)});
+  if (task_.labels == Labels::truth) {
+    mapper_.fuse(observe_truth(frame), sight, belief, draws);
+  } else {
+    count(mapper_.integrate(sight, belief, draws), boxes_.of(frame), counts);
+    if (reads_colour(task_.config)) mapper_.add_colours(sight, frame.color, belief);
+  }
+  ++result_.accounting.frames;
+  if (by_itself) {
+    look_up_truth_of(frame.depth_index);
+    score(counts);
+  }
+  pool_into(result_.counts, counts);
+  if (by_itself && keeps_frames_)
+    frames_.push_back({frame.index, frame.stamp_s, std::move(counts), mapper_.times()});
+}
+
+TrialResult TrialRun::finish() {
+  if (task_.config.score.unit == ScoreUnit::map) score(result_.counts);
+  return std::move(result_);
+}
+
+void TrialRun::count(const std::vector<Segment>& segments,
+                     const std::vector<Eigen::AlignedBox3d>& true_boxes, Counts& counts) {
+  for (const Segment& found : segments) {
+    account(found);
+    const bool right = found.class_id == sights_->table().class_of(found.instance);
+    counts[found.class_id].boxes.add(
+        right ? found.box : Eigen::AlignedBox3d(),
+        found.instance < true_boxes.size() ? true_boxes[found.instance] : Eigen::AlignedBox3d(),
+        0.5 * mapping_.voxel_m);
+  }
+}
+
+Observation TrialRun::observe_truth(const Frame& frame) const {
+  Observation observation;
+  for (int v = 0; v < frame.depth.rows; ++v) {
+    for (int u = 0; u < frame.depth.cols; ++u) {
+      const ClassId class_id = table_.class_of(frame.depth_label(v, u));
+      const double z = frame.depth(v, u) / kDepthUnitsPerMetre;
+      if (!table_.detected(class_id) || z == 0.0 || z < true_.range_min_m || z > true_.range_max_m)
+        continue;
+      object_of(class_id, observation).positions.push_back(true_.depth.back_project(u, v, z));
+    }
+  }
+  return observation;
+}
+
+void TrialRun::account(const Segment& segment) {
+  Accounting& accounting = result_.accounting;
+  ++accounting.detections;
+  accounting.points += static_cast<std::int64_t>(segment.points.size());
+  if (const auto count = Accounting::of(segment.skipped)) ++(accounting.*count);
+}
+
+void TrialRun::look_up_truth_of(int depth_image) {
+  const TruthOptions options = truth_options(task_.config);
+  truth_ = truths_.of_frame(map_frame_, options, depth_image);
+  if (score_options_.asked.instances)
+    instance_truth_ = truths_.of_frame_instances(map_frame_, options, depth_image);
+}
+
+void TrialRun::score(Counts& counts) {
+  SemanticMap& map = mapper_.map();
+  if (const auto* crf = std::get_if<Crf>(&task_.config.methods.front().refinement))
+    refine(map, *crf);
+  const MapSnapshot snapshot(map.voxels());
+  result_.accounting.hits_beyond_span += static_cast<std::int64_t>(map.hits_beyond_span());
+  result_.accounting.map_voxels += static_cast<std::int64_t>(snapshot.voxels().size());
+  Counts scored =
+      truth_->score(snapshot, threshold_, truth_->view, table_.classes.size(), score_options_);
+  if (instance_truth_) {
+    const std::vector<InstanceCounts> instances =
+        score_instances(pieces_of(snapshot, threshold_), instance_truth_->surface,
+                        instance_truth_->view.visible, table_);
+    for (std::size_t c = 0; c < scored.size(); ++c) scored[c].instances = instances[c];
+  }
+  pool_into(counts, scored);
+}
+
+}  // namespace mapscore::eval

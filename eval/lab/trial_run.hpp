@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/classes.hpp"
+#include "core/frame.hpp"
+#include "core/frame_times.hpp"
+#include "core/geometry/camera.hpp"
+#include "core/mapping/mapper.hpp"
+#include "core/mapping/semantic_map.hpp"
+#include "core/placement/observation.hpp"
+#include "core/segmentation/segmentation.hpp"
+#include "eval/lab/lattice_truth.hpp"
+#include "eval/lab/pose_sources.hpp"
+#include "eval/lab/sights.hpp"
+#include "eval/lab/truth_cache.hpp"
+#include "eval/recording/recording.hpp"
+#include "eval/results/plan.hpp"
+#include "eval/results/store.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// One frame that was scored by itself.
+struct FrameResult {
+  int frame = 0;  ///< index in the recording
+  double stamp_s = 0.0;
+  Counts counts;  ///< by class id
+  FrameTimes times;
+};
+
+/// One running trial: takes the frames of a recording in order and ends in counts. Used by one
+/// thread at a time; `task`, `recording`, `table` and `truths` must outlive it, `poses` need not.
+class TrialRun {
+ public:
+  /// `sights`: shared with trials of an equal Sights::key; without them it makes its own.
+  TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
+           TruthCache& truths, PoseSources& poses, std::shared_ptr<const Sights> sights = {});
+  /// A temporary task would not outlive it.
+  TrialRun(Task&& task, const Recording& recording, const ClassTable& table, TruthCache& truths,
+           PoseSources& poses, std::shared_ptr<const Sights> sights = {}) = delete;
+
+  /// Keeps the counts of each frame, where each is scored by itself. Call it before the first one.
+  void keep_frames() { keeps_frames_ = true; }
+
+  /// The depth image that a frame is paired with under the trial's time offset.
+  [[nodiscard]] int depth_of(int frame) const { return sights_->depth_of(frame); }
+
+  /// Register, segment, place and fuse one frame under the trial's faults; and score it, where each
+  /// frame is scored by itself. It is read with the depth image that `depth_of` names.
+  void advance(const Frame& frame) { advance(frame, sights_->of(frame)); }
+  /// The same, with what sights() make of the frame.
+  void advance(const Frame& frame, const Sight& sight);
+  [[nodiscard]] const std::shared_ptr<const Sights>& sights() const { return sights_; }
+
+  /// Scores the map and gives the counts of the whole trial.
+  [[nodiscard]] TrialResult finish();
+
+  /// What was kept, in the order of the frames; added up, the counts of the trial.
+  [[nodiscard]] const std::vector<FrameResult>& frames() const { return frames_; }
+  /// Moves the kept frames out.
+  [[nodiscard]] std::vector<FrameResult> take_frames() { return std::exchange(frames_, {}); }
+
+  /// The map as it stands; of the last frame where each is scored by itself.
+  [[nodiscard]] const SemanticMap& map() const { return mapper_.map(); }
+  [[nodiscard]] double threshold() const { return threshold_; }
+  /// What the map is scored against; of the last frame where each is scored by itself.
+  [[nodiscard]] const LatticeTruth& truth() const { return *truth_; }
+
+ private:
+  /// Counts a frame's detections and their boxes; one of a wrong class has no box there.
+  void count(const std::vector<Segment>& segments,
+             const std::vector<Eigen::AlignedBox3d>& true_boxes, Counts& counts);
+  /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
+  [[nodiscard]] Observation observe_truth(const Frame& frame) const;
+  void account(const Segment& segment);
+  /// Adds the counts of the map as it stands.
+  void score(Counts& counts);
+  /// Takes the truth of the frame that is read with that depth image.
+  void look_up_truth_of(int depth_image);
+
+  const Task& task_;
+  const ClassTable& table_;
+  Calibration true_;  ///< what rendered the images
+  std::shared_ptr<const Sights> sights_;
+  std::vector<PoseBelief> beliefs_;  ///< by frame
+  Mapping mapping_;
+  double threshold_;
+  ScoreOptions score_options_;
+  MapFrame map_frame_;
+  TruthCache& truths_;
+  FrameBoxes& boxes_;  ///< true ones, shared by all trials
+  std::shared_ptr<const LatticeTruth> truth_;
+  std::shared_ptr<const LatticeTruth> instance_truth_;  ///< none where instances are not scored
+  Mapper mapper_;
+  TrialResult result_;
+  bool keeps_frames_ = false;
+  std::vector<FrameResult> frames_;
+};
+
+/// How a task's truth is made.
+[[nodiscard]] TruthOptions truth_options(const Study& config);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/axes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+namespace mapscore::eval {
+namespace {
+
+/// "mount error (mm)" -> "mount error", "mm".
+std::pair<std::string, std::string> name_and_unit(std::string_view title) {
+  const std::size_t bracket = title.rfind(" (");
+  if (bracket == title.npos || !title.ends_with(')')) return {std::string(title), ""};
+  return {std::string(title.substr(0, bracket)),
+          std::string(title.substr(bracket + 2, title.size() - bracket - 3))};
+}
+
+/// Of a key in metres that a figure shows in millimetres; else 1.
+double scale_of(std::string_view key, std::string_view unit) {
+  return unit == "mm" && key.ends_with("_m") ? 1000.0 : 1.0;
+}
+
+std::optional<double> number_of(const std::string& text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  return whole ? std::optional(number) : std::nullopt;
+}
+
+/// "particle_filter" as people write it.
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+}  // namespace
+
+std::string FigureAxis::title() const {
+  return unit.empty() ? name : fmt::format("{} ({})", name, unit);
+}
+
+std::string FigureAxis::text(std::size_t value) const {
+  return fmt::format("{} = {}", name, value_text(value));
+}
+
+std::string FigureAxis::value_text(std::size_t value) const {
+  return fmt::format("{}{}{}", values.at(value), unit.empty() ? "" : " ", unit);
+}
+
+FigureAxis figure_axis(const Field& field, const std::vector<std::string>& values) {
+  FigureAxis figure;
+  std::tie(figure.name, figure.unit) =
+      name_and_unit(field.figure.empty() ? field.key : field.figure);
+  figure.key = field.key;
+  const double scale = scale_of(field.key, figure.unit);
+  for (const std::string& value : values) {
+    const std::optional<double> number = number_of(value);
+    figure.numeric = figure.numeric && number;
+    figure.at.push_back(number.value_or(0.0) * scale);
+    figure.values.push_back(number ? fmt::format("{:.6g}", *number * scale) : spaced(value));
+  }
+  if (!figure.numeric)
+    for (std::size_t i = 0; i < figure.at.size(); ++i) figure.at[i] = static_cast<double>(i);
+  return figure;
+}
+
+FigureAxis figure_axis(const Study& study, const SweepAxis& axis) {
+  return figure_axis(field_of(study, axis.path), axis.values);
+}
+
+}  // namespace mapscore::eval

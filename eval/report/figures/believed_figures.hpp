@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/recording/recording.hpp"
+#include "eval/report/pictures/pictures.hpp"
+#include "eval/study/study.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// Draws `trajectory_on_grid`: where the robot was, and where the study's pose sources believe it
+/// to be, on the grid used for localisation, with each source's errors in the caption. Sources: all
+/// values of a sweep over `localization.source`, else the study's own; `gaussian` and `truth` are
+/// not drawn. Other swept leaves and the seed: as in `choice`. Draws and returns nothing when no
+/// source is left or the recording has no scans. Throws Error as PoseSources, draw_trajectories.
+[[nodiscard]] std::vector<std::filesystem::path> draw_believed(const Study& study,
+                                                               const Recording& recording,
+                                                               const PictureChoice& choice,
+                                                               const std::filesystem::path& folder);
+
+}  // namespace mapscore::eval

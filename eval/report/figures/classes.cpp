@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/figures/classes.hpp"
+
+#include "eval/report/axes.hpp"
+#include "eval/report/figures/accuracy.hpp"
+#include "eval/report/figures/curves.hpp"
+#include "eval/report/figures/layout.hpp"
+#include "eval/report/figures/tics.hpp"
+#include "files/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr double kGroup = 0.8;      ///< width of a group of bars; groups are 1 apart
+constexpr double kBarShare = 0.92;  ///< of a bar's place in its group
+constexpr double kPanelHeight_in = 1.45;
+
+struct Score {
+  const char *metric, *title;
+};
+constexpr std::array<Score, 3> kScores{Score{"precision", "precision"}, Score{"recall", "recall"},
+                                       Score{"f1", "F1"}};
+
+/// Position in the sweep of the first axis with names.
+std::optional<std::size_t> named_axis(const Study& study) {
+  for (std::size_t axis = 0; axis < study.sweep.size(); ++axis)
+    if (!figure_axis(study, study.sweep[axis]).numeric) return axis;
+  return std::nullopt;
+}
+
+/// Grouped bars, filled panel by panel.
+class ClassBars {
+ public:
+  ClassBars(const StudySummary& summary, std::size_t axis)
+      : summary_(summary),
+        axis_(axis),
+        named_(figure_axis(summary.study, summary.study.sweep[axis])),
+        classes_(classes_shown(summary)),
+        place_(kGroup / static_cast<double>(named_.values.size())) {
+    sheet_.name = "by_class_by_" + named_.key;
+    sheet_.columns = static_cast<int>(kScores.size());
+    sheet_.panel_width_in = panel_width_in(sheet_.columns);
+    sheet_.panel_height_in = kPanelHeight_in;
+  }
+
+  void add_row(const std::string& method, bool first_row) {
+    for (const Score& score : kScores) {
+      Panel panel;
+      panel.title = first_row ? score.title : "";
+      panel.y_tic_labels = &score == &kScores.front();
+      if (panel.y_tic_labels) panel.y_label = summary_.study.methods.size() > 1 ? method : "score";
+      panel.settings = settings();
+      add_bars(method, score, panel.elements);
+      sheet_.panels.push_back(std::move(panel));
+    }
+  }
+
+  [[nodiscard]] FigureSheet finish() {
+    for (std::size_t value = 0; value < named_.values.size(); ++value)
+      sheet_.legend.push_back(
+          fmt::format("NaN with boxes fs solid 0.85 noborder lc rgb '{}' title {}",
+                      palette_colour(value), gnuplot_quoted(named_.values[value])));
+    sheet_.legend.emplace_back("NaN with lines lw 1.2 lc rgb '#000000' title 'lattice ceiling'");
+    sheet_.legend.emplace_back(
+        "NaN with lines lw 1.2 dt (1,2) lc rgb '#444444' title 'registration ceiling'");
+    const Study& study = summary_.study;
+    sheet_.caption = study_caption(summary_) + " Bars by " + named_.name + other_doses() +
+                     (study.methods.size() > 1 ? "" : "; " + study.methods.front().name) +
+                     ". Tolerance 0, counts pooled over seeds; no bar: undefined." +
+                     spread_caption(study, "Whiskers") + cut_caption(summary_, classes_.size()) +
+                     ' ' + kCeilingsCaption;
+    return std::move(sheet_);
+  }
+
+ private:
+  /// The middle value of every axis but the named one.
+  [[nodiscard]] const std::string& dose(std::size_t axis, std::size_t value) const {
+    const std::vector<std::string>& values = summary_.study.sweep[axis].values;
+    return axis == axis_ ? values.at(value) : values[values.size() / 2];
+  }
+
+  /// "; misregistration = 10 mm" for each axis but the named one.
+  [[nodiscard]] std::string other_doses() const {
+    std::string text;
+    for (std::size_t axis = 0; axis < summary_.study.sweep.size(); ++axis)
+      if (axis != axis_)
+        text +=
+            "; " +
+            figure_axis(summary_.study, {summary_.study.sweep[axis].path, {dose(axis, 0)}}).text(0);
+    return text;
+  }
+
+  [[nodiscard]] std::vector<std::string> settings() {
+    std::vector<std::string> names;
+    for (const SemanticClass* c : classes_) names.push_back(c->name);
+    const NameTics tics =
+        name_tics(names, sheet_.panel_width_in / static_cast<double>(names.size()));
+    sheet_.x_tics_in = tics.height_in;
+    return {fmt::format("set xrange [-0.55:{}]", static_cast<double>(names.size()) - 0.45),
+            tics.setting, "set yrange [0:1.03]; set ytics 0.2"};
+  }
+
+  [[nodiscard]] std::optional<std::size_t> trial(const std::string& method,
+                                                 std::size_t value) const {
+    for (std::size_t i = 0; i < summary_.trials.size(); ++i) {
+      const ResultLine& line = summary_.trials[i];
+      bool fits = line.method == method;
+      for (std::size_t axis = 0; axis < line.cell.doses.size(); ++axis)
+        fits = fits && line.cell.doses[axis].second == dose(axis, value);
+      if (fits) return i;
+    }
+    return std::nullopt;
+  }
+
+  void add_bars(const std::string& method, const Score& score, std::vector<std::string>& elements) {
+    std::vector<std::string> ceilings, whiskers;
+    for (std::size_t value = 0; value < named_.values.size(); ++value) {
+      const auto line = trial(method, value);
+      if (!line) continue;
+      const std::string of = fmt::format("data index {}", blocks_);
+      add_block(method, score, value, *line);
+      elements.push_back(
+          fmt::format("{} using 1:3:({:.5f}) with boxes fs solid 0.85 noborder lc rgb '{}' notitle",
+                      of, kBarShare * place_, palette_colour(value)));
+      const std::string over = fmt::format("{} using ($1-{:.5f}):", of, 0.5 * place_);
+      const std::string along = fmt::format(":({:.5f}):(0) with vectors nohead lw 1.2", place_);
+      ceilings.push_back(over + '6' + along + " dt (1,2) lc rgb '#444444' notitle");
+      ceilings.push_back(over + '7' + along + " lc rgb '#000000' notitle");
+      if (summary_.study.seeds > 1)
+        whiskers.push_back(of +
+                           " using 1:4:(0):($5-$4) with vectors heads size screen 0.0025,90 "
+                           "lw 0.8 lc rgb '#222222' notitle");
+    }
+    elements.insert(elements.end(), ceilings.begin(), ceilings.end());
+    elements.insert(elements.end(), whiskers.begin(), whiskers.end());
+  }
+
+  void add_block(const std::string& method, const Score& score, std::size_t value,
+                 std::size_t line) {
+    sheet_.data += fmt::format(
+        "{}# {}; {}; {}\n# place class value low high registration_ceiling lattice_ceiling\n",
+        blocks_++ > 0 ? "\n\n" : "", method, score.metric, named_.text(value));
+    const double offset = (static_cast<double>(value) + 0.5) * place_ - 0.5 * kGroup;
+    for (std::size_t c = 0; c < classes_.size(); ++c) {
+      const auto at = [&](const ResultLine& of) {
+        return estimate(of, summary_.table, classes_[c]->name, score.metric);
+      };
+      const Estimate shown = at(summary_.trials[line]);
+      sheet_.data +=
+          fmt::format("{:.4f} {} {} {} {} {} {}\n", static_cast<double>(c) + offset,
+                      gnuplot_column(classes_[c]->name), figure_number(shown.pooled),
+                      figure_number(shown.over_seeds.low), figure_number(shown.over_seeds.high),
+                      figure_number(at(summary_.registration_ceilings[line]).pooled),
+                      figure_number(at(summary_.lattice_ceilings[line]).pooled));
+    }
+  }
+
+  const StudySummary& summary_;
+  std::size_t axis_;  ///< position in the sweep
+  FigureAxis named_;
+  std::vector<const SemanticClass*> classes_;
+  double place_;  ///< width of a bar with its gap
+  FigureSheet sheet_;
+  int blocks_ = 0;
+};
+
+}  // namespace
+
+std::optional<FigureSheet> class_bars_figure(const StudySummary& summary) {
+  const std::optional<std::size_t> axis = named_axis(summary.study);
+  if (!axis || classes_shown(summary).size() < 2) return std::nullopt;
+  ClassBars figure(summary, *axis);
+  for (const MethodSettings& method : summary.study.methods)
+    figure.add_row(method.name, &method == &summary.study.methods.front());
+  return figure.finish();
+}
+
+}  // namespace mapscore::eval

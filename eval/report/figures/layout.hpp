@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/report/axes.hpp"
+#include "eval/report/summary.hpp"
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// A line of a figure: one method, and one value of every swept axis from the third on.
+struct Curve {
+  std::string name;  ///< "direct", "direct, N = 10"
+  std::string method;
+  std::size_t tail = 0;  ///< position in the product of the axes from the third on
+  std::string colour;    ///< #rrggbb of Okabe and Ito's palette, made for colour-blind readers too
+  int point = 7;         ///< gnuplot's point type
+  int dash = 1;          ///< gnuplot's dash type
+};
+
+/// The n-th colour of the figures: #rrggbb of Okabe and Ito's palette, over again after seven.
+[[nodiscard]] std::string palette_colour(std::size_t n);
+
+/// Which trial stands where in the figures of a study: x, column of panels, curve.
+class StudyLayout {
+ public:
+  explicit StudyLayout(const StudySummary& summary);
+
+  /// The first swept axis; the methods when nothing is swept.
+  [[nodiscard]] const FigureAxis& x() const { return x_; }
+  /// Heads of the columns of panels: values of the second axis, or one empty text.
+  [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
+  [[nodiscard]] const std::vector<Curve>& curves() const { return curves_; }
+  /// Nothing is swept: a bar a method.
+  [[nodiscard]] bool bars() const { return bars_; }
+  /// The first swept axis has names, not numbers: nothing lies between two of its values.
+  [[nodiscard]] bool named() const { return !bars_ && !x_.numeric; }
+  /// "STEM_by_dose", or by what runs along x: "STEM_by_method", "STEM_by_source".
+  [[nodiscard]] std::string figure_name(const std::string& stem) const;
+
+  /// Position in StudySummary::trials (and in its ceilings), if that curve has a point there.
+  [[nodiscard]] std::optional<std::size_t> trial(const Curve& curve, std::size_t column,
+                                                 std::size_t x) const;
+
+ private:
+  FigureAxis x_;
+  std::vector<std::string> columns_{""};
+  std::vector<Curve> curves_;
+  bool bars_ = false;
+  std::size_t tails_ = 1;
+  std::map<std::pair<std::string, std::size_t>, std::size_t> trials_;  ///< by method and cell
+};
+
+}  // namespace mapscore::eval

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/figures/threshold.hpp"
+
+#include "eval/report/figures/curves.hpp"
+#include "files/text.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr std::size_t kPanelsShown = 3;
+constexpr double kPanelHeight_in = 2.0;
+
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{:.9g}", *value) : "-";
+}
+
+/// Values of the x axis that have a panel; all methods share one where nothing is swept.
+std::vector<std::size_t> values_shown(const StudyLayout& layout) {
+  if (layout.bars()) return {0};
+  const std::size_t values = layout.x().at.size();
+  if (values > kPanelsShown && !layout.named()) return {0, values / 2, values - 1};
+  std::vector<std::size_t> all(values);
+  for (std::size_t v = 0; v < values; ++v) all[v] = v;
+  return all;
+}
+
+std::size_t middle_column(const StudyLayout& layout) {
+  return layout.columns().size() / 2;
+}
+
+/// Position in the trials of the curve's point in a panel.
+std::optional<std::size_t> trial_of(const Curve& curve, std::size_t value,
+                                    const StudyLayout& layout) {
+  if (!layout.bars()) return layout.trial(curve, middle_column(layout), value);
+  for (std::size_t x = 0; x < layout.x().at.size(); ++x)
+    if (const auto trial = layout.trial(curve, 0, x)) return trial;
+  return std::nullopt;
+}
+
+/// Panels side by side, filled from one block of data after the other.
+class ThresholdFigure {
+ public:
+  ThresholdFigure(const StudySummary& summary, const StudyLayout& layout, std::string name)
+      : summary_(summary), layout_(layout), values_(values_shown(layout)) {
+    sheet_.name = std::move(name);
+    sheet_.columns = static_cast<int>(values_.size());
+    sheet_.panel_width_in = panel_width_in(sheet_.columns);
+    sheet_.panel_height_in = kPanelHeight_in;
+    for (const Curve& curve : layout.curves())
+      sheet_.legend.push_back(fmt::format("NaN with linespoints {} title {}", style_of(curve),
+                                          gnuplot_quoted(curve.name)));
+  }
+
+  [[nodiscard]] static std::string style_of(const Curve& curve) {
+    return fmt::format("pt {} ps 0.8 lw 1.4 dt {} lc rgb '{}'", curve.point, curve.dash,
+                       curve.colour);
+  }
+
+  /// One row: `fill(counts, curve, position of the curve, panel)` for every curve of every panel.
+  template <class Fill>
+  void add_row(const Panel& like, bool titles, Fill fill) {
+    for (const std::size_t value : values_) {
+      Panel panel = like;
+      panel.title = titles && !layout_.bars() ? layout_.x().text(value) : "";
+      panel.y_tic_labels = value == values_.front();
+      if (!panel.y_tic_labels) panel.y_label.clear();
+      for (std::size_t c = 0; c < layout_.curves().size(); ++c) {
+        const Curve& curve = layout_.curves()[c];
+        const auto trial = trial_of(curve, value, layout_);
+        if (!trial) continue;
+        head_ = layout_.bars() ? curve.name : curve.name + "; " + layout_.x().text(value);
+        fill(pool_detected(summary_.trials[*trial].pooled, summary_.table), curve, c, panel);
+      }
+      sheet_.panels.push_back(std::move(panel));
+    }
+  }
+
+  /// Starts a block of the data file; returns `data index N`.
+  [[nodiscard]] std::string block(const std::string& what, const std::string& columns) {
+    sheet_.data +=
+        fmt::format("{}# {}; {}\n# {}\n", blocks_ > 0 ? "\n\n" : "", head_, what, columns);
+    return fmt::format("data index {}", blocks_++);
+  }
+  void write(const std::string& line) { sheet_.data += line + '\n'; }
+  void explain(const std::string& legend_entry) { sheet_.legend.push_back(legend_entry); }
+
+  [[nodiscard]] FigureSheet finish(const std::string& caption) {
+    const std::string& column = layout_.columns()[middle_column(layout_)];
+    sheet_.caption = study_caption(summary_) + (column.empty() ? "" : " At " + column + '.') +
+                     " Counts pooled over classes and seeds. " + caption;
+    return std::move(sheet_);
+  }
+
+ private:
+  const StudySummary& summary_;
+  const StudyLayout& layout_;
+  FigureSheet sheet_;
+  std::vector<std::size_t> values_;
+  std::string head_;  ///< of the curve and panel that are being filled
+  int blocks_ = 0;
+};
+
+Panel unit_panel(const std::string& x_label, const std::string& y_label) {
+  Panel panel;
+  panel.x_label = x_label;
+  panel.y_label = y_label;
+  panel.settings = {"set xrange [0:1.02]; set xtics 0.2", "set yrange [0:1.02]; set ytics 0.2"};
+  return panel;
+}
+
+}  // namespace
+
+FigureSheet precision_recall_figure(const StudySummary& summary, const StudyLayout& layout) {
+  ThresholdFigure figure(summary, layout, "precision_recall");
+  const auto fill = [&](const ClassCounts& counts, const Curve& curve, std::size_t, Panel& panel) {
+    const std::string line = figure.block("over the threshold", "recall precision threshold");
+    for (const CurvePoint& point : points_of(counts.curve))
+      figure.write(fmt::format("{} {} {:.3f}", number(point.recall), number(point.precision),
+                               point.threshold));
+    const std::string mark = figure.block("at the working threshold", "recall precision");
+    figure.write(number(recall(counts)) + ' ' + number(precision(counts)));
+    panel.elements.push_back(fmt::format("{} using 1:2 with lines lw 1.4 dt {} lc rgb '{}' notitle",
+                                         line, curve.dash, curve.colour));
+    panel.elements.push_back(
+        fmt::format("{} using 1:2 with points pt {} ps 1.1 lc rgb '{}' notitle", mark, curve.point,
+                    curve.colour));
+  };
+  figure.add_row(unit_panel("recall", "precision"), true, fill);
+  return figure.finish(
+      "Along a line the threshold falls from left to right; the mark is the threshold that all "
+      "other figures are made at.");
+}
+
+FigureSheet reliability_figure(const StudySummary& summary, const StudyLayout& layout) {
+  ThresholdFigure figure(summary, layout, "reliability");
+  const double bar = 0.8 / kReliabilityBins / static_cast<double>(layout.curves().size());
+  std::vector<std::string> bars;  // of the lower row, in the order of its panels and curves
+  Panel upper = unit_panel("", "share that is true");
+  upper.elements = {"x with lines lw 0.8 dt (4,3) lc rgb '#666666' notitle"};
+  figure.add_row(
+      upper, true, [&](const ClassCounts& counts, const Curve& curve, std::size_t c, Panel& panel) {
+        const std::string block = figure.block(
+            "reliability", "low high voxels share_of_voxels mean_probability share_true");
+        const std::vector<ReliabilityBin> bins = reliability(counts.curve);
+        std::int64_t voxels = 0;
+        for (const ReliabilityBin& bin : bins) voxels += bin.voxels;
+        for (const ReliabilityBin& bin : bins)
+          figure.write(fmt::format("{:.1f} {:.1f} {} {} {} {}", bin.low, bin.high, bin.voxels,
+                                   number(ratio(bin.voxels, voxels)), number(bin.mean_probability),
+                                   number(bin.share_true)));
+        panel.elements.push_back(fmt::format("{} using 5:6 with linespoints {} notitle", block,
+                                             ThresholdFigure::style_of(curve)));
+        const double offset = 0.1 / kReliabilityBins + (static_cast<double>(c) + 0.5) * bar;
+        bars.push_back(
+            fmt::format("{} using ($1+{:.5f}):4:({:.5f}) with boxes fs solid 1 noborder lc "
+                        "rgb '{}' notitle",
+                        block, offset, bar, curve.colour));
+      });
+  Panel lower = unit_panel("probability", "share of the voxels");
+  std::size_t next = 0;
+  figure.add_row(lower, false, [&](const ClassCounts&, const Curve&, std::size_t, Panel& panel) {
+    panel.elements.push_back(bars[next++]);
+  });
+  figure.explain("NaN with lines lw 0.8 dt (4,3) lc rgb '#666666' title 'as true as probable'");
+  return figure.finish(
+      "Voxels with a class by their probability, in bins of a tenth. Below the diagonal the map is "
+      "surer than it should be, above it less sure.");
+}
+
+}  // namespace mapscore::eval

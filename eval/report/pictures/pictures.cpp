@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/pictures/pictures.hpp"
+
+#include "core/error.hpp"
+#include "eval/report/pictures/map_beside_truth.hpp"
+#include "eval/report/pictures/map_pictures.hpp"
+#include "eval/report/pictures/view.hpp"
+#include "eval/study/picture_view.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+namespace mapscore::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Width of a column where there are several.
+constexpr int kColumn_px = 640;
+/// What the names of the pictures from the views of error_views end in.
+constexpr std::array<const char*, 2> kViewNames{"", "_close"};
+
+std::optional<sim::View> chosen_view(const Study& study, const PictureChoice& choice) {
+  if (choice.view || !study.picture_view) return choice.view;
+  return view_of_numbers(*study.picture_view);
+}
+
+/// The same view in a picture of that width.
+sim::View narrowed(sim::View view, int width_px) {
+  view.height_px = std::max(1, view.height_px * width_px / view.width_px);
+  view.width_px = width_px;
+  return view;
+}
+
+std::vector<fs::path> paint_all(const std::vector<JudgedMap>& maps, const ClassTable& table,
+                                const std::vector<sim::View>& views, const sim::View& plan,
+                                ScenePainter& painter, const fs::path& folder) {
+  std::vector<fs::path> files;
+  const auto save = [&](const std::string& name, const cv::Mat3b& picture) {
+    files.push_back(write_picture(folder / (name + ".png"), picture));
+  };
+  std::vector<CaptionedColumn> columns;
+  for (const JudgedMap& map : maps) {
+    save("map_" + map.name, captioned(class_picture(map, table, painter, views.front()), map.title,
+                                      class_legend(map, table)));
+    save("map_and_truth_" + map.name, map_beside_truth(map, table, painter, plan));
+    CaptionedColumn column{map.title, {}, error_legend(map)};
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      column.pictures.push_back(error_picture(map, painter, views[i]));
+      save("errors_" + map.name + kViewNames.at(i),
+           captioned(column.pictures.back(), column.title, column.legend));
+    }
+    columns.push_back(std::move(column));
+  }
+  save("errors", in_columns(columns, columns.size() > 1 ? kColumn_px
+                                                        : columns.front().pictures.front().cols));
+  return files;
+}
+
+/// Time offset of the cell that is shown, seconds.
+double time_offset_s(Study study, const PictureChoice& choice) {
+  for (const auto& [path, value] : chosen_cell(study, choice).doses)
+    if (path == "faults.time_offset_ms") set_leaf(study, path, value);
+  return study.faults.time_offset_ms / 1000.0;
+}
+
+/// The time that a moving scene is drawn at: that of the map, or of the depth image of the frame
+/// that is shown.
+std::optional<double> drawn_time(const Study& study, const ClassTable& table,
+                                 const Recording& recording, const PictureChoice& choice) {
+  if (recording.info().motion.empty() || study.score.unit == ScoreUnit::map)
+    return study.score.at_s;
+  const int frame = fullest_frame(recording, table, 0, recording.frame_count());
+  return recording.depth_stamp_s(recording.depth_of(frame, time_offset_s(study, choice)));
+}
+
+}  // namespace
+
+Pictures draw_pictures(const Study& study, const ClassTable& table, const Recording& recording,
+                       const PictureChoice& choice, const fs::path& folder,
+                       const std::function<std::vector<JudgedMap>()>& judged_maps) {
+  if (!recording.info().has_truth)
+    return {{}, recording.folder().string() + ": has no truth, so its maps cannot be judged"};
+  std::unique_ptr<ScenePainter> painter;
+  try {
+    painter = std::make_unique<ScenePainter>(study, recording,
+                                             drawn_time(study, table, recording, choice));
+  } catch (const Error& error) {
+    return {{}, error.what()};
+  }
+  fs::create_directories(folder);
+  const std::vector<JudgedMap> maps = judged_maps();
+  const std::optional<sim::View> chosen = chosen_view(study, choice);
+  const std::vector<sim::View> views = error_views(maps, chosen, depth_camera_poses(recording));
+  const sim::View plan = chosen ? narrowed(*chosen, kColumn_px) : plan_view(maps, kColumn_px);
+  return {paint_all(maps, table, views, plan, *painter, folder), ""};
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/results/plan.hpp"
+
+#include "core/error.hpp"
+#include "eval/localization/believed_file.hpp"
+#include "eval/recording/grid_file.hpp"
+#include "eval/score/counts.hpp"
+#include "files/file_bytes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+
+namespace mapscore::eval {
+namespace {
+
+/// What the files hold that poses and detections of a study come from. Each is read once.
+class PoseFiles {
+ public:
+  /// Hash of the object map that perception is simulated from; empty without one. Throws Error when
+  /// it is missing.
+  std::string objects(const Study& config) {
+    const auto* simulated = std::get_if<SimulatedPerception>(&config.perception);
+    if (!simulated || !simulated->objects) return "";
+    return of(resolve_path(config, *simulated->objects),
+              [](const std::filesystem::path& file) { return read_file(file); });
+  }
+
+  /// Hash of the file that the source of a configuration reads; empty when it reads none. Throws
+  /// Error when the file is refused.
+  std::string content(const Study& config) {
+    const LocalizationSettings& settings = config.localization;
+    if (settings.source == PoseSource::trajectory)
+      return of(resolve_path(config, settings.trajectory.value()), trajectory_bytes);
+    if (settings.source == PoseSource::particle_filter && settings.grid)
+      return of(resolve_path(config, *settings.grid), grid_bytes);
+    return "";
+  }
+
+ private:
+  static std::string trajectory_bytes(const std::filesystem::path& file) {
+    static_cast<void>(read_believed(file));  // refuses what is no trajectory
+    return read_file(file);
+  }
+
+  static std::string grid_bytes(const std::filesystem::path& file) {
+    const OccupancyGrid grid = load_grid(file);
+    const GridFrame& frame = grid.frame();
+    std::string bytes =
+        fmt::format("{} {} {} {} {} {}\n", frame.resolution_m, frame.T_map_grid.x_m,
+                    frame.T_map_grid.y_m, frame.T_map_grid.yaw_rad, frame.width, frame.height);
+    bytes.append(grid.cells().begin(), grid.cells().end());
+    return bytes;
+  }
+
+  std::string of(const std::filesystem::path& file, auto read) {
+    const auto [entry, is_new] = hashes_.try_emplace(file);
+    if (is_new) entry->second = hash_of(read(file));
+    return entry->second;
+  }
+
+  std::map<std::filesystem::path, std::string> hashes_;
+};
+
+/// Leaves only what determines the result, so that renaming a study or adding a method to it does
+/// not make its trials new. The recording stands for what it was made from.
+Study determining(Study config, const std::string& pose_file, const std::string& objects) {
+  const Study none;
+  config.name.clear();
+  config.seeds = 1;
+  for (auto* path :
+       {&config.scene, &config.classes, &config.robot, &config.motion, &config.recording})
+    path->reset();
+  config.trajectory = none.trajectory;
+  config.cameras = none.cameras;
+  config.lidar = none.lidar;
+  config.sweep.clear();
+  config.picture_view.reset();
+  config.faults = with_canonical_doses(config.faults);
+  resolve_localization(config.localization, config.faults, pose_file);
+  if (auto* simulated = std::get_if<SimulatedPerception>(&config.perception);
+      simulated && simulated->objects)
+    simulated->objects = objects;
+  config.base_folder.clear();
+  for (MethodSettings& method : config.methods) method.name = "method";
+  return config;
+}
+
+/// The study with true poses and no fault.
+Study without_faults(Study config) {
+  config.localization = {};
+  config.faults = {};
+  return config;
+}
+
+Study for_lattice_ceiling(Study config) {
+  config = without_faults(std::move(config));
+  config.perception = {};  // true labels, whatever the methods see
+  config.methods = {{"lattice", Direct{}, Place::points}};
+  config.place = Place::points;
+  return config;
+}
+
+SeedlessTask make_task(Study config, Labels labels, const std::string& recording_hash,
+                       PoseFiles& files) {
+  SeedlessTask task;
+  task.before_seed =
+      fmt::format("scoring_version: {}\nrecording: {}\nlabels: {}\nseed_index: ", kScoringVersion,
+                  recording_hash, labels == Labels::truth ? "truth" : "detected");
+  task.after_seed =
+      '\n' + to_key_yaml(determining(config, files.content(config), files.objects(config)));
+  task.config = std::move(config);
+  task.labels = labels;
+  return task;
+}
+
+/// Collects the configurations of a plan cell by cell, each once.
+class Configurations {
+ public:
+  void next_cell() { first_ = list_.size(); }
+
+  /// Position of the configuration, which may be an earlier one.
+  std::size_t add(SeedlessTask task) {
+    const auto [entry, is_new] = positions_.try_emplace(task.key(0), list_.size());
+    if (is_new) {
+      list_.push_back({std::move(task), first_, 0});
+      for (std::size_t n = first_; n < list_.size(); ++n) list_[n].count = list_.size() - first_;
+    }
+    return entry->second;
+  }
+
+  [[nodiscard]] std::vector<TaskList::Configuration> take() { return std::move(list_); }
+
+ private:
+  std::vector<TaskList::Configuration> list_;
+  std::unordered_map<std::string, std::size_t> positions_;
+  std::size_t first_ = 0;
+};
+
+/// The configurations of a method's trials at a cell.
+struct TrialConfigurations {
+  std::size_t trial, registration_ceiling, lattice_ceiling;
+};
+
+}  // namespace
+
+void check_pose_files(const Study& study) {
+  PoseFiles files;
+  for (const Cell& cell : cells(study)) {
+    const Study config = resolve(study, cell);
+    static_cast<void>(files.content(config));
+    static_cast<void>(files.objects(config));
+  }
+}
+
+Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
+             const std::string& recording_hash) {
+  const Study config = resolve(study, spec.cell);
+  PoseFiles files;
+  return make_task(labels == Labels::truth ? for_lattice_ceiling(config)
+                                           : with_method(config, spec.method),
+                   labels, recording_hash, files)
+      .task(spec.seed_index);
+}
+
+Plan plan_of(const Study& study, const std::string& recording_hash) {
+  for (const SweepAxis& axis : study.sweep)
+    if (decides_recording(axis.path))
+      throw Error("sweep." + axis.path +
+                  ": decides what is recorded; make one study for each of its values");
+  Configurations configurations;
+  std::vector<TrialConfigurations> of_trials;  // by cell, then method
+  PoseFiles files;
+  const auto add = [&](Study&& config, Labels labels) {
+    return configurations.add(make_task(std::move(config), labels, recording_hash, files));
+  };
+  for (const Cell& cell : cells(study)) {
+    configurations.next_cell();
+    const Study resolved = resolve(study, cell);
+    for (const MethodSettings& method : study.methods) {
+      const Study config = with_method(resolved, method.name);
+      const std::size_t trial = add(Study(config), Labels::detected);
+      const std::size_t registration = add(without_faults(config), Labels::detected);
+      of_trials.push_back({trial, registration, add(for_lattice_ceiling(resolved), Labels::truth)});
+    }
+  }
+  const TaskList tasks(configurations.take(), study.seeds);
+  const LazyList<TrialSpec> specs = trials(study);
+  const auto planned = [tasks, specs, of_trials = std::move(of_trials),
+                        methods = study.methods.size(),
+                        seeds = static_cast<std::size_t>(study.seeds)](std::size_t position) {
+    PlannedTrial trial{specs[position]};
+    const std::size_t cell = position / methods / seeds;
+    const auto& of = of_trials[cell * methods + position % methods];
+    trial.task = tasks.position_of(of.trial, trial.spec.seed_index);
+    trial.registration_ceiling = tasks.position_of(of.registration_ceiling, trial.spec.seed_index);
+    trial.lattice_ceiling = tasks.position_of(of.lattice_ceiling, trial.spec.seed_index);
+    return trial;
+  };
+  return {tasks, {specs.size(), planned}};
+}
+
+}  // namespace mapscore::eval

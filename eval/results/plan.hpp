@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/results/task_list.hpp"
+#include "eval/study/grid.hpp"
+#include "eval/study/study.hpp"
+
+#include <cstddef>
+#include <string>
+
+namespace mapscore::eval {
+
+/// One trial of the sweep and its two ceilings, as positions in Plan::tasks.
+struct PlannedTrial {
+  TrialSpec spec;
+  std::size_t task = 0;
+  std::size_t registration_ceiling = 0;  ///< the same method with every fault at zero
+  std::size_t lattice_ceiling = 0;  ///< true labels on the depth pixels, true pose, same fusion
+};
+
+/// Everything that a study computes; tasks that several trials share stand once. Trials are in the
+/// order of the grid, tasks in the order of first use. Its memory does not grow with the seeds.
+struct Plan {
+  TaskList tasks;
+  LazyList<PlannedTrial> trials;
+};
+
+/// Throws Error when the sweep names a leaf that decides what is recorded.
+[[nodiscard]] Plan plan_of(const Study& study, const std::string& recording_hash);
+
+/// Reads the files that the poses of a study come from, at every point of its grid. Throws Error
+/// naming the file when one is refused.
+void check_pose_files(const Study& study);
+
+/// The task of one trial by itself.
+[[nodiscard]] Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
+                           const std::string& recording_hash);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/results/result_json.hpp"
+
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace mapscore::eval {
+namespace {
+
+using nlohmann::json;
+
+template <class Owner>
+json fields_to_json(const Owner& owner) {
+  json object;
+  for (const CountField<Owner>& field : Owner::counts()) object[field.name] = owner.*field.member;
+  return object;
+}
+
+/// A stored count. Throws Error where it is no whole number from 0 to 10^18.
+std::int64_t count_of(const json& value) {
+  constexpr std::int64_t kMost = 1'000'000'000'000'000'000;
+  if (!value.is_number_integer() || value > kMost || value < 0)
+    throw Error(
+        fmt::format("stored result: {} is no count; delete the store and sweep again",
+                    value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40)));
+  return value;
+}
+
+std::vector<std::int64_t> counts_of(const json& list) {
+  std::vector<std::int64_t> counts;
+  for (const json& value : list) counts.push_back(count_of(value));
+  return counts;
+}
+
+/// A place on a scale of thousandths, 0 to 1000.
+int thousandth_of(const json& value) {
+  const std::int64_t thousandth = count_of(value);
+  if (thousandth > kCurveSteps)
+    throw Error(fmt::format("stored result: {} is no thousandth; delete the store and sweep again",
+                            thousandth));
+  return static_cast<int>(thousandth);
+}
+
+template <class Owner>
+void fields_from_json(const json& object, Owner& owner) {
+  for (const CountField<Owner>& field : Owner::counts())
+    owner.*field.member = count_of(object.at(field.name));
+}
+
+json tally_to_json(const DistanceTally& tally) {
+  const DistanceTally::Parts parts = tally.parts();
+  return {{"limits_m", parts.limits_m},   {"within", parts.within}, {"count", parts.count},
+          {"unreached", parts.unreached}, {"sum_nm", parts.sum_nm}, {"bins", parts.bins}};
+}
+
+DistanceTally tally_from_json(const json& object) {
+  return DistanceTally(
+      DistanceTally::Parts{object.at("limits_m"), counts_of(object.at("within")),
+                           count_of(object.at("count")), count_of(object.at("unreached")),
+                           count_of(object.at("sum_nm")), counts_of(object.at("bins"))});
+}
+
+/// Steps as [thousandth, predicted, true_predicted, found, probability sum], since there are many.
+json curve_to_json(const ClassCurve& curve) {
+  json steps = json::array();
+  for (const CurveStep& step : curve.steps)
+    steps.push_back({step.thousandth, step.predicted, step.true_predicted, step.found,
+                     step.probability_sum_billionth});
+  return {{"visible", curve.visible},
+          {"squared_error_billionth", curve.squared_error_billionth},
+          {"steps", std::move(steps)}};
+}
+
+ClassCurve curve_from_json(const json& object) {
+  ClassCurve curve{
+      count_of(object.at("visible")), count_of(object.at("squared_error_billionth")), {}};
+  for (const json& step : object.at("steps"))
+    curve.steps.push_back({thousandth_of(step.at(0)), count_of(step.at(1)), count_of(step.at(2)),
+                           count_of(step.at(3)), count_of(step.at(4))});
+  return curve;
+}
+
+template <class Part>
+json part_to_json(const Part& part) {
+  return fields_to_json(part);
+}
+
+/// Steps as [score, predicted, true_predicted...], a true_predicted for each least IoU.
+json part_to_json(const InstanceCounts& instances) {
+  json object = fields_to_json(instances);
+  object["steps"] = json::array();
+  for (const InstanceStep& step : instances.steps) {
+    json row{step.score, step.predicted};
+    for (const std::int64_t count : step.true_predicted) row.push_back(count);
+    object["steps"].push_back(std::move(row));
+  }
+  return object;
+}
+
+template <class Part>
+void part_from_json(const json& object, Part& part) {
+  fields_from_json(object, part);
+}
+
+void part_from_json(const json& object, InstanceCounts& instances) {
+  fields_from_json(object, instances);
+  for (const json& row : object.at("steps")) {
+    InstanceStep step;
+    step.score = thousandth_of(row.at(0));
+    step.predicted = count_of(row.at(1));
+    for (std::size_t t = 0; t < step.true_predicted.size(); ++t)
+      step.true_predicted[t] = count_of(row.at(2 + t));
+    instances.steps.push_back(step);
+  }
+}
+
+template <class Part>
+void take_part(const json& object, const char* name, Part& part) {
+  part_from_json(object.at(name), part);
+}
+template <class Part>
+void take_part(const json& object, const char* name, std::optional<Part>& part) {
+  if (object.contains(name)) part_from_json(object.at(name), part.emplace());
+}
+
+json counts_to_json(const ClassCounts& counts) {
+  json object = fields_to_json(counts);
+  object["at_tolerance"] = json::array();
+  for (const ToleranceCounts& at : counts.at_tolerance)
+    object["at_tolerance"].push_back({at.voxels, at.true_predicted, at.found});
+  object["accuracy"] = tally_to_json(counts.accuracy);
+  object["completeness"] = tally_to_json(counts.completeness);
+  object["curve"] = curve_to_json(counts.curve);
+  for_each_part(counts,
+                [&](const char* name, const auto& part) { object[name] = part_to_json(part); });
+  return object;
+}
+
+ClassCounts counts_from_json(const json& object) {
+  ClassCounts counts;
+  fields_from_json(object, counts);
+  for (const json& at : object.at("at_tolerance"))
+    counts.at_tolerance.push_back(
+        {static_cast<int>(count_of(at.at(0))), count_of(at.at(1)), count_of(at.at(2))});
+  counts.accuracy = tally_from_json(object.at("accuracy"));
+  counts.completeness = tally_from_json(object.at("completeness"));
+  counts.curve = curve_from_json(object.at("curve"));
+  std::apply(
+      [&](const auto&... part) { (take_part(object, part.first, counts.*part.second), ...); },
+      ClassCounts::parts());
+  return counts;
+}
+
+}  // namespace
+
+std::string to_json(const TrialResult& result) {
+  json object;
+  object["accounting"] = fields_to_json(result.accounting);
+  object["classes"] = json::array();
+  for (const ClassCounts& counts : result.counts)
+    object["classes"].push_back(counts_to_json(counts));
+  return object.dump();
+}
+
+TrialResult result_from_json(const std::string& text) try {
+  const json object = json::parse(text);
+  TrialResult result;
+  fields_from_json(object.at("accounting"), result.accounting);
+  for (const json& counts : object.at("classes")) result.counts.push_back(counts_from_json(counts));
+  return result;
+} catch (const json::exception& error) {
+  throw Error(std::string("stored result: not readable (") + error.what() +
+              "); delete the store and sweep again");
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/results/store.hpp"
+
+#include "core/error.hpp"
+#include "eval/results/result_json.hpp"
+#include "eval/results/store_trouble.hpp"
+#include "files/text.hpp"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <system_error>
+#include <utility>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr int kStoreFormat = 1;
+
+constexpr const char* kTexts = "texts (name TEXT PRIMARY KEY, value TEXT NOT NULL)";
+constexpr const char* kTrials =
+    "trials (key TEXT PRIMARY KEY, description TEXT NOT NULL, result TEXT NOT NULL)";
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
+  throw Error(file.string() + ": " + reason);
+}
+
+/// One prepared statement; positions of parameters and columns as SQLite counts them. A database
+/// has one at a time. It ends in an Error after many more steps than its file can ask for: pages
+/// that name one another have no end.
+class Statement {
+ public:
+  Statement(sqlite3* database, const std::filesystem::path& file, const char* sql)
+      : database_(database), file_(file) {
+    std::error_code no_file;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, no_file);
+    rests_left_ += no_file ? 0 : static_cast<std::int64_t>(bytes) / kRestEvery * kStepsAByte;
+    sqlite3_progress_handler(
+        database, kRestEvery,
+        [](void* self) { return --static_cast<Statement*>(self)->rests_left_ < 0 ? 1 : 0; }, this);
+    if (sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr) != SQLITE_OK) refuse();
+  }
+  ~Statement() { close(); }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  Statement& bind(int parameter, const std::string& text) {
+    sqlite3_bind_text(statement_, parameter, text.data(), static_cast<int>(text.size()),
+                      SQLITE_TRANSIENT);
+    return *this;
+  }
+  /// True while there is a row.
+  [[nodiscard]] bool step() {
+    const int outcome = sqlite3_step(statement_);
+    if (outcome != SQLITE_ROW && outcome != SQLITE_DONE) refuse();
+    return outcome == SQLITE_ROW;
+  }
+  void run() {
+    while (step()) {
+    }
+  }
+  [[nodiscard]] std::string text(int column) const {
+    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+    return bytes ? std::string(bytes,
+                               static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)))
+                 : std::string();
+  }
+
+ private:
+  void close() {
+    sqlite3_finalize(std::exchange(statement_, nullptr));
+    sqlite3_progress_handler(database_, 0, nullptr, nullptr);
+  }
+  [[noreturn]] void refuse() {
+    const std::string reason =
+        store_trouble(sqlite3_extended_errcode(database_), sqlite3_errmsg(database_), file_);
+    close();
+    fail(file_, reason);
+  }
+
+  static constexpr int kRestEvery = 10'000;  ///< steps of SQLite's virtual machine
+  static constexpr int kStepsAByte = 20;     ///< a row takes ten bytes and steps, or more bytes
+  std::int64_t rests_left_ = 1000;
+
+  sqlite3* database_;
+  const std::filesystem::path& file_;
+  sqlite3_stmt* statement_ = nullptr;
+};
+
+/// The result of one row, whose file an Error names.
+TrialResult result_of(const std::string& text, const std::filesystem::path& file) try {
+  return result_from_json(text);
+} catch (const Error& error) {
+  fail(file, error.what());
+}
+
+}  // namespace
+
+void ResultStore::Close::operator()(sqlite3* database) const {
+  sqlite3_close(database);
+}
+
+ResultStore::ResultStore(std::unique_ptr<sqlite3, Close> database, std::filesystem::path file)
+    : database_(std::move(database)), file_(std::move(file)) {
+  sqlite3_busy_timeout(database_.get(), 10000);
+  // What a stranger's store could do: functions with side effects in its schema, triggers, views,
+  // pages that SQLite takes for its own.
+  for (const int off : {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER,
+                        SQLITE_DBCONFIG_ENABLE_VIEW})
+    sqlite3_db_config(database_.get(), off, 0, nullptr);
+  sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_limit(database_.get(), SQLITE_LIMIT_ATTACHED, 0);
+}
+
+void ResultStore::refuse_foreign_schema() const {
+  Statement query(database_.get(), file_, "SELECT type, name, sql FROM sqlite_schema");
+  while (query.step()) {
+    constexpr std::size_t kShown = 40;
+    const std::string name = query.text(1), sql = query.text(2);
+    const bool is_index =
+        sql.empty() && (name == "sqlite_autoindex_texts_1" || name == "sqlite_autoindex_trials_1");
+    if (!is_index && sql != std::string("CREATE TABLE ") + kTexts &&
+        sql != std::string("CREATE TABLE ") + kTrials)
+      fail(file_,
+           fmt::format("result store: holds the {} '{}', which mapscore does not make; "
+                       "sweep again into another folder",
+                       shown(query.text(0).substr(0, kShown)), shown(name.substr(0, kShown))));
+  }
+}
+
+ResultStore ResultStore::open(const std::filesystem::path& file) {
+  std::error_code error;
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
+  refuse_super_journal(file);
+  sqlite3* raw = nullptr;
+  const int outcome = sqlite3_open(file.c_str(), &raw);
+  ResultStore store(std::unique_ptr<sqlite3, Close>(raw), file);
+  if (outcome != SQLITE_OK) fail(file, "cannot be written; check the folder and its permissions");
+  store.refuse_foreign_schema();
+  store.execute(std::string("CREATE TABLE IF NOT EXISTS ") + kTexts);
+  store.execute(std::string("CREATE TABLE IF NOT EXISTS ") + kTrials);
+  const std::string format = store.text("format_version");
+  if (format.empty())
+    store.set_text("format_version", std::to_string(kStoreFormat));
+  else if (format != std::to_string(kStoreFormat))
+    fail(file, "result store of format " + format + ", this mapscore reads " +
+                   std::to_string(kStoreFormat) + "; sweep again into another folder");
+  return store;
+}
+
+ResultStore ResultStore::open_existing(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file))
+    fail(file, "no result store there; run `mapscore sweep` first");
+  refuse_super_journal(file);
+  sqlite3* raw = nullptr;
+  // Read-write, so that SQLite can roll back what a killed sweep left half-written; a store on a
+  // read-only disk is opened for reading all the same.
+  const int outcome = sqlite3_open_v2(file.c_str(), &raw, SQLITE_OPEN_READWRITE, nullptr);
+  ResultStore store(std::unique_ptr<sqlite3, Close>(raw), file);
+  if (outcome != SQLITE_OK) fail(file, "cannot be opened; check its permissions");
+  store.refuse_foreign_schema();
+  if (store.text("format_version") != std::to_string(kStoreFormat))
+    fail(file, "result store of another format; sweep again into another folder");
+  return store;
+}
+
+void ResultStore::execute(const std::string& sql) {
+  Statement(database_.get(), file_, sql.c_str()).run();
+}
+
+void ResultStore::set_text(const std::string& name, const std::string& value) {
+  if (text(name) == value) return;
+  Statement(database_.get(), file_, "INSERT OR REPLACE INTO texts VALUES (?, ?)")
+      .bind(1, name)
+      .bind(2, value)
+      .run();
+}
+
+void ResultStore::set_texts(const std::vector<std::pair<std::string, std::string>>& texts) {
+  execute("BEGIN IMMEDIATE");
+  for (const auto& [name, value] : texts) set_text(name, value);
+  execute("COMMIT");
+}
+
+std::string ResultStore::text(const std::string& name) const {
+  Statement query(database_.get(), file_, "SELECT value FROM texts WHERE name = ?");
+  query.bind(1, name);
+  return query.step() ? query.text(0) : std::string();
+}
+
+bool ResultStore::contains(const std::string& key) const {
+  Statement query(database_.get(), file_, "SELECT 1 FROM trials WHERE key = ?");
+  query.bind(1, key);
+  return query.step();
+}
+
+std::unordered_set<std::string> ResultStore::keys() const {
+  Statement query(database_.get(), file_, "SELECT key FROM trials");
+  std::unordered_set<std::string> keys;
+  while (query.step()) keys.insert(query.text(0));
+  return keys;
+}
+
+void ResultStore::add(const std::string& key, const std::string& description,
+                      const TrialResult& result) {
+  Statement(database_.get(), file_, "INSERT OR IGNORE INTO trials VALUES (?, ?, ?)")
+      .bind(1, key)
+      .bind(2, description)
+      .bind(3, to_json(result))
+      .run();
+}
+
+std::optional<TrialResult> ResultStore::find(const std::string& key) const {
+  Statement query(database_.get(), file_, "SELECT result FROM trials WHERE key = ?");
+  query.bind(1, key);
+  if (!query.step()) return std::nullopt;
+  return result_of(query.text(0), file_);
+}
+
+int ResultStore::merge(const ResultStore& other) {
+  Statement query(other.database_.get(), other.file_,
+                  "SELECT key, description, result FROM trials ORDER BY key");
+  const int before = sqlite3_total_changes(database_.get());
+  execute("BEGIN");
+  while (query.step()) {
+    (void)result_of(query.text(2), other.file_);  // so that none comes in which cannot be read
+    Statement(database_.get(), file_, "INSERT OR IGNORE INTO trials VALUES (?, ?, ?)")
+        .bind(1, query.text(0))
+        .bind(2, query.text(1))
+        .bind(3, query.text(2))
+        .run();
+  }
+  execute("COMMIT");
+  return sqlite3_total_changes(database_.get()) - before;
+}
+
+}  // namespace mapscore::eval

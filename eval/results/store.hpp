@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/segmentation/segment.hpp"
+#include "eval/score/counts.hpp"
+#include "eval/score/metric.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+struct sqlite3;
+
+namespace mapscore::eval {
+
+/// What became of the frames and detections of a trial. Every one is accounted for.
+struct Accounting {
+  std::int64_t frames = 0;
+  std::int64_t detections = 0;
+  std::int64_t skipped_no_points = 0;        ///< no registered depth on the mask
+  std::int64_t skipped_no_seed_point = 0;    ///< no registered depth at the seed pixel
+  std::int64_t skipped_seed_off_object = 0;  ///< no point of the mask near the seed point
+  std::int64_t skipped_eroded_away = 0;
+  std::int64_t points = 0;            ///< kept by the segmentation
+  std::int64_t map_voxels = 0;        ///< in the map at the end; of single frames, their sum
+  std::int64_t hits_beyond_span = 0;  ///< hits on voxels that the octree cannot hold; left out
+
+  static auto counts() {
+    return std::to_array<CountField<Accounting>>({
+        {"frames", &Accounting::frames},
+        {"detections", &Accounting::detections},
+        {"skipped_no_points", &Accounting::skipped_no_points},
+        {"skipped_no_seed_point", &Accounting::skipped_no_seed_point},
+        {"skipped_seed_off_object", &Accounting::skipped_seed_off_object},
+        {"skipped_eroded_away", &Accounting::skipped_eroded_away},
+        {"points", &Accounting::points},
+        {"map_voxels", &Accounting::map_voxels},
+        {"hits_beyond_span", &Accounting::hits_beyond_span},
+    });
+  }
+  /// The count of the detections that were skipped for a reason; nullptr for none.
+  static std::int64_t Accounting::*of(SkipReason reason) {
+    switch (reason) {
+      case SkipReason::none:
+        break;
+      case SkipReason::no_points:
+        return &Accounting::skipped_no_points;
+      case SkipReason::eroded_away:
+        return &Accounting::skipped_eroded_away;
+      case SkipReason::no_seed_point:
+        return &Accounting::skipped_no_seed_point;
+      case SkipReason::seed_off_object:
+        return &Accounting::skipped_seed_off_object;
+    }
+    return nullptr;
+  }
+  bool operator==(const Accounting&) const = default;
+};
+
+/// One finished trial.
+struct TrialResult {
+  Counts counts;  ///< by class id
+  Accounting accounting;
+};
+
+/// Results of a study: one row a trial, keyed by the content hash of everything that determines it.
+/// One transaction a trial, so that a killed sweep loses nothing that was done. Members may be
+/// called from several threads, one at a time.
+class ResultStore {
+ public:
+  /// Opens or creates. Throws Error when the file is not a store, is of another format version,
+  /// holds a trigger, a view or any table but a store's two, or cannot be written.
+  [[nodiscard]] static ResultStore open(const std::filesystem::path& file);
+  /// Opens for reading only. Throws Error when it is not there, and as above.
+  [[nodiscard]] static ResultStore open_existing(const std::filesystem::path& file);
+
+  /// Free texts about the study (its resolved configuration, class table, recording, version).
+  void set_text(const std::string& name, const std::string& value);
+  /// Several at once, so that no reader ever sees a part of them.
+  void set_texts(const std::vector<std::pair<std::string, std::string>>& texts);
+  [[nodiscard]] std::string text(const std::string& name) const;
+
+  [[nodiscard]] bool contains(const std::string& key) const;
+  [[nodiscard]] std::unordered_set<std::string> keys() const;
+  /// A trial that is already there stays as it is. `description` is the YAML of what the key was
+  /// made from.
+  void add(const std::string& key, const std::string& description, const TrialResult& result);
+  [[nodiscard]] std::optional<TrialResult> find(const std::string& key) const;
+  /// Takes over the trials of another store that are not here yet. Returns how many.
+  int merge(const ResultStore& other);
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  ResultStore(std::unique_ptr<sqlite3, Close> database, std::filesystem::path file);
+  void execute(const std::string& sql);
+  void refuse_foreign_schema() const;
+
+  std::unique_ptr<sqlite3, Close> database_;
+  std::filesystem::path file_;
+};
+
+}  // namespace mapscore::eval

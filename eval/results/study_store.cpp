@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/results/study_store.hpp"
+
+#include "core/error.hpp"
+#include "files/text.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace mapscore::eval {
+namespace {
+
+using nlohmann::json;
+
+std::string table_to_json(const ClassTable& table) {
+  json object{{"classes", json::array()}, {"instances", json::array()}};
+  for (const SemanticClass& c : table.classes)
+    object["classes"].push_back({{"id", c.id},
+                                 {"name", c.name},
+                                 {"colour", {c.colour.r, c.colour.g, c.colour.b}},
+                                 {"detect", c.detect}});
+  for (const Instance& i : table.instances)
+    object["instances"].push_back({{"id", i.id}, {"name", i.name}, {"class", i.class_id}});
+  return object.dump();
+}
+
+/// Ids are places in the table, of which counts are kept by place.
+void refuse_other_id(const json& entry, std::size_t place) {
+  if (entry.at("id") != place)
+    throw Error(
+        fmt::format("result store: entry {} of the class table has another id; sweep again "
+                    "into another folder",
+                    place));
+}
+
+ClassTable table_from_json(const std::string& text) {
+  const json object = json::parse(text);
+  ClassTable table;
+  table.classes.clear();
+  table.instances.clear();
+  for (const json& c : object.at("classes")) {
+    refuse_other_id(c, table.classes.size());
+    table.classes.push_back({c.at("id"),
+                             c.at("name"),
+                             {c.at("colour").at(0), c.at("colour").at(1), c.at("colour").at(2)},
+                             c.at("detect")});
+  }
+  for (const json& i : object.at("instances")) {
+    refuse_other_id(i, table.instances.size());
+    if (i.at("class") >= table.classes.size())
+      throw Error(
+          fmt::format("result store: instance {} is of a class that its table lacks; sweep "
+                      "again into another folder",
+                      table.instances.size()));
+    table.instances.push_back({i.at("id"), i.at("name"), i.at("class")});
+  }
+  for (const SemanticClass& c : table.classes)
+    if (const auto unfit = unfit_as_name(c.name))
+      throw Error("result store: the name of a class " + *unfit +
+                  "; sweep again into another folder");
+  return table;
+}
+
+}  // namespace
+
+void write_study(ResultStore& store, const StudyRecord& record,
+                 const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  const std::string base = fs::absolute(record.study.base_folder / ".")
+                               .lexically_normal()
+                               .lexically_relative(fs::absolute(folder).lexically_normal());
+  store.set_texts({{"study_folder", base},
+                   {"study", to_yaml(record.study)},
+                   {"classes", table_to_json(record.table)},
+                   {"recording_hash", record.recording_hash},
+                   {"recording", record.recording},
+                   {"mapscore_version", MAPSCORE_VERSION}});
+}
+
+StudyRecord read_study(const ResultStore& store, const std::filesystem::path& folder) try {
+  const std::string study = store.text("study");
+  if (study.empty()) throw Error("result store: holds no study; run `mapscore sweep` first");
+  const std::filesystem::path base = folder / store.text("study_folder");
+  return {parse_study(study, (base / "stored study").lexically_normal()),
+          table_from_json(store.text("classes")), store.text("recording_hash"),
+          store.text("recording")};
+} catch (const json::exception& error) {
+  throw Error(std::string("result store: class table not readable (") + error.what() +
+              "); sweep again into another folder");
+}
+
+namespace {
+
+/// Names that stand for all classes in tables and CSV.
+void refuse_reserved_names(const ClassTable& table) {
+  for (const SemanticClass& c : table.classes)
+    if (c.name == "pooled" || c.name == "macro" || c.name == "all")
+      throw Error("class '" + c.name +
+                  "': the name stands for all classes in tables; rename it in the class file");
+}
+
+ClassTable with_detected_set(const Study& study, ClassTable table) {
+  if (!study.detect) return table;
+  std::string names;
+  for (const SemanticClass& c : table.classes)
+    if (c.id != kBackground) names += ' ' + c.name;
+  for (const std::string& name : study.detect->classes) {
+    const auto named = [&](const SemanticClass& c) { return c.name == name; };
+    if (std::none_of(table.classes.begin() + 1, table.classes.end(), named))
+      throw Error(fmt::format("detect: there is no class '{}'; there are:{}", name, names));
+  }
+  for (SemanticClass& c : table.classes)
+    c.detect =
+        c.id != kBackground &&
+        (study.detect->all || std::find(study.detect->classes.begin(), study.detect->classes.end(),
+                                        c.name) != study.detect->classes.end());
+  return table;
+}
+
+}  // namespace
+
+ClassTable detected_table(const Study& study, ClassTable table) {
+  refuse_reserved_names(table);
+  table = with_detected_set(study, std::move(table));
+  if (std::none_of(table.classes.begin(), table.classes.end(),
+                   [](const SemanticClass& c) { return c.detect; }))
+    throw Error(
+        "detect: no class of the scene is detected, so there is nothing to map; set `detect: true` "
+        "in the "
+        "class file, or name classes under the study's `detect`");
+  return table;
+}
+
+ClassTable detected_table(const std::vector<std::string>& classes, ClassTable table) {
+  Study study;
+  study.detect = DetectedSet{classes == std::vector<std::string>{"all"}, classes};
+  if (study.detect->all) study.detect->classes.clear();
+  return detected_table(study, std::move(table));
+}
+
+}  // namespace mapscore::eval

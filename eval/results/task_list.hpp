@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/study/study.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// Which labels a task maps.
+enum class Labels {
+  detected,  ///< label images of the colour camera, registered: what a method sees
+  truth      ///< instance ids of the depth camera's own pixels: the lattice ceiling
+};
+
+/// One map to make and score. Same key, same result.
+struct Task {
+  std::string key;          ///< content hash of `description`
+  std::string description;  ///< YAML of everything that determines the result
+  Study config;             ///< resolved: one method, no sweep
+  int seed_index = 0;
+  Labels labels = Labels::detected;
+};
+
+/// The seed of everything that one repetition draws; shared by all methods and doses.
+[[nodiscard]] std::uint64_t trial_seed(const Task& task);
+
+/// What the tasks of one configuration have in common; they differ in the seed alone.
+struct SeedlessTask {
+  Study config;
+  Labels labels = Labels::detected;
+  std::string before_seed, after_seed;  ///< the description, without the index of the seed
+
+  [[nodiscard]] std::string description(int seed_index) const;
+  [[nodiscard]] std::string key(int seed_index) const;
+  [[nodiscard]] Task task(int seed_index) const;
+};
+
+/// The tasks of a plan, in the order of first use. It holds each configuration once; a task or its
+/// key is made each time it is asked for. Copies share what they hold.
+class TaskList {
+ public:
+  /// One of the `count` configurations from `first` on that are first used at the same cell. Their
+  /// tasks take turns: all with the first seed, all with the second.
+  struct Configuration {
+    SeedlessTask shared;
+    std::size_t first = 0, count = 0;
+  };
+
+  TaskList() = default;
+  TaskList(std::vector<Configuration> configurations, int seeds);
+
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] Task operator[](std::size_t position) const;
+  /// Throws std::out_of_range beyond the end.
+  [[nodiscard]] Task at(std::size_t position) const;
+  [[nodiscard]] std::string key(std::size_t position) const;
+  [[nodiscard]] const Study& config(std::size_t position) const;
+  [[nodiscard]] int seed_index(std::size_t position) const;
+  [[nodiscard]] Labels labels(std::size_t position) const;
+  /// Where the task of a configuration and a seed stands.
+  [[nodiscard]] std::size_t position_of(std::size_t configuration, int seed_index) const;
+
+ private:
+  struct Member {
+    const SeedlessTask& shared;
+    int seed_index;
+  };
+  [[nodiscard]] Member member_at(std::size_t position) const;
+
+  std::shared_ptr<const std::vector<Configuration>> configurations_;
+  std::size_t seeds_ = 0;
+};
+
+}  // namespace mapscore::eval

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/score/distances/sample_set.hpp"
+
+#include "core/parallel.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace mapscore::eval {
+namespace {
+
+/// Appends by moving when there is nothing to append to.
+template <class T>
+void move_behind(std::vector<T>&& from, std::vector<T>& to) {
+  if (to.empty()) {
+    to = std::move(from);
+  } else {
+    to.insert(to.end(), from.begin(), from.end());
+  }
+  from = {};
+}
+
+}  // namespace
+
+SampleSet::SampleSet(std::span<const std::vector<Eigen::Vector3d>> points_by_class, double edge_m) {
+  SampleCollector collector(points_by_class.size(), edge_m);
+  for (std::size_t c = 0; c < points_by_class.size(); ++c) {
+    for (const Eigen::Vector3d& p_map : points_by_class[c]) {
+      collector.add(static_cast<ClassId>(c), p_map);
+    }
+  }
+  *this = collector.take();
+}
+
+SampleCollector::SampleCollector(std::size_t class_count, double edge_m)
+    : edge_m_(edge_m), classes_(class_count) {}
+
+void SampleCollector::add(ClassId class_id, const Eigen::Vector3d& p_map) {
+  ClassSamples& samples = classes_[class_id];
+  const VoxelKey key = voxel_of(p_map, edge_m_);
+  if (samples.groups.empty() || samples.groups.back().key != key) {
+    samples.groups.push_back({key, samples.offsets.size(), 0});
+  }
+  ++samples.groups.back().count;
+  samples.offsets.push_back((p_map - centre_of(key, edge_m_)).cast<float>());
+}
+
+void SampleCollector::append(SampleCollector&& later) {
+  for (std::size_t c = 0; c < classes_.size(); ++c) {
+    ClassSamples &here = classes_[c], &there = later.classes_[c];
+    for (SampleSet::Group& run : there.groups) run.first += here.offsets.size();
+    move_behind(std::move(there.groups), here.groups);
+    move_behind(std::move(there.offsets), here.offsets);
+  }
+}
+
+SampleSet SampleCollector::take(int jobs) {
+  SampleSet set;
+  set.edge_m_ = edge_m_;
+  set.classes_.resize(classes_.size());
+  Runs classes(classes_.size(), 1);
+  run_jobs(std::min(jobs, static_cast<int>(classes_.size())), [&](int) {
+    for (Runs::Run c; classes.next(c);) {
+      set.classes_[c.first] = grouped(std::exchange(classes_[c.first], {}));
+    }
+  });
+  return set;
+}
+
+SampleCollector::ClassSamples SampleCollector::grouped(ClassSamples&& runs) {
+  using Group = SampleSet::Group;
+  std::sort(runs.groups.begin(), runs.groups.end(), [](const Group& a, const Group& b) {
+    return a.key != b.key ? a.key < b.key : a.first < b.first;
+  });
+  ClassSamples samples;
+  samples.offsets.reserve(runs.offsets.size());
+  for (const Group& run : runs.groups) {
+    if (samples.groups.empty() || samples.groups.back().key != run.key) {
+      samples.groups.push_back({run.key, samples.offsets.size(), 0});
+    }
+    samples.groups.back().count += run.count;
+    const auto first = runs.offsets.begin() + static_cast<std::ptrdiff_t>(run.first);
+    samples.offsets.insert(samples.offsets.end(), first,
+                           first + static_cast<std::ptrdiff_t>(run.count));
+  }
+  return samples;
+}
+
+}  // namespace mapscore::eval

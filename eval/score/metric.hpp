@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// A named figure; nullopt is undefined (0/0, or not finite) and printed `-`.
+struct Metric {
+  std::string name;
+  std::optional<double> value;
+
+  bool operator==(const Metric&) const = default;
+};
+
+/// part / whole; nullopt when whole is 0.
+[[nodiscard]] std::optional<double> ratio(std::int64_t part, std::int64_t whole);
+
+/// Harmonic mean of precision true_predicted / predicted and recall found / visible. nullopt when
+/// nothing is predicted and nothing is visible; 0 when one of the two is empty or nothing was hit.
+[[nodiscard]] std::optional<double> f1(std::int64_t true_predicted, std::int64_t predicted,
+                                       std::int64_t found, std::int64_t visible);
+
+/// Each figure's mean over the classes where it is defined. All list the same figures in one order;
+/// there is at least one.
+[[nodiscard]] std::vector<Metric> mean_over_classes(
+    const std::vector<std::vector<Metric>>& classes);
+
+/// The figure of that name, or nullopt when it is undefined. Throws Error when there is none.
+[[nodiscard]] std::optional<double> value_of(const std::vector<Metric>& metrics,
+                                             const std::string& name);
+
+/// One plain count of an `Owner`: its name in stores and tidy CSV. Every struct of counts lists its
+/// own, once, in `counts()`: pooling, store and tables follow.
+template <class Owner>
+struct CountField {
+  std::string_view name;
+  std::int64_t Owner::*member;
+  bool in_tables = true;  ///< a row of the tidy CSV by itself
+};
+
+/// Adds every plain count of `other`.
+template <class Owner>
+void add_counts(Owner& total, const Owner& other) {
+  for (const CountField<Owner>& field : Owner::counts()) total.*field.member += other.*field.member;
+}
+
+}  // namespace mapscore::eval

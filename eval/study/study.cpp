@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/study/study.hpp"
+
+#include "core/error.hpp"
+#include "eval/study/study_tree.hpp"
+
+#include <algorithm>
+
+namespace mapscore::eval {
+
+void check_method_name(const YamlValue& at, const std::string& name) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  if (name.empty() || !std::ranges::all_of(name, allowed)) {
+    at.fail(fmt::format("{} cannot name a method; use letters, digits, _ and -", yaml_text(name)));
+  }
+}
+
+namespace {
+
+/// Sets what a path leads to.
+struct Setter {
+  const YamlValue& at;
+
+  void operator()(const Field& field, auto& leaf) const { read_leaf(at, field.range, leaf); }
+  void choice(Choice auto& choice) const { read_choice(at, choice); }
+};
+
+}  // namespace
+
+void set_leaf(Study& study, std::string_view path, const YamlValue& at) {
+  at_section_leaf(at, study, path, Setter{at});
+}
+
+void set_leaf(Study& study, std::string_view path, const std::string& yaml_value) {
+  set_leaf(study, path, parse_yaml_value(yaml_value, "", std::string(path)));
+}
+
+void set_leaves(Study& study, const std::vector<std::string>& overrides) {
+  for (const std::string& override : overrides) {
+    const std::size_t equals = override.find('=');
+    if (equals == std::string::npos)
+      throw Error("--set " + override + ": must be path=value, e.g. cameras.width_px=320");
+    set_leaf(study, override.substr(0, equals), override.substr(equals + 1));
+  }
+}
+
+std::string leaf_text(const Study& study, std::string_view path) {
+  std::string text;
+  const auto get = [&](const Field&, const auto& leaf) {
+    text = Leaf<std::remove_cvref_t<decltype(leaf)>>::text(leaf);
+  };
+  at_section_leaf(YamlValue{{}, "", 0, std::string(path)}, study, path, get);
+  return text;
+}
+
+std::filesystem::path resolve_path(const Study& study, const std::string& path) {
+  return (study.base_folder / path).lexically_normal();
+}
+
+std::filesystem::path robot_path(const Study& study) {
+  if (study.robot) return resolve_path(study, *study.robot);
+  if (!study.scene) throw Error("robot: neither robot nor scene is given; write robot: PATH");
+  return resolve_path(study, *study.scene).parent_path() / "robot.xml";
+}
+
+Place place_of(const Study& study, const MethodSettings& method) {
+  return method.place.value_or(study.place);
+}
+
+bool on_wheels(const Study& study) {
+  return std::holds_alternative<WheelDrive>(study.trajectory.drive);
+}
+
+double depth_rate(const Study& study) {
+  constexpr double kDepthCameraFps = 30.0;
+  if (study.trajectory.depth_frames_per_s) return *study.trajectory.depth_frames_per_s;
+  const auto doses_offset = [](const SweepAxis& axis) {
+    return axis.path == "faults.time_offset_ms";
+  };
+  const bool is_dosed =
+      study.faults.time_offset_ms != 0.0 || std::ranges::any_of(study.sweep, doses_offset);
+  return is_dosed ? kDepthCameraFps : study.trajectory.frames_per_s;
+}
+
+DrawnFusion fusion_of(const DrawnFusion& of_study, const MethodFusion& of_method) {
+  return std::visit(
+      [&]<class Kind>(const Kind& kind) -> DrawnFusion {
+        if constexpr (std::same_as<Kind, StudyFusion>)
+          return of_study;
+        else
+          return kind;
+      },
+      of_method);
+}
+
+Study with_method(Study config, const std::string& name) {
+  std::erase_if(config.methods, [&](const MethodSettings& method) { return method.name != name; });
+  config.sweep.clear();
+  for (MethodSettings& method : config.methods) {
+    config.fusion = fusion_of(config.fusion, method.fusion);
+    method.fusion = StudyFusion{};
+  }
+  return config;
+}
+
+Mapping mapping_of(const Study& study, const ClassTable& table) {
+  const MethodSettings& method = study.methods.front();
+  return {.voxel_m = study.voxel_m,
+          .segmentation = method.segmentation,
+          .place = place_of(study, method),
+          .fusion = for_classes(study.fusion, table),
+          .occupancy = study.occupancy};
+}
+
+bool reads_colour(const Study& study) {
+  return std::ranges::any_of(study.methods, [](const MethodSettings& method) {
+    const auto* crf = std::get_if<Crf>(&method.refinement);
+    return crf != nullptr && crf->reads_colour();
+  });
+}
+
+Field field_of(const Study& study, std::string_view path) {
+  Field found;
+  const auto get = [&](const Field& field, const auto&) { found = field; };
+  at_section_leaf(YamlValue{{}, "", 0, std::string(path)}, study, path, get);
+  return found;
+}
+
+bool decides_recording(std::string_view path) {
+  bool recorded = false;
+  const Study any;
+  Study::fields(any, [&](const auto&, const Field& field) {
+    recorded = recorded || (field.recorded && field.key == split_path(path).first);
+  });
+  return recorded;
+}
+
+}  // namespace mapscore::eval

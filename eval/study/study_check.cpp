@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/study/study_check.hpp"
+
+#include "core/error.hpp"
+#include "eval/study/grid.hpp"
+#include "eval/study/picture_view.hpp"
+#include "files/png_size.hpp"
+#include "files/text.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr std::size_t kMostTrials = 1000000;
+
+/// The name becomes a folder's and stands in figures.
+void check_name(const std::string& name, const Blame& blame) {
+  if (const auto unfit = unfit_as_name(name)) blame("name", *unfit);
+  if (name.find('/') != name.npos || name == "." || name == "..")
+    blame("name",
+          fmt::format("'{}' names no folder of its own; write a name without /, and not . or ..",
+                      name));
+}
+
+void check_input(const Study& study, const Blame& blame) {
+  if (study.motion && !study.scene)
+    blame("motion",
+          "stands without a scene, whose joints it moves; write scene: PATH, or remove it");
+  if (study.recording) return;
+  if (!study.scene) {
+    blame("scene", "is missing; write scene: PATH, or recording: PATH to replay one");
+  }
+  if (study.trajectory.waypoints_m_deg.empty()) {
+    blame("trajectory.waypoints_m_deg",
+          "the trajectory is empty; write at least one waypoint, [[x, y, yaw], ...]");
+  }
+}
+
+void check_cameras(const CameraSettings& cameras, const Blame& blame) {
+  if (const std::string problem = too_many_pixels(cameras.width_px, cameras.height_px);
+      !problem.empty())
+    blame("cameras.width_px", problem);
+  if (cameras.range_min_m < cameras.range_max_m) return;
+  blame("cameras.range_min_m", fmt::format("{} is not below range_max_m, {}; write a lesser number",
+                                           cameras.range_min_m, cameras.range_max_m));
+}
+
+void check_lidar(const LidarStudySettings& lidar, const Blame& blame) {
+  if (lidar.range_min_m < lidar.range_max_m) return;
+  blame("lidar.range_min_m", fmt::format("{} is not below range_max_m, {}; write a lesser number",
+                                         lidar.range_min_m, lidar.range_max_m));
+}
+
+/// By the very test of the fault, whose message begins with the key.
+void check_rigid(const sim::RigidDose& dose, const std::string& path, const Blame& blame) try {
+  sim::check(dose);
+} catch (const Error& error) {
+  const std::string text = error.what();
+  const std::size_t colon = text.find(": ");
+  blame(path + '.' + text.substr(0, colon), text.substr(colon + 2));
+}
+
+constexpr std::string_view kCovariancePath = "faults.pose.covariance_m_rad";
+
+void check_symmetric(const Covariance6& E, const Blame& blame) {
+  const double tolerance = 1e-10 * E.cwiseAbs().maxCoeff();
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < i; ++j) {
+      if (std::abs(E(i, j) - E(j, i)) <= tolerance) continue;
+      blame(kCovariancePath,
+            fmt::format("is not symmetric: row {} column {} is {}, row {} column {} is {}; make "
+                        "them equal",
+                        i + 1, j + 1, E(i, j), j + 1, i + 1, E(j, i)));
+    }
+  }
+}
+
+/// By the very test of the mapper, so that what is accepted here is not refused there.
+bool has_root(const Covariance6& E) {
+  try {
+    (void)covariance_root(E);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+void check_covariance(const sim::PoseNoise& pose, const Blame& blame) {
+  if (!pose.covariance_m_rad) return;
+  if (pose.sigma_xy_m != 0 || pose.sigma_z_m != 0 || pose.sigma_roll_pitch_deg.deg != 0 ||
+      pose.sigma_yaw_deg.deg != 0) {
+    blame(kCovariancePath, "stands beside a sigma; keep the covariance or the sigmas");
+  }
+  Covariance6 E;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) E(i, j) = (*pose.covariance_m_rad)[i][j];
+  }
+  check_symmetric(E, blame);
+  if (has_root(E)) return;
+  const double least = Eigen::SelfAdjointEigenSolver<Covariance6>(E).eigenvalues().minCoeff();
+  blame(kCovariancePath,
+        fmt::format("is not positive semi-definite: its least eigenvalue is {:.3g}; write the "
+                    "covariance of a distribution",
+                    least));
+}
+
+/// By the very test of each fault that has one, whose message names the key.
+void check_doses(const FaultSettings& faults, const Blame& blame) {
+  FaultSettings::fields(faults, [&](const auto& fault, const Field& field) {
+    if constexpr (requires { sim::check(fault.dose()); }) try {
+        sim::check(fault.dose());
+      } catch (const Error& error) {
+        blame(fmt::format("faults.{}", field.key), error.what());
+      }
+  });
+}
+
+void check_confusion(const Overrides<sim::LabelDose>& labels, const Blame& blame) {
+  if (!labels.given.contains("confusion_matrix") || labels.values.confusion == 0) return;
+  blame("faults.labels.confusion_matrix", "stands beside a confusion; keep one of the two");
+}
+
+template <class T>
+void check_distinct(const std::vector<T>& list, std::string_view path, const Blame& blame) {
+  std::set<T> seen;
+  for (const T& element : list) {
+    if (!seen.insert(element).second) {
+      blame(path, fmt::format("{} stands twice; keep one", element));
+    }
+  }
+}
+
+/// The scorer counts along such a list, so its order is part of it.
+template <class T>
+void check_ascending(const std::vector<T>& list, std::string_view path, const Blame& blame) {
+  for (std::size_t i = 1; i < list.size(); ++i)
+    if (list[i] <= list[i - 1])
+      blame(path, fmt::format("{} stands after {}; write them ascending, each once", list[i],
+                              list[i - 1]));
+}
+
+void check_methods(const std::vector<MethodSettings>& methods, const Blame& blame) {
+  if (methods.empty()) {
+    blame("methods", "there is no method; write methods: {direct: {segmentation: {direct: {}}}}");
+  }
+}
+
+/// The controller creeps no slower (sim::WaypointController).
+void check_wheels(const Study& study, const Blame& blame) {
+  constexpr double kSlowest_mps = 0.01;
+  if (!on_wheels(study) || study.trajectory.speed_mps >= kSlowest_mps) return;
+  blame("trajectory.speed_mps",
+        fmt::format("{} is below {}, the slowest that wheels drive; write a "
+                    "greater number",
+                    study.trajectory.speed_mps, kSlowest_mps));
+}
+
+void check_localization(const Study& study, const Blame& blame) {
+  const LocalizationSettings& localization = study.localization;
+  if (localization.source == PoseSource::trajectory && !localization.trajectory)
+    blame("localization.trajectory", "is missing; write trajectory: FILE, or another source");
+  const bool needs_logs = localization.source == PoseSource::odometry ||
+                          localization.source == PoseSource::particle_filter;
+  if (needs_logs && !study.recording && !on_wheels(study))
+    blame("localization.source",
+          "needs the odometry of a drive on wheels; write trajectory: {drive: {wheels: {}}}");
+  const KldParams& kld = localization.filter.kld.values;
+  const std::size_t least = kld.min_particles, most = kld.max_particles;
+  if (most < least)
+    blame("localization.filter.most_particles",
+          fmt::format("{} is below least_particles, {}; write a greater one", most, least));
+  const double rate = study.faults.lidar.dose().dropout_rate;
+  if (rate > 1)
+    blame("faults.lidar.scale",
+          fmt::format("makes dropout_rate {}; write a lesser number, a share ends at 1", rate));
+}
+
+void check_perception(const Study& study, const Blame& blame) {
+  if (std::holds_alternative<LabelPerception>(study.perception)) return;
+  if (study.faults.time_offset_ms != 0)
+    blame("faults.time_offset_ms",
+          "stands beside simulated perception, which sees the depth image itself, at no offset; "
+          "keep one of the two");
+}
+
+void check_time(const ScoreSettings& score, const Blame& blame) {
+  if (score.at_s && score.unit == ScoreUnit::frame)
+    blame("score.at_s",
+          "stands beside unit: frame, which scores each frame at its own time; "
+          "keep one of the two");
+}
+
+void check_view(const Study& study, const Blame& blame) try {
+  if (study.picture_view) (void)view_of_numbers(*study.picture_view);
+} catch (const Error& error) {
+  blame("picture_view", error.what());
+}
+
+/// One point of the grid, or a study without a sweep.
+void check_leaves(const Study& study, const Blame& blame) {
+  check_input(study, blame);
+  check_methods(study.methods, blame);
+  check_cameras(study.cameras, blame);
+  check_lidar(study.lidar, blame);
+  if (study.detect) check_distinct(study.detect->classes, "detect", blame);
+  check_rigid(study.faults.misregistration.rigid, "faults.misregistration", blame);
+  check_rigid(study.faults.mount.rigid, "faults.mount", blame);
+  check_covariance(study.faults.pose, blame);
+  check_wheels(study, blame);
+  check_localization(study, blame);
+  check_perception(study, blame);
+  check_time(study.score, blame);
+  check_confusion(study.faults.labels.own, blame);
+  check_doses(study.faults, blame);
+  check_ascending(study.score.tolerances, "score.tolerances", blame);
+  check_ascending(study.score.distances_m, "score.distances_m", blame);
+}
+
+void check_size(const Study& study, const Blame& blame) {
+  std::size_t trials = study.methods.size() * static_cast<std::size_t>(study.seeds);
+  for (const SweepAxis& axis : study.sweep) {
+    if (axis.values.empty()) blame("sweep." + axis.path, "has no values; write at least one");
+    check_distinct(axis.values, "sweep." + axis.path, blame);
+    trials *= axis.values.size();
+    if (trials > kMostTrials) {
+      blame("sweep." + axis.path,
+            fmt::format("the grid grows beyond {} trials; sweep fewer values", kMostTrials));
+    }
+  }
+}
+
+void check_cell(const Study& study, const Cell& cell, const Blame& blame) {
+  const auto blame_cell = [&](std::string_view path, const std::string& problem) {
+    blame("sweep", fmt::format("with {}, {}: {}", text_of(cell), path, problem));
+  };
+  check_leaves(resolve(study, cell), blame_cell);
+}
+
+}  // namespace
+
+void check(const Study& study, const Blame& blame) {
+  check_name(study.name, blame);
+  check_view(study, blame);
+  check_size(study, blame);
+  if (study.sweep.empty()) return check_leaves(study, blame);
+  check_input(study, blame);
+  check_methods(study.methods, blame);
+  for (const Cell& cell : cells(study)) check_cell(study, cell, blame);
+}
+
+void check(const Study& study) {
+  check(study, [](std::string_view path, const std::string& problem) {
+    throw Error(fmt::format("{}: {}", path, problem));
+  });
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/error.hpp"
+#include "eval/study/study_check.hpp"
+#include "eval/study/study_tree.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr std::string_view kSweepKey = "sweep";
+constexpr std::string_view kSweepPrefix = "sweep.";
+
+/// One `path=value` of a flag.
+struct Override {
+  std::string path;
+  YamlValue at;
+};
+
+Override parse_override(const std::string& text) {
+  const std::string source = "flag " + text;
+  const std::size_t equals = text.find('=');
+  if (equals == text.npos || equals == 0) throw Error(source + ": write it as path=value");
+  const std::string path = text.substr(0, equals);
+  return {path, parse_yaml_value(text.substr(equals + 1), source, path)};
+}
+
+/// Swept paths with their lists of values, before the types of the leaves are known.
+class RawSweep {
+ public:
+  /// Takes the place of all there was.
+  void replace_all(const YamlValue& at) {
+    axes_.clear();
+    for (const auto& [path, values] : at.entries()) axes_.emplace_back(path, values);
+  }
+
+  /// Takes the place of one axis, or adds it.
+  void replace(const std::string& path, const YamlValue& values) {
+    for (auto& axis : axes_) {
+      if (axis.first == path) {
+        axis.second = values;
+        return;
+      }
+    }
+    axes_.emplace_back(path, values);
+  }
+
+  [[nodiscard]] bool holds(const std::string& path) const {
+    return std::ranges::any_of(axes_, [&](const auto& axis) { return axis.first == path; });
+  }
+
+  /// Reads each value as the leaf that it is for.
+  [[nodiscard]] Sweep read(const Study& study) const {
+    Sweep sweep;
+    for (const auto& [path, values] : axes_) sweep.push_back(read_axis(study, path, values));
+    return sweep;
+  }
+
+ private:
+  static SweepAxis read_axis(const Study& study, const std::string& path, const YamlValue& values) {
+    Study probe = study;
+    at_section_leaf(values, probe, path, [&](const Field& field, const auto&) {
+      if (!field.swept) values.fail(fmt::format("{} cannot be swept; remove it", path));
+    });
+    SweepAxis axis{path, {}};
+    for (const YamlValue& value : values.elements()) {
+      set_leaf(probe, path, value);
+      std::string text = leaf_text(probe, path);
+      if (std::ranges::find(axis.values, text) != axis.values.end()) {
+        value.fail(fmt::format("{} stands twice; keep one", text));
+      }
+      axis.values.push_back(std::move(text));
+    }
+    if (axis.values.empty()) values.fail("has no values; write at least one");
+    return axis;
+  }
+
+  std::vector<std::pair<std::string, YamlValue>> axes_;
+};
+
+void apply(const Override& change, Study& study, RawSweep& sweep) {
+  if (change.path == kSweepKey) {
+    sweep.replace_all(change.at);
+  } else if (change.path.starts_with(kSweepPrefix)) {
+    sweep.replace(change.path.substr(kSweepPrefix.size()), change.at);
+  } else {
+    set_leaf(study, change.path, change.at);
+  }
+}
+
+/// A flag must not be overruled by the doses of a sweep without a word.
+void refuse_swept(const std::vector<Override>& overrides, const RawSweep& sweep) {
+  for (const Override& change : overrides) {
+    if (!sweep.holds(change.path)) continue;
+    change.at.fail(fmt::format("is swept; set sweep.{}=[...] instead", change.path));
+  }
+}
+
+/// Where a value came from: the last flag that set it, otherwise the file.
+YamlValue source_of(std::string_view path, const YamlValue& root,
+                    const std::vector<Override>& overrides) {
+  for (auto change = overrides.rbegin(); change != overrides.rend(); ++change) {
+    if (change->path != path) continue;
+    return change->at;
+  }
+  return find(root, path);
+}
+
+}  // namespace
+
+Study parse_study(const std::string& text, const std::filesystem::path& file,
+                  const std::vector<std::string>& override_texts) {
+  const YamlValue root = parse_yaml(text, file.generic_string());
+  std::vector<Override> overrides;
+  for (const std::string& one : override_texts) overrides.push_back(parse_override(one));
+
+  Study study;
+  study.name = file.stem().string();
+  study.base_folder = file.parent_path();
+  read_section(root, study);
+  RawSweep sweep;
+  for (const auto& [key, value] : root.entries()) {
+    if (key == kSweepKey) sweep.replace_all(value);
+  }
+  for (const Override& change : overrides) apply(change, study, sweep);
+  refuse_swept(overrides, sweep);
+  study.sweep = sweep.read(study);
+  check(study, [&](std::string_view path, const std::string& problem) {
+    source_of(path, root, overrides).fail(problem);
+  });
+  return study;
+}
+
+Study load_study(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string name = file.generic_string();
+  if (!stream || std::filesystem::is_directory(file)) {
+    throw Error(name + ": cannot be read; give the path of a study file");
+  }
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  return parse_study(text, file, overrides);
+}
+
+}  // namespace mapscore::eval

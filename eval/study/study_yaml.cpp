@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/study/study_tree.hpp"
+
+#include <map>
+
+namespace mapscore::eval {
+namespace {
+
+/// Writes a tree of settings in block style, leaves on one line each.
+class Dumper {
+ public:
+  /// `for_key`: leave out what is `later` and has its default.
+  explicit Dumper(bool for_key) : for_key_(for_key) {}
+
+  template <Section T>
+  void section(const T& value) {
+    static const std::map<std::string_view, std::string> defaults = default_texts<T>();
+    T::fields(value, [this](const auto& member, const Field& field) {
+      const auto plain = defaults.find(field.key);
+      this->key(field, member, plain == defaults.end() ? "" : plain->second);
+    });
+  }
+
+  [[nodiscard]] std::string take() && { return std::move(text_); }
+
+ private:
+  /// What a younger member says at its default: its text, its kind, or `{}`.
+  template <class T>
+  static std::map<std::string_view, std::string> default_texts() {
+    std::map<std::string_view, std::string> texts;
+    const T plain{};
+    T::fields(plain, [&]<class M>(const M& member, const Field& field) {
+      if (!field.later) return;
+      if constexpr (Choice<M>)
+        texts[field.key] = kind_of(member);
+      else if constexpr (Section<const M>)
+        texts[field.key] = "{}";
+      else if constexpr (!std::same_as<M, Methods> && !std::same_as<M, Sweep>)
+        texts[field.key] = Leaf<M>::text(member);
+    });
+    return texts;
+  }
+
+  /// `plain`: text that a key leaves out; empty: none.
+  template <class T>
+  void key(const Field& field, const T& value, std::string_view plain = {}) {
+    if constexpr (Section<const T> || Choice<T> || std::same_as<T, Methods> ||
+                  std::same_as<T, Sweep>) {
+      if constexpr (Choice<T>)
+        if (!is_written(kind_of(value), plain)) return;
+      nest(field, plain, [&] { body(value); });
+    } else if (const std::string leaf = Leaf<T>::text(value); is_written(leaf, plain)) {
+      line(fmt::format("{}: {}", field.key, leaf));
+    }
+  }
+
+  [[nodiscard]] bool is_written(std::string_view leaf, std::string_view plain) const {
+    return leaf != "-" && !(for_key_ && leaf == plain);
+  }
+
+  void body(const Section auto& value) { section(value); }
+  void body(const Choice auto& choice) {
+    const auto write_kind = [this](const auto& kind) { this->key(Field{kind.kKind, ""}, kind); };
+    std::visit(write_kind, choice);
+  }
+  void body(const Methods& methods) {
+    for (const MethodSettings& method : methods) key(Field{method.name, ""}, method);
+  }
+  void body(const Sweep& sweep) {
+    for (const SweepAxis& axis : sweep) {
+      line(fmt::format("{}: [{}]", axis.path, fmt::join(axis.values, ", ")));
+    }
+  }
+
+  /// "key:" over an indented body, or "key: {}" where the body is empty.
+  void nest(const Field& field, std::string_view plain, const auto& write_body) {
+    const std::size_t start = text_.size();
+    line(fmt::format("{}:", field.key));
+    const std::size_t before = text_.size();
+    ++depth_;
+    write_body();
+    --depth_;
+    if (text_.size() > before) return;
+    text_.insert(before - 1, " {}");
+    if (!is_written("{}", plain)) text_.resize(start);
+  }
+
+  void line(std::string_view content) {
+    text_ += fmt::format("{:{}}{}\n", "", 2 * depth_, content);
+  }
+
+  bool for_key_;
+  std::string text_;
+  int depth_ = 0;
+};
+
+std::string yaml_of(const Study& study, bool for_key) {
+  Dumper dumper(for_key);
+  dumper.section(study);
+  return std::move(dumper).take();
+}
+
+}  // namespace
+
+std::string to_yaml(const Study& study) {
+  return yaml_of(study, false);
+}
+
+std::string to_key_yaml(const Study& study) {
+  return yaml_of(study, true);
+}
+
+}  // namespace mapscore::eval

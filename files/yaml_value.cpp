@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "files/yaml_value.hpp"
+
+#include "core/error.hpp"
+#include "files/file_bytes.hpp"
+#include "files/text.hpp"
+#include "files/text_rows.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/anchor.h>
+#include <yaml-cpp/eventhandler.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <sstream>
+
+namespace mapscore {
+namespace {
+
+constexpr std::string_view kTagOfQuotes = "!";
+
+std::string describe(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Map:
+      return "is a section";
+    case YAML::NodeType::Sequence:
+      return "is a list";
+    case YAML::NodeType::Scalar:
+      return fmt::format("is {}", yaml_text(node.Scalar()));
+    default:
+      return "has no value";
+  }
+}
+
+int line_of(const YAML::Mark& mark) {
+  return mark.is_null() ? 0 : mark.line + 1;
+}
+
+/// Line of a key or a value below `parent`.
+int line_below(const YamlValue& parent, const YAML::Node& node) {
+  return parent.line > 0 ? line_of(node.Mark()) : 0;
+}
+
+std::string located(const std::string& source, int line) {
+  if (source.empty()) return "";
+  return line > 0 ? fmt::format("{}:{}: ", shown(source), line) : shown(source) + ": ";
+}
+
+void refuse_large(const std::string& text, const std::string& source) {
+  constexpr std::ptrdiff_t kMostValues = 1 << 19;
+  const auto separates = [](char letter) {
+    return std::string_view(",:\n[{").find(letter) != std::string_view::npos;
+  };
+  if (std::ranges::count_if(text, separates) > kMostValues)
+    throw Error(fmt::format("{}more than {} values; is it the right file? Else shorten it",
+                            located(source, 0), kMostValues));
+}
+
+/// What the parser would pass over in silence or report in the dark.
+void refuse_hidden_characters(const std::string& text, const std::string& source) {
+  int line = 1;
+  bool indenting = true;
+  for (const char c : text) {
+    if (c == '\n') {
+      ++line;
+      indenting = true;
+    } else if (c == '\t') {
+      if (indenting) {
+        throw Error(located(source, line) + "a tab indents this line; indent with spaces");
+      }
+    } else if (c != '\r' && static_cast<unsigned char>(c) < 0x20) {
+      throw Error(fmt::format("{}control character 0x{:02x}; remove it", located(source, line),
+                              static_cast<int>(c)));
+    } else if (c != ' ') {
+      indenting = false;
+    }
+  }
+}
+
+/// Hears where documents start and nothing else.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& mark) override { last_ = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+  [[nodiscard]] const YAML::Mark& last() const { return last_; }
+
+ private:
+  YAML::Mark last_;
+};
+
+/// Stops at the second document: YAML::Load passes over it, and YAML::LoadAll of yaml-cpp 0.7 never
+/// ends on a stray comma where a document begins.
+void refuse_second_document(const std::string& text, const std::string& source, bool lines) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStarts starts;
+  if (!parser.HandleNextDocument(starts) || !parser.HandleNextDocument(starts)) return;
+  throw Error(located(source, lines ? line_of(starts.last()) : 0) +
+              "a second document begins, or a stray character ends the first; keep one document");
+}
+
+/// Null when there is nothing in the text.
+YAML::Node load_one(const std::string& text, const std::string& source, bool lines) {
+  refuse_large(text, source);
+  refuse_hidden_characters(text, source);
+  try {
+    refuse_second_document(text, source, lines);
+    return YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    const int line = lines ? line_of(error.mark) : 0;
+    throw Error(fmt::format("{}not YAML: {}; mend the syntax near here", located(source, line),
+                            shown(error.msg)));
+  }
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// Most often the unit is what is missing: a choice that continues the word is the nearest of all.
+std::size_t distance(std::string_view word, std::string_view choice) {
+  return choice.starts_with(std::string(word) + "_") ? 0 : edit_distance(word, choice);
+}
+
+}  // namespace
+
+void YamlValue::fail(std::string_view problem) const {
+  const std::string key = path.empty() ? "" : shown(path) + ": ";
+  throw Error(located(source, line) + key + shown(problem));
+}
+
+void YamlValue::ask_for(std::string_view wanted) const {
+  fail(fmt::format("{}; write {}", describe(node), wanted));
+}
+
+std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
+  if (!node.IsMap()) ask_for("a section, key: value");
+  std::vector<std::pair<std::string, YamlValue>> result;
+  std::set<std::string_view> seen;
+  for (const auto& entry : node) {
+    if (!entry.first.IsScalar()) fail("a key is not a word; write key: value");
+    const std::string& key = entry.first.Scalar();
+    YamlValue value{entry.second, source, line_below(*this, entry.first), join_path(path, key)};
+    if (!seen.insert(key).second) value.fail(fmt::format("key '{}' stands twice; keep one", key));
+    result.emplace_back(key, std::move(value));
+  }
+  return result;
+}
+
+void YamlValue::only(const std::vector<std::string>& keys) const {
+  for (const auto& [key, value] : entries()) {
+    if (std::ranges::find(keys, key) != keys.end()) continue;
+    value.fail(fmt::format("unknown key '{}'; {}", key, suggestion(key, keys)));
+  }
+}
+
+YamlValue YamlValue::at(const std::string& key) const {
+  if (!node.IsMap()) ask_for("a section, key: value");
+  const YAML::Node child = node[key];
+  if (!child) fail(fmt::format("'{0}' is missing; write {0}: ...", key));
+  return {child, source, line_below(*this, child), join_path(path, key)};
+}
+
+bool YamlValue::has(const std::string& key) const {
+  return node.IsMap() && node[key].IsDefined();
+}
+
+std::vector<YamlValue> YamlValue::elements() const {
+  if (!node.IsSequence()) ask_for("a list, [a, b, ...]");
+  std::vector<YamlValue> result;
+  for (const auto& element : node)
+    result.push_back(
+        {element, source, line_below(*this, element), fmt::format("{}[{}]", path, result.size())});
+  return result;
+}
+
+std::string YamlValue::scalar(std::string_view wanted) const {
+  if (!node.IsScalar()) ask_for(wanted);
+  return node.Scalar();
+}
+
+std::string YamlValue::plain_scalar(std::string_view wanted) const {
+  std::string text = scalar(wanted);
+  if (node.Tag() == kTagOfQuotes) {
+    fail(fmt::format("is the text {}; write {}, without quotes", yaml_text(text), wanted));
+  }
+  return text;
+}
+
+std::string YamlValue::text() const {
+  return scalar("a text");
+}
+
+std::string YamlValue::name() const {
+  std::string name = scalar("a name");
+  if (const auto unfit = unfit_as_name(name)) fail(*unfit);
+  return name;
+}
+
+Colour YamlValue::colour() const {
+  constexpr const char* kWanted = "six hexadecimal digits in quotes, like \"FF0000\"";
+  const std::string digits = scalar(kWanted);
+  std::uint32_t rgb = 0;
+  const char* end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, rgb, 16);
+  if (digits.size() != 6 || error != std::errc() || stop != end) ask_for(kWanted);
+  return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255),
+          static_cast<std::uint8_t>(rgb & 255)};
+}
+
+bool YamlValue::boolean() const {
+  const std::string word = scalar("true or false");
+  if (word != "true" && word != "false") ask_for("true or false");
+  return word == "true";
+}
+
+double YamlValue::number() const {
+  const auto number = parse_number(scalar("a finite number"));
+  if (!number) ask_for("a finite number");
+  return *number;
+}
+
+double YamlValue::positive() const {
+  const double value = number();
+  if (value <= 0.0) fail(fmt::format("{} is not above 0; write a greater number", value));
+  return value;
+}
+
+std::uint64_t YamlValue::whole(std::uint64_t low, std::uint64_t high) const {
+  const std::string wanted = fmt::format("a whole number from {} to {}", low, high);
+  const std::string digits = scalar(wanted);
+  std::uint64_t value = 0;
+  const char* end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, value);
+  if (error != std::errc() || stop != end || value < low || value > high) ask_for(wanted);
+  return value;
+}
+
+YamlValue parse_yaml(const std::string& text, const std::string& source) {
+  const YAML::Node node = load_one(text, source, true);
+  if (node.IsNull()) throw Error(located(source, 1) + "the file is empty; write key: value");
+  return {node, source, std::max(1, line_of(node.Mark())), ""};
+}
+
+YamlValue parse_yaml_value(const std::string& text, const std::string& source,
+                           const std::string& path) {
+  return {load_one(text, source, false), source, 0, path};
+}
+
+YamlValue load_yaml(const std::filesystem::path& file) {
+  YamlValue root = parse_yaml(read_file(file), file.string());
+  if (!root.node.IsMap()) root.ask_for("a section, key: value");
+  return root;
+}
+
+YamlValue find(const YamlValue& root, std::string_view path) {
+  YamlValue at = root;
+  std::string_view rest = path;
+  while (!rest.empty() && at.node.IsMap()) {
+    const auto children = at.entries();
+    const auto child = std::ranges::find_if(children, [&](const auto& entry) {
+      return entry.first == rest || entry.first == rest.substr(0, rest.find('.'));
+    });
+    if (child == children.end()) break;
+    at = child->second;
+    rest.remove_prefix(std::min(rest.size(), child->first.size() + 1));
+  }
+  at.path = path;
+  return at;
+}
+
+std::string yaml_text(std::string_view text) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.' || c == '/';
+  };
+  const bool word = !text.empty() && text.front() != '-' && std::ranges::all_of(text, plain) &&
+                    text != "null" && text != "Null" && text != "NULL" && text != "...";
+  if (word) return std::string(text);
+  return yaml_quoted(text);
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& choices) {
+  const auto nearest = std::ranges::min_element(
+      choices, {}, [&](const std::string& choice) { return distance(word, choice); });
+  if (nearest == choices.end()) return "remove it";
+  const std::size_t most = std::max<std::size_t>(1, std::min<std::size_t>(3, word.size() / 3));
+  if (distance(word, *nearest) <= most) return fmt::format("did you mean '{}'?", *nearest);
+  return fmt::format("write one of {}", fmt::join(choices, ", "));
+}
+
+std::string join_path(std::string_view head, std::string_view tail) {
+  return head.empty() ? std::string(tail) : fmt::format("{}.{}", head, tail);
+}
+
+}  // namespace mapscore

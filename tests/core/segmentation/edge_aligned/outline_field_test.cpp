@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/edge_aligned/outline_field.hpp"
+
+#include "core/random_stream.hpp"
+#include "core/segmentation/edge_aligned/outline_distance.hpp"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+namespace mapscore {
+namespace {
+
+/// Rectangles that overlap, with holes, in an image of at most 40 x 30.
+cv::Mat1w random_owners(RandomStream& stream) {
+  const int columns = 1 + static_cast<int>(stream.bits() % 40);
+  const int rows = 1 + static_cast<int>(stream.bits() % 30);
+  cv::Mat1w owner(rows, columns, std::uint16_t{0});
+  for (std::uint64_t n = 0; n < 1 + stream.bits() % 5; ++n) {
+    const int u = static_cast<int>(stream.bits() % columns);
+    const int v = static_cast<int>(stream.bits() % rows);
+    const cv::Rect box(u, v, 1 + static_cast<int>(stream.bits() % (columns - u)),
+                       1 + static_cast<int>(stream.bits() % (rows - v)));
+    owner(box).setTo(static_cast<double>(stream.bits() % 4));
+  }
+  return owner;
+}
+
+bool on_rim(const cv::Mat1w& owner, int v, int u) {
+  const std::uint16_t own = owner(v, u);
+  const int last_v = owner.rows - 1, last_u = owner.cols - 1;
+  return own != 0 &&
+         (owner(std::max(v - 1, 0), u) != own || owner(std::min(v + 1, last_v), u) != own ||
+          owner(v, std::max(u - 1, 0)) != own || owner(v, std::min(u + 1, last_u)) != own);
+}
+
+/// The nearest of all pixels that count, by the closed form of the way to each.
+float plain_distance(const cv::Mat1w& owner, int v, int u) {
+  const bool inside = owner(v, u) != 0;
+  int nearest = 1 << 29;
+  for (int r = 0; r < owner.rows; ++r)
+    for (int c = 0; c < owner.cols; ++c) {
+      if (inside ? owner(r, c) != 0 && !on_rim(owner, r, c) : owner(r, c) == 0) continue;
+      const int dv = std::abs(r - v), du = std::abs(c - u);
+      nearest = std::min(nearest,
+                         89738 * std::min(dv, du) + 62587 * (std::max(dv, du) - std::min(dv, du)));
+    }
+  const float way = static_cast<float>(nearest) / 65536.0F;
+  return inside ? -0.5F - way : way - 0.5F;
+}
+
+TEST(OutlineDistance, IsTheWayToTheNearestPixelOnTheOtherSide) {
+  RandomStream stream(21, "owners");
+  for (int round = 0; round < 60; ++round) {
+    const cv::Mat1w owner = random_owners(stream);
+    cv::Mat1f distance(owner.rows, owner.cols, 0.0F);
+    measure_outline_distance(owner, distance);
+    for (int v = 0; v < owner.rows; ++v)
+      for (int u = 0; u < owner.cols; ++u)
+        ASSERT_EQ(distance(v, u), plain_distance(owner, v, u))
+            << "round " << round << ", pixel " << u << ' ' << v;
+  }
+}
+
+TEST(OutlineDistance, IsWhatTwoDistanceTransformsGive) {
+  RandomStream stream(22, "owners");
+  for (int round = 0; round < 20; ++round) {
+    cv::Mat1w owner;
+    cv::resize(random_owners(stream), owner, {160, 120}, 0, 0, cv::INTER_NEAREST);
+    if (cv::countNonZero(owner) == 0) continue;
+    cv::Mat1b deep(owner.rows, owner.cols, std::uint8_t{255});
+    for (int v = 0; v < owner.rows; ++v)
+      for (int u = 0; u < owner.cols; ++u)
+        if (owner(v, u) == 0 || on_rim(owner, v, u)) deep(v, u) = 0;
+    cv::Mat1f within, beyond, distance(owner.rows, owner.cols);
+    cv::distanceTransform(deep, within, cv::DIST_L2, cv::DIST_MASK_3);
+    cv::distanceTransform(owner == 0, beyond, cv::DIST_L2, cv::DIST_MASK_3);
+    measure_outline_distance(owner, distance);
+    for (int v = 0; v < owner.rows; ++v)
+      for (int u = 0; u < owner.cols; ++u) {
+        const float expected = owner(v, u) != 0 ? -0.5F - within(v, u) : beyond(v, u) - 0.5F;
+        ASSERT_NEAR(distance(v, u), expected, 2e-3F) << u << ' ' << v;
+      }
+  }
+}
+
+/// Step by step over the whole image.
+cv::Mat1w plain_spread(const cv::Mat1w& masks, int reach_px) {
+  cv::Mat1w owner = masks.clone();
+  for (int step = 0; step < reach_px; ++step) {
+    const cv::Mat1w before = owner.clone();
+    for (int v = 0; v < owner.rows; ++v)
+      for (int u = 0; u < owner.cols; ++u) {
+        if (before(v, u) != 0) continue;
+        for (const auto& [dv, du] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}}) {
+          const std::uint16_t near =
+              before(std::clamp(v + dv, 0, owner.rows - 1), std::clamp(u + du, 0, owner.cols - 1));
+          if (near != 0 && (owner(v, u) == 0 || near < owner(v, u))) owner(v, u) = near;
+        }
+      }
+  }
+  return owner;
+}
+
+TEST(OutlineField, OwnersSpreadStepByStepTiesToTheLowerIndex) {
+  RandomStream stream(23, "owners");
+  for (int round = 0; round < 60; ++round) {
+    const cv::Mat1w masks = random_owners(stream);
+    const int reach_px = static_cast<int>(stream.bits() % 12);
+    const cv::Mat1w spread = spread_owners(masks, reach_px), plain = plain_spread(masks, reach_px);
+    ASSERT_EQ(cv::countNonZero(spread != plain), 0) << "round " << round;
+  }
+}
+
+TEST(OutlineField, CountsTheElementsThatFaceEachWay) {
+  RandomStream stream(24, "owners");
+  for (int round = 0; round < 40; ++round) {
+    const cv::Mat1w owner = random_owners(stream);
+    std::vector<Detection> detections(3);
+    for (std::size_t n = 0; n < 3; ++n) {
+      detections[n].box = {0, 0, owner.cols - 1, owner.rows - 1};
+      detections[n].mask = owner == static_cast<double>(n + 1);
+    }
+    const OutlineField field = outline_field(detections, owner.cols, owner.rows, 5);
+    ASSERT_EQ(cv::countNonZero(field.owner != owner), 0);
+    std::array<cv::Mat1f, 4> elements;
+    for (cv::Mat1f& cells : elements)
+      cells = cv::Mat1f(owner.rows / 4 + 1, owner.cols / 4 + 1, 0.0F);
+    int length_px = 0;
+    const auto face = [&](Outward way, int v, int u, int beyond_v, int beyond_u) {
+      if (beyond_v < 0 || beyond_u < 0 || beyond_v >= owner.rows || beyond_u >= owner.cols) return;
+      if (owner(v, u) == 0 || owner(v, u) == owner(beyond_v, beyond_u)) return;
+      elements[static_cast<std::size_t>(way)](v / 4, u / 4) += 1.0F;
+      ++length_px;
+    };
+    for (int v = 0; v < owner.rows; ++v)
+      for (int u = 0; u < owner.cols; ++u) {
+        face(Outward::left, v, u, v, u - 1);
+        face(Outward::right, v, u, v, u + 1);
+        face(Outward::up, v, u, v - 1, u);
+        face(Outward::down, v, u, v + 1, u);
+      }
+    EXPECT_EQ(field.length_px, length_px);
+    for (std::size_t way = 0; way < 4; ++way)
+      ASSERT_EQ(cv::countNonZero(field.elements[way] != elements[way]), 0) << "round " << round;
+  }
+}
+
+}  // namespace
+}  // namespace mapscore

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/edge_aligned/settled_depth.hpp"
+
+#include "core/random_stream.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mapscore {
+namespace {
+
+constexpr float kNoise = 0.002F;
+
+/// A slanted plane with noise, its left half label 1, the right label 2.
+struct Slant {
+  DepthEdges edges;
+  cv::Mat1w labels = cv::Mat1w(60, 80);
+
+  static float truth(int v, int u) {
+    return 0.4F + 0.0003F * static_cast<float>(u) - 0.0002F * static_cast<float>(v);
+  }
+
+  explicit Slant(float noise) {
+    RandomStream random(7, "test", {});
+    edges.noise = noise;
+    edges.inverse_depth = cv::Mat1f(60, 80);
+    for (int v = 0; v < 60; ++v)
+      for (int u = 0; u < 80; ++u) {
+        edges.inverse_depth(v, u) = truth(v, u) + noise * static_cast<float>(random.normal());
+        labels(v, u) = u < 40 ? 1 : 2;
+      }
+  }
+};
+
+TEST(SettledDepth, AsksForNoise) {
+  EXPECT_FALSE(is_noisy(Slant(0.0F).edges));
+  EXPECT_FALSE(is_noisy(Slant(0.0002F).edges));
+  EXPECT_TRUE(is_noisy(Slant(kNoise).edges));
+}
+
+TEST(SettledDepth, PlaneIsRestoredWithinAFifthOfTheNoise) {
+  Slant slant(kNoise);
+  const cv::Mat1f settled = settle_on_surfaces(slant.edges, slant.labels);
+  double inside = 0, all = 0;
+  for (int v = 0; v < 60; ++v)
+    for (int u = 0; u < 80; ++u) {
+      const double error = settled(v, u) - Slant::truth(v, u);
+      all += error * error;
+      if (v >= 4 && v < 56 && u >= 4 && u < 36) inside += error * error;
+    }
+  EXPECT_EQ(cv::countNonZero(slant.labels), 60 * 80);
+  EXPECT_LT(std::sqrt(inside / (52 * 32)), 0.2 * kNoise);
+  EXPECT_LT(std::sqrt(all / (60 * 80)), 0.35 * kNoise);
+}
+
+TEST(SettledDepth, PixelsOnNoSurfaceAreDropped) {
+  Slant slant(kNoise);
+  for (const cv::Point& at : {cv::Point(20, 20), cv::Point(21, 20), cv::Point(0, 0)})
+    slant.edges.inverse_depth(at) = 0.2F;
+  const cv::Mat1f settled = settle_on_surfaces(slant.edges, slant.labels);
+  EXPECT_EQ(cv::countNonZero(slant.labels), 60 * 80 - 3);
+  EXPECT_EQ(slant.labels(20, 21), 0);
+  EXPECT_EQ(settled(20, 21), 0.0F);
+}
+
+TEST(SettledDepth, OtherLabelsDoNotTakePart) {
+  Slant slant(kNoise);
+  for (int v = 0; v < 60; ++v)
+    for (int u = 40; u < 80; ++u) slant.edges.inverse_depth(v, u) += 3 * kNoise;
+  const cv::Mat1f both = settle_on_surfaces(slant.edges, slant.labels);
+  slant.labels(cv::Rect(40, 0, 40, 60)) = 0;
+  const cv::Mat1f left = settle_on_surfaces(slant.edges, slant.labels);
+  EXPECT_EQ(cv::countNonZero(both(cv::Rect(0, 0, 40, 60)) != left(cv::Rect(0, 0, 40, 60))), 0);
+  EXPECT_EQ(cv::countNonZero(left(cv::Rect(40, 0, 40, 60))), 0);
+}
+
+/// A bar of 2 pixels, as a chair's leg; and a line of 1.
+TEST(SettledDepth, ThinPartsStay) {
+  Slant slant(kNoise);
+  slant.labels = 0;
+  slant.labels(cv::Rect(30, 10, 2, 40)) = 3;
+  slant.labels(cv::Rect(50, 10, 1, 40)) = 4;
+  const cv::Mat1f settled = settle_on_surfaces(slant.edges, slant.labels);
+  EXPECT_EQ(cv::countNonZero(slant.labels), 3 * 40);
+  for (int v = 10; v < 50; ++v) EXPECT_NEAR(settled(v, 30), Slant::truth(v, 30), 3 * kNoise);
+}
+
+}  // namespace
+}  // namespace mapscore

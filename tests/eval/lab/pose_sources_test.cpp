@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/lab/pose_sources.hpp"
+
+#include "core/localization/ray_cast.hpp"
+#include "eval/lab/map_frame.hpp"
+#include "eval/localization/believed_file.hpp"
+#include "eval/recording/grid_file.hpp"
+#include "eval/recording/recording_writer.hpp"
+#include "eval/truth/floor_grid.hpp"
+#include "files/file_bytes.hpp"
+#include "tests/eval/lab/tiny_experiment.hpp"
+#include "tests/support/expect_error.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <thread>
+
+namespace mapscore::eval {
+namespace {
+
+using mapscore::testing::expect_error;
+using testing::study_of;
+
+constexpr double kLidarHeight_m = 0.4;
+constexpr double kOdometryScale = 1.1;  ///< of the way that the wheels believe
+constexpr int kBeams = 360;
+
+/// The tiny recording with the logs of its drive: an odometry that makes every way too long, and
+/// turns of a lidar against the crate and the wall.
+class PoseSourcesTest : public ::testing::Test {
+ protected:
+  PoseSourcesTest() : recording_(written("driven", true)) {}
+
+  [[nodiscard]] const Recording& recording() const { return recording_; }
+  [[nodiscard]] Recording without_logs() const { return written("plain", false); }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
+
+  [[nodiscard]] std::vector<PoseBelief> beliefs(const Recording& recording,
+                                                const std::string& lines) const {
+    PoseSources sources(recording);
+    return sources.beliefs(task(lines), {0, 1, 2, 3});
+  }
+  [[nodiscard]] static Task task(const std::string& lines) {
+    return plan_of(study_of(lines), "recording").tasks.at(0);
+  }
+  [[nodiscard]] Pose true_pose(int frame) const { return recording_.T_world_base_of_depth(frame); }
+
+ private:
+  [[nodiscard]] Recording written(const char* name, bool logs) const {
+    const std::vector<Frame> frames = mapscore::testing::tiny_frames();
+    const std::vector<Shape> shapes = home();
+    RecordingWriter writer(folder_.path() / name, mapscore::testing::tiny_info());
+    for (const Frame& frame : frames) writer.write(frame);
+    writer.write_shapes(shapes);
+    if (logs) {
+      writer.write_odometry(odometry(frames));
+      writer.write_scans(scans(frames, shapes));
+    }
+    writer.finish();
+    return Recording::open(folder_.path() / name);
+  }
+
+  /// Crate and wall, and three walls behind and beside the robot that no camera sees.
+  static std::vector<Shape> home() {
+    std::vector<Shape> shapes = mapscore::testing::tiny_shapes();
+    const auto add_wall = [&](double x_m, double y_m, const Eigen::Vector3d& half_m) {
+      Shape wall;
+      wall.kind = ShapeKind::box;
+      wall.name = "unseen_geom";
+      wall.T_world_shape.translation() = Eigen::Vector3d(x_m, y_m, 0.5);
+      wall.size = half_m;
+      shapes.push_back(wall);
+    };
+    add_wall(-1.53, 0.0, {0.05, 2.5, 0.5});
+    add_wall(0.5, 2.51, {2.0, 0.05, 0.5});
+    add_wall(0.5, -2.49, {2.0, 0.05, 0.5});
+    return shapes;
+  }
+
+  static std::vector<OdometryPose> odometry(const std::vector<Frame>& frames) {
+    std::vector<OdometryPose> lines;
+    for (const Frame& frame : frames) {
+      Pose T_odom_base = frames.front().T_world_base.inverse() * frame.T_world_base;
+      T_odom_base.translation() *= kOdometryScale;
+      lines.push_back({frame.stamp_s, T_odom_base});
+    }
+    return lines;
+  }
+
+  static ScanLog scans(const std::vector<Frame>& frames, const std::vector<Shape>& shapes) {
+    const OccupancyGrid grid =
+        floor_grid(shapes, Pose::Identity(), {.height_m = kLidarHeight_m, .resolution_m = 0.01});
+    ScanLog log;
+    log.geometry = {-M_PI, 2.0 * M_PI / kBeams, 0.1, 12.0, Pose::Identity()};
+    log.geometry.T_base_lidar.translation().z() = kLidarHeight_m;
+    for (const Frame& frame : frames) {
+      StampedScan scan{frame.stamp_s, {}};
+      const PlanarPose base = planar(frame.T_world_base);
+      for (int beam = 0; beam < kBeams; ++beam) {
+        const double angle =
+            base.yaw_rad + log.geometry.first_angle_rad + beam * log.geometry.angle_step_rad;
+        scan.ranges_m.push_back(
+            static_cast<float>(cast_ray(grid, {base.x_m, base.y_m}, angle, 12.0)
+                                   .value_or(std::numeric_limits<double>::infinity())));
+      }
+      log.scans.push_back(scan);
+    }
+    return log;
+  }
+
+  mapscore::testing::TemporaryFolder folder_;
+  Recording recording_;
+};
+
+constexpr const char* kMap = "map_origin_m: [0.01, 0.02, 0.03]\n";
+
+std::string source(const std::string& name, const std::string& more = "") {
+  return fmt::format("{}localization: {{source: {}{}}}\n", kMap, name, more);
+}
+
+Pose mean_of(const PoseBelief& belief) {
+  return belief.T_map_odom * belief.T_odom_base;
+}
+
+Pose T_map_world() {
+  Pose pose = Pose::Identity();
+  pose.translation() = -Eigen::Vector3d(0.01, 0.02, 0.03);
+  return pose;
+}
+
+TEST_F(PoseSourcesTest, TruthIsTheTruePoseWhateverTheDose) {
+  const auto truth =
+      beliefs(recording(), source("truth") + "faults: {pose: {sigma_xy_m: 0.1, sigma_yaw_deg: 5}}");
+  ASSERT_EQ(truth.size(), 4U);
+  for (int frame = 0; frame < 4; ++frame) {
+    EXPECT_EQ(mean_of(truth[frame]).matrix(), (T_map_world() * true_pose(frame)).matrix());
+    EXPECT_TRUE(truth[frame].covariance.isZero(0.0));
+  }
+}
+
+TEST_F(PoseSourcesTest, OdometryDriftsFromTheTrueStart) {
+  const auto believed = beliefs(recording(), source("odometry"));
+  double last = -1.0;
+  for (int frame = 0; frame < 4; ++frame) {
+    Pose off = true_pose(0).inverse() * true_pose(frame);
+    off.translation() *= kOdometryScale;
+    EXPECT_TRUE(mean_of(believed[frame]).isApprox(T_map_world() * true_pose(0) * off, 1e-12));
+    EXPECT_TRUE((believed[frame].T_odom_base.isApprox(off, 1e-12)));
+    EXPECT_GT(believed[frame].covariance.trace(), last);
+    last = believed[frame].covariance.trace();
+  }
+}
+
+TEST_F(PoseSourcesTest, ParticleFilterFindsWhereOdometryIsOff) {
+  const auto filter =
+      beliefs(recording(), source("particle_filter",
+                                  ", grid_resolution_m: 0.02, filter: {start_sigma_xy_m: 0, "
+                                  "start_sigma_yaw_deg: 0, temper: 0.01}"));
+  const auto odometry = beliefs(recording(), source("odometry"));
+  const auto error_m = [&](const std::vector<PoseBelief>& believed) {
+    return (mean_of(believed[3]).translation() - (T_map_world() * true_pose(3)).translation())
+        .norm();
+  };
+  EXPECT_GT(error_m(odometry), 0.03);
+  EXPECT_LT(error_m(filter), 0.5 * error_m(odometry));
+  EXPECT_GT(filter[3].covariance(0, 0), 0.0);
+}
+
+TEST_F(PoseSourcesTest, AreTheSameForEveryMethodAndThread) {
+  PoseSources sources(recording());
+  const Task of_filter = task(source("particle_filter"));
+  std::vector<std::vector<PoseBelief>> made(4);
+  {
+    std::vector<std::jthread> threads;
+    for (auto& beliefs : made)
+      threads.emplace_back([&] { beliefs = sources.beliefs(of_filter, {0, 1, 2, 3}); });
+  }
+  for (const auto& beliefs : made)
+    for (int frame = 0; frame < 4; ++frame)
+      EXPECT_EQ(mean_of(beliefs[frame]).matrix(), mean_of(made[0][frame]).matrix());
+}
+
+TEST_F(PoseSourcesTest, ReportAScaledCovariance) {
+  const auto plain = beliefs(recording(), source("odometry"));
+  const auto scaled =
+      beliefs(recording(), source("odometry") + "faults: {pose: {reported_scale: 4}}");
+  EXPECT_EQ(scaled[3].covariance, 4.0 * plain[3].covariance);
+}
+
+TEST_F(PoseSourcesTest, ReadATrajectory) {
+  const auto odometry = recording().read_odometry();
+  BelievedTrajectory given = believed_trajectory(recording(), task(source("odometry")));
+  write_file(folder() / "given.txt", believed_text(given));
+  const auto read = beliefs(
+      recording(),
+      source("trajectory", fmt::format(", trajectory: {}", (folder() / "given.txt").string())));
+  const auto straight = beliefs(recording(), source("odometry"));
+  for (int frame = 0; frame < 4; ++frame) {
+    EXPECT_TRUE(mean_of(read[frame]).isApprox(mean_of(straight[frame]), 1e-12));
+    EXPECT_EQ(read[frame].covariance, straight[frame].covariance);
+  }
+}
+
+TEST_F(PoseSourcesTest, UseAGivenGrid) {
+  const OccupancyGrid grid = grid_of(recording(), task(source("particle_filter")).config);
+  save_grid(grid, folder() / "grid.yaml");
+  const auto given = beliefs(
+      recording(),
+      source("particle_filter", fmt::format(", grid: {}", (folder() / "grid.yaml").string())));
+  const auto cut = beliefs(recording(), source("particle_filter"));
+  for (int frame = 0; frame < 4; ++frame)
+    EXPECT_EQ(mean_of(given[frame]).matrix(), mean_of(cut[frame]).matrix());
+}
+
+TEST_F(PoseSourcesTest, SayWhatIsMissing) {
+  const Recording plain = without_logs();
+  expect_error("odometry.txt, which", [&] { (void)beliefs(plain, source("odometry")); });
+  expect_error("scan/scans.bin", [&] { (void)beliefs(plain, source("particle_filter")); });
+  expect_error("localization.trajectory: is missing", [] { (void)task(source("trajectory")); });
+  expect_error("nowhere.txt",
+               [] { (void)task(source("trajectory", ", trajectory: /nowhere.txt")); });
+  expect_error("most_particles: 10 is below least_particles", [] {
+    (void)task(source("particle_filter", ", filter: {least_particles: 20, most_particles: 10}"));
+  });
+  expect_error("dropout_rate 2", [] {
+    (void)task(source("particle_filter") + "faults: {lidar: {dropout_rate: 0.5, scale: 4}}");
+  });
+}
+
+/// Equal poses have equal keys, different ones different keys.
+TEST_F(PoseSourcesTest, DecideTheKeyOfATrial) {
+  const auto key = [](const std::string& lines) { return task(lines).key; };
+  EXPECT_EQ(key(source("truth")), key(kMap));
+  EXPECT_EQ(key(source("truth") + "faults: {pose: {sigma_xy_m: 0.1}}"), key(kMap));
+  EXPECT_EQ(key(source("truth", ", filter: {beams: 5}")), key(kMap));
+  EXPECT_NE(key(source("odometry")), key(kMap));
+  EXPECT_NE(key(source("odometry")), key(source("particle_filter")));
+  EXPECT_EQ(key(source("odometry")),
+            key(source("odometry") + "faults: {lidar: {preset: rplidar_a2}}"));
+  EXPECT_NE(key(source("particle_filter")),
+            key(source("particle_filter") + "faults: {lidar: {preset: rplidar_a2}}"));
+  EXPECT_NE(key(source("particle_filter")),
+            key(source("particle_filter", ", filter: {temper: 0.5}")));
+  EXPECT_EQ(key(source("particle_filter")),
+            key(source("particle_filter", ", grid_resolution_m: 0.02")));
+
+  const std::string given =
+      source("trajectory", fmt::format(", trajectory: {}", (folder() / "given.txt").string()));
+  write_file(folder() / "given.txt", "0 0 0 0 0 0 0 1\n");
+  const std::string before = key(given);
+  write_file(folder() / "given.txt", "0 0.1 0 0 0 0 0 1\n");
+  EXPECT_NE(key(given), before);
+}
+
+TEST_F(PoseSourcesTest, KeepTheLastSeedsAlone) {
+  const auto seeds = static_cast<int>(PoseSources::kHeld) + 7;
+  const Plan plan =
+      plan_of(study_of(source("odometry") + fmt::format("seeds: {}\n", seeds)), "recording");
+  PoseSources sources(recording());
+  const auto end = [&](std::size_t trial) {
+    const Task task = plan.tasks[plan.trials[trial].task];
+    return sources.beliefs(task, {0, 1, 2, 3}).back().T_odom_base.matrix();
+  };
+  const Eigen::Matrix4d first = end(0);
+  for (std::size_t trial = 1; trial < plan.trials.size(); ++trial) (void)end(trial);
+  EXPECT_EQ(sources.held(), PoseSources::kHeld);
+  EXPECT_EQ(end(0), first);
+}
+
+/// The registration ceiling has no fault, so its pose is the true one.
+TEST_F(PoseSourcesTest, AreTrueInCeilings) {
+  const Plan plan = plan_of(study_of(source("particle_filter")), "recording");
+  const PlannedTrial trial = plan.trials.at(0);
+  EXPECT_EQ(plan.tasks.at(trial.registration_ceiling).key, task(kMap).key);
+  EXPECT_EQ(plan.tasks.at(trial.lattice_ceiling).config.localization, LocalizationSettings{});
+}
+
+}  // namespace
+}  // namespace mapscore::eval

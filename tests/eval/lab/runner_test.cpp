@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/lab/runner.hpp"
+
+#include "eval/results/result_json.hpp"
+#include "tests/eval/lab/tiny_experiment.hpp"
+#include "tests/support/expect_error.hpp"
+
+#include <atomic>
+#include <fstream>
+#include <map>
+#include <new>
+#include <stdexcept>
+
+namespace mapscore::eval {
+namespace {
+
+/// Key -> everything that was stored.
+using Results = std::map<std::string, std::string>;
+
+class Runner : public testing::TinyExperiment {
+ protected:
+  [[nodiscard]] Plan plan_with_pose_noise() const {
+    return plan(
+        testing::study_of("  erosion: {segmentation: {erosion: {radius_px: 1}}}\n"
+                          "fusion: {blend: {N: 3}}\n"
+                          "faults: {pose: {sigma_xy_m: 0.02}}\n"
+                          "sweep: {faults.misregistration.magnitude_m: [0, 0.02]}\n"
+                          "seeds: 2\n"));
+  }
+  [[nodiscard]] ResultStore store(const std::string& name = "results") const {
+    return ResultStore::open(folder() / (name + ".sqlite"));
+  }
+  [[nodiscard]] static Results results_of(const Plan& plan, const ResultStore& store) {
+    Results results;
+    for (std::size_t n = 0; n < plan.tasks.size(); ++n)
+      if (const auto found = store.find(plan.tasks.key(n)))
+        results[plan.tasks.key(n)] = to_json(*found);
+    return results;
+  }
+  /// All results of the plan, from a store of its own.
+  [[nodiscard]] Results run(const Plan& plan, const RunnerOptions& options,
+                            const char* name) const {
+    ResultStore results = store(name);
+    const RunnerOutcome outcome = run_plan(plan, recording(), table(), results, options);
+    EXPECT_EQ(outcome.computed, plan.tasks.size());
+    EXPECT_EQ(outcome.reused, 0u);
+    return results_of(plan, results);
+  }
+  [[nodiscard]] static RunnerOptions one_job() {
+    RunnerOptions options;
+    options.jobs = 1;
+    return options;
+  }
+};
+
+TEST_F(Runner, ResultsDoNotDependOnJobs) {
+  const Plan plan = plan_with_pose_noise();
+  RunnerOptions three = one_job();
+  three.jobs = 3;
+  const Results results = run(plan, one_job(), "one");
+  EXPECT_EQ(results.size(), plan.tasks.size());
+  EXPECT_EQ(run(plan, three, "three"), results);
+}
+
+TEST_F(Runner, ResultsOfAllKindsOfTrialsDoNotDependOnJobs) {
+  const Plan all =
+      plan(testing::study_of("  grown: {segmentation: {region_growing: {}}, fusion: {bayes: {}}}\n"
+                             "  aligned: {segmentation: {edge_aligned: {}}}\n"
+                             "  refined: {segmentation: {direct: {}}, refinement: {crf: {}}}\n"
+                             "fusion: {blend: {N: 3, decay: view}}\n"
+                             "occupancy: {carve: true}\n"
+                             "seeds: 2\n"));
+  RunnerOptions four = one_job();
+  four.jobs = 4;
+  EXPECT_EQ(run(all, four, "four"), run(all, one_job(), "one"));
+}
+
+TEST_F(Runner, AFrameUnderFaultsIsMadeOnceForAllWhoSeeIt) {
+  const Plan swept = plan(
+      testing::study_of("  erosion: {segmentation: {erosion: {radius_px: 1}}}\n"
+                        "faults: {depth: {preset: astra}}\n"
+                        "sweep: {faults.depth.scale: [0.5, 1], faults.pose.sigma_xy_m: [0, 0.02]}\n"
+                        "seeds: 2\n"));
+  ResultStore results = store();
+  const RunnerOutcome outcome = run_plan(swept, recording(), table(), results, one_job());
+  EXPECT_EQ(outcome.computed, 2u * (2 * 4 + 2 + 1)) << "methods and cells, two kinds of ceilings";
+  const std::size_t seen = 2 /* doses */ + 1 /* no fault */ + 1 /* exact, of lattice ceilings */;
+  EXPECT_EQ(outcome.sights, 2 * seen * static_cast<std::size_t>(recording().frame_count()));
+}
+
+TEST_F(Runner, ResultsDoNotDependOnBlocksOfFrames) {
+  const Plan plan = plan_with_pose_noise();
+  const Results results = run(plan, one_job(), "whole");
+  for (const std::size_t frames : {0u, 1u, 3u}) {
+    RunnerOptions tight = one_job();
+    tight.jobs = 2;
+    tight.memory_bytes = frames * 64 * 48 * 3 * sizeof(std::uint16_t);
+    EXPECT_EQ(run(plan, tight, std::to_string(frames).c_str()), results) << frames;
+  }
+}
+
+TEST_F(Runner, ShardsShareTheTasksOut) {
+  const Plan plan = plan_with_pose_noise();
+  ResultStore results = store();
+  std::size_t computed = 0;
+  for (const int shard : {2, 3, 1}) {
+    RunnerOptions options = one_job();
+    options.shard = shard;
+    options.shards = 3;
+    computed += run_plan(plan, recording(), table(), results, options).computed;
+    EXPECT_EQ(results.keys().size(), computed);
+  }
+  EXPECT_EQ(computed, plan.tasks.size());
+  EXPECT_EQ(results_of(plan, results), run(plan, one_job(), "whole"));
+}
+
+TEST_F(Runner, WhatTheStoreHoldsIsNotComputedAgain) {
+  const Plan plan = plan_with_pose_noise();
+  ResultStore results = store();
+  TrialResult mark;
+  mark.accounting.points = 123456789;
+  results.add(plan.tasks[1].key, "", mark);
+  const RunnerOutcome outcome = run_plan(plan, recording(), table(), results, one_job());
+  EXPECT_EQ(outcome.computed, plan.tasks.size() - 1);
+  EXPECT_EQ(outcome.reused, 1u);
+  EXPECT_EQ(results.find(plan.tasks[1].key)->accounting.points, 123456789);
+  EXPECT_EQ(run_plan(plan, recording(), table(), results, one_job()).computed, 0u);
+}
+
+TEST_F(Runner, TellsItsProgressInFrameEvaluations) {
+  const Plan plan = plan_with_pose_noise();
+  ResultStore results = store();
+  std::atomic<std::int64_t> calls{0}, most{0};
+  RunnerOptions options = one_job();
+  options.jobs = 2;
+  const auto whole = static_cast<std::int64_t>(plan.tasks.size()) * recording().frame_count();
+  options.progress = [&](std::int64_t done, std::int64_t total) {
+    ++calls;
+    if (done == total) most = done;
+    EXPECT_EQ(total, whole);
+  };
+  run_plan(plan, recording(), table(), results, options);
+  EXPECT_EQ(calls, whole);
+  EXPECT_EQ(most, whole);
+}
+
+TEST_F(Runner, AnExceptionOfAWorkerIsRethrownAndWhatWasDoneStays) {
+  const Plan plan = plan_with_pose_noise();
+  ResultStore results = store();
+  RunnerOptions options = one_job();
+  options.jobs = 2;
+  options.progress = [](std::int64_t done, std::int64_t) {
+    if (done == 21) throw std::runtime_error("enough");
+  };
+  EXPECT_THROW(run_plan(plan, recording(), table(), results, options), std::runtime_error);
+  const std::size_t done = results.keys().size();
+  EXPECT_GT(done, 0u);
+  EXPECT_LT(done, plan.tasks.size());
+  const RunnerOutcome rest = run_plan(plan, recording(), table(), results, one_job());
+  EXPECT_EQ(rest.computed, plan.tasks.size() - done);
+}
+
+TEST_F(Runner, OutOfMemoryInATrialSaysWhatHelps) {
+  ResultStore results = store();
+  RunnerOptions options = one_job();
+  options.progress = [](std::int64_t, std::int64_t) { throw std::bad_alloc(); };
+  mapscore::testing::expect_error("out of memory in a trial; use fewer --jobs", [&] {
+    run_plan(plan_with_pose_noise(), recording(), table(), results, options);
+  });
+}
+
+TEST_F(Runner, ABrokenImageIsAnErrorThatNamesIt) {
+  std::ofstream(folder() / "tiny/depth/000002.png") << "broken";
+  ResultStore results = store();
+  mapscore::testing::expect_error("depth/000002.png", [&] {
+    run_plan(plan_with_pose_noise(), recording(), table(), results, one_job());
+  });
+  EXPECT_TRUE(results.keys().empty());
+}
+
+}  // namespace
+}  // namespace mapscore::eval

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/results/study_store.hpp"
+
+#include "tests/eval/lab/tiny_experiment.hpp"
+#include "tests/support/expect_error.hpp"
+
+namespace mapscore::eval {
+namespace {
+
+using mapscore::testing::expect_error;
+using mapscore::testing::TemporaryFolder;
+using testing::study_of;
+
+TEST(StudyStore, GivesBackTheStudyAndItsTable) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::open(folder.path() / "results.sqlite");
+  Study study = study_of("sweep: {faults.misregistration.magnitude_m: [0, 0.01]}\nseeds: 2\n");
+  study.base_folder = folder.path() / "configs";
+  const ClassTable table = mapscore::testing::tiny_info().table;
+  write_study(store, {study, table, "hash", "recordings/tiny"}, folder.path());
+  const StudyRecord record = read_study(store, folder.path());
+  EXPECT_EQ(to_yaml(record.study), to_yaml(study));
+  EXPECT_EQ(std::filesystem::path(record.study.base_folder).lexically_normal(),
+            study.base_folder.lexically_normal());
+  EXPECT_EQ(record.recording_hash, "hash");
+  EXPECT_EQ(record.recording, "recordings/tiny");
+  ASSERT_EQ(record.table.classes.size(), table.classes.size());
+  for (std::size_t i = 0; i < table.classes.size(); ++i) {
+    EXPECT_EQ(record.table.classes[i].name, table.classes[i].name);
+    EXPECT_EQ(record.table.classes[i].detect, table.classes[i].detect);
+    EXPECT_EQ(record.table.classes[i].colour.r, table.classes[i].colour.r);
+  }
+  ASSERT_EQ(record.table.instances.size(), table.instances.size());
+  EXPECT_EQ(record.table.class_of(2), table.class_of(2));
+}
+
+TEST(StudyStore, RefusesAStoreWithoutAStudy) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::open(folder.path() / "results.sqlite");
+  expect_error("holds no study", [&] { (void)read_study(store, folder.path()); });
+  store.set_text("study", to_yaml(study_of("")));
+  store.set_text("classes", "{broken");
+  expect_error("class table not readable", [&] { (void)read_study(store, folder.path()); });
+}
+
+TEST(StudyStore, RefusesAClassTableWhoseIdsAreNoPlaces) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::open(folder.path() / "results.sqlite");
+  const ClassTable table = mapscore::testing::tiny_info().table;
+  write_study(store, {study_of(""), table, "hash", "recordings/tiny"}, folder.path());
+  const std::string good = store.text("classes");
+  for (const auto& [from, to] :
+       {std::pair{"\"id\":1,", "\"id\":65535,"}, {"\"class\":1", "\"class\":9"}}) {
+    std::string bad = good;
+    ASSERT_NE(bad.find(from), std::string::npos) << good;
+    store.set_text("classes", bad.replace(bad.find(from), std::string(from).size(), to));
+    expect_error("result store: ", [&] { (void)read_study(store, folder.path()); });
+  }
+}
+
+TEST(StudyStore, DetectedSetIsTheClassFilesOrTheStudys) {
+  const ClassTable table = mapscore::testing::tiny_info().table;  // crate is detected, wall is not
+  const auto detected = [&](const std::string& lines) {
+    const ClassTable set = detected_table(study_of(lines), table);
+    return std::vector<bool>{set.detected(0), set.detected(1), set.detected(2)};
+  };
+  EXPECT_EQ(detected(""), (std::vector<bool>{false, true, false}));
+  EXPECT_EQ(detected("detect: [wall]\n"), (std::vector<bool>{false, false, true}));
+  EXPECT_EQ(detected("detect: all\n"), (std::vector<bool>{false, true, true}));
+  expect_error("no class 'cup'", [&] { (void)detected("detect: [cup]\n"); });
+}
+
+}  // namespace
+}  // namespace mapscore::eval
