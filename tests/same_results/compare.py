@@ -80,7 +80,7 @@ def files_of(folder):
 
 def keys(side):
     studies = sorted(os.path.join(CONFIGS, name) for name in os.listdir(CONFIGS) if name.endswith(".yaml"))
-    dumped = side.run(os.path.join(side.build, "tests", "mapscore_dump_plan"), *studies)
+    dumped = side.run(os.path.join(side.build, "mapscore_dump_plan"), *studies)
     return {"keys": dumped.replace(b"the field lists of eval/experiment/study_fields.hpp", b"").replace(
         b"the lists of fields of the parameters (core/parameters.hpp)", b"")}
 
