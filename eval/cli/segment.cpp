@@ -8,7 +8,7 @@
 #include "eval/cli/shared/choice_flags.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/map_files/cloud_file.hpp"
+#include "eval/map_files/clouds/cloud_file.hpp"
 #include "eval/recording/recording.hpp"
 #include "files/csv.hpp"
 #include "files/folder_lock.hpp"

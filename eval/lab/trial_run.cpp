@@ -6,7 +6,7 @@
 #include "core/refinement/map_refinement.hpp"
 #include "eval/lab/map_frame.hpp"
 #include "eval/lab/truth_cache.hpp"
-#include "eval/score/instance_score.hpp"
+#include "eval/score/instances/instance_score.hpp"
 #include "eval/study/trial_seed.hpp"
 
 #include <limits>

@@ -3,9 +3,9 @@
 
 #include "eval/map_files/map_file.hpp"
 
-#include "eval/map_files/octree_file.hpp"
-#include "eval/map_files/pcd_file.hpp"
-#include "eval/map_files/ply_file.hpp"
+#include "eval/map_files/clouds/pcd_file.hpp"
+#include "eval/map_files/clouds/ply_file.hpp"
+#include "eval/map_files/octrees/octree_file.hpp"
 #include "eval/map_files/refusal.hpp"
 #include "eval/map_files/voxel_csv.hpp"
 #include "files/lower_case.hpp"

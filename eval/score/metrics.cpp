@@ -4,7 +4,7 @@
 #include "eval/score/metrics.hpp"
 
 #include "core/error.hpp"
-#include "eval/score/instance_score.hpp"
+#include "eval/score/instances/instance_score.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include "core/classes.hpp"
 #include "eval/map_files/legend.hpp"
-#include "eval/score/instance_pieces.hpp"
+#include "eval/score/instances/instance_pieces.hpp"
 #include "eval/score/map_snapshot.hpp"
 #include "eval/truth/surface_truth.hpp"
 

@@ -7,7 +7,7 @@
 #include "eval/cli/shared/truth_source.hpp"
 #include "eval/report/table.hpp"
 #include "eval/score/confusion.hpp"
-#include "eval/score/instance_score.hpp"
+#include "eval/score/instances/instance_score.hpp"
 #include "eval/score/occupancy_score.hpp"
 
 #include <optional>

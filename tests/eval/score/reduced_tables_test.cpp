@@ -4,7 +4,7 @@
 #include "eval/score/reduced_tables.hpp"
 
 #include "eval/score/voxel_score.hpp"
-#include "tests/eval/score/instance_cases.hpp"
+#include "tests/eval/score/instances/instance_cases.hpp"
 
 #include <gtest/gtest.h>
 
