@@ -50,18 +50,6 @@ CameraModel camera_of(const YamlValue& value) {
           value.at("cy_px").number()};
 }
 
-Pose pose_at(const YamlValue& root, const std::string& key) {
-  if (!root.has(key)) return Pose::Identity();
-  const YamlValue value = root.at(key);
-  const std::vector<YamlValue> items = value.elements();
-  PoseNumbers numbers{};
-  if (items.size() != numbers.size()) value.fail("expected [tx, ty, tz, qx, qy, qz, qw]");
-  std::ranges::transform(items, numbers.begin(), [](const YamlValue& v) { return v.number(); });
-  const auto pose = pose_of(numbers);
-  if (!pose) value.fail("quaternion qx, qy, qz, qw is not of length 1; normalise it");
-  return *pose;
-}
-
 Calibration read_camera_file(const std::filesystem::path& file) {
   const YamlValue root = load_yaml(file);
   root.only({"color", "depth", "T_color_depth", "T_base_depth", "range_min_m", "range_max_m"});
@@ -72,8 +60,10 @@ Calibration read_camera_file(const std::filesystem::path& file) {
     root.at("depth").only({"fx_px", "fy_px", "cx_px", "cy_px"});
     cameras.depth = camera_of(root.at("depth"));
   }
-  cameras.T_color_depth = pose_at(root, "T_color_depth");
-  cameras.T_base_depth = pose_at(root, "T_base_depth");
+  cameras.T_color_depth =
+      root.has("T_color_depth") ? pose_of(root.at("T_color_depth")) : Pose::Identity();
+  cameras.T_base_depth =
+      root.has("T_base_depth") ? pose_of(root.at("T_base_depth")) : Pose::Identity();
   cameras.range_min_m =
       root.has("range_min_m") ? root.at("range_min_m").number() : kForeignRangeMin_m;
   cameras.range_max_m =

@@ -51,18 +51,6 @@ CameraModel camera_of(const YamlValue& value) {
   return camera;
 }
 
-Pose pose_at(const YamlValue& root, const std::string& key) {
-  const YamlValue value = root.at(key);
-  const std::vector<YamlValue> items = value.elements();
-  PoseNumbers numbers{};
-  if (items.size() != numbers.size()) value.fail("expected [tx, ty, tz, qx, qy, qz, qw]");
-  std::transform(items.begin(), items.end(), numbers.begin(),
-                 [](const YamlValue& item) { return item.number(); });
-  const auto pose = pose_of(numbers);
-  if (!pose) value.fail("quaternion qx, qy, qz, qw is not of length 1; normalise it");
-  return *pose;
-}
-
 /// Ids stand in order without gaps, so the n-th entry has id n.
 std::uint16_t id_of(const YamlValue& item, std::size_t expected) {
   if (expected > std::numeric_limits<std::uint16_t>::max()) item.fail("more than 65536 entries");
@@ -104,8 +92,8 @@ Calibration calibration_of(const YamlValue& root) {
   Calibration calibration;
   calibration.color = camera_of(color);
   calibration.depth = camera_of(depth);
-  calibration.T_color_depth = pose_at(root, "T_color_depth");
-  calibration.T_base_depth = pose_at(root, "T_base_depth");
+  calibration.T_color_depth = pose_of(root.at("T_color_depth"));
+  calibration.T_base_depth = pose_of(root.at("T_base_depth"));
   calibration.range_min_m = depth.at("range_min_m").number();
   calibration.range_max_m = depth.at("range_max_m").number();
   if (calibration.range_min_m < 0.0 || calibration.range_max_m <= calibration.range_min_m)

@@ -3,7 +3,11 @@
 
 #include "eval/recording/pose_text.hpp"
 
+#include "files/yaml_value.hpp"
+
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace mapscore::eval {
 namespace {
@@ -28,6 +32,16 @@ std::optional<Pose> pose_of(const PoseNumbers& numbers) {
   pose.linear() = q.normalized().toRotationMatrix();
   pose.translation() = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
   return pose;
+}
+
+Pose pose_of(const YamlValue& list) {
+  const std::vector<YamlValue> items = list.elements();
+  PoseNumbers numbers{};
+  if (items.size() != numbers.size()) list.fail("expected [tx, ty, tz, qx, qy, qz, qw]");
+  std::ranges::transform(items, numbers.begin(), &YamlValue::number);
+  const auto pose = pose_of(numbers);
+  if (!pose) list.fail("quaternion qx, qy, qz, qw is not of length 1; normalise it");
+  return *pose;
 }
 
 }  // namespace mapscore::eval

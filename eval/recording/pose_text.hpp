@@ -8,6 +8,10 @@
 #include <array>
 #include <optional>
 
+namespace mapscore {
+struct YamlValue;
+}
+
 namespace mapscore::eval {
 
 /// tx ty tz qx qy qz qw (TUM order), metres, unit quaternion with qw >= 0.
@@ -18,5 +22,7 @@ using PoseNumbers = std::array<double, 7>;
 /// smaller error is taken for rounding and removed. The identity comes back as exactly the
 /// identity.
 [[nodiscard]] std::optional<Pose> pose_of(const PoseNumbers& numbers);
+/// The pose of a list [tx, ty, tz, qx, qy, qz, qw]. Throws Error naming its place when it is none.
+[[nodiscard]] Pose pose_of(const YamlValue& list);
 
 }  // namespace mapscore::eval
