@@ -69,6 +69,12 @@ struct Field {
   bool swept = true;      ///< may take several values in one study
 };
 
+/// The same field, marked as `later`.
+[[nodiscard]] constexpr Field later(Field field) {
+  field.later = true;
+  return field;
+}
+
 /// An angle in degrees, as files have it to the bit, converted where it is used.
 struct Degrees {
   double deg = 0;
@@ -90,6 +96,12 @@ struct AnyVisitor {
 template <class T>
 concept Section = requires(T& section) {
   std::remove_const_t<T>::fields(section, AnyVisitor{});
+};
+
+/// Base of a section without parameters.
+struct NoFields {
+  static void fields(auto&, auto&&) {}
+  bool operator==(const NoFields&) const = default;
 };
 
 template <class T>

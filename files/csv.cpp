@@ -8,7 +8,7 @@
 namespace mapscore {
 namespace {
 
-constexpr std::string_view kBlanks = " \t";
+constexpr std::string_view kCellBlanks = " \t";
 constexpr std::string_view kRun = "=+-@";  ///< what a formula begins with
 constexpr char kApostrophe = '\'';
 
@@ -28,9 +28,9 @@ bool has_apostrophe(std::string_view cell) {
 }
 
 std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
+  const std::size_t first = text.find_first_not_of(kCellBlanks);
   if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+  return text.substr(first, text.find_last_not_of(kCellBlanks) - first + 1);
 }
 
 /// Takes a cell in quotes off the front of `rest`, up to the comma behind it.
@@ -75,7 +75,7 @@ std::optional<std::vector<std::string>> csv_cells(std::string_view line, std::si
   std::vector<std::string> cells;
   std::string_view rest = line;
   while (true) {
-    const std::size_t first = rest.find_first_not_of(kBlanks);
+    const std::size_t first = rest.find_first_not_of(kCellBlanks);
     if (first != rest.npos && rest[first] == '"') {
       auto cell = take_quoted(rest);
       if (!cell) return std::nullopt;

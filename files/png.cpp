@@ -177,6 +177,27 @@ cv::Mat1w grey16_of(const std::uint8_t* rows, cv::Size size) {
 
 }  // namespace
 
+std::string too_many_pixels(int width_px, int height_px) {
+  if (std::int64_t{width_px} * height_px <= kMostImagePixels) return {};
+  return fmt::format("{} x {} pixels are more than {}, as of 4096 x 4096; make the images smaller",
+                     width_px, height_px, kMostImagePixels);
+}
+
+cv::Size png_size(std::string_view bytes, const std::string& name) {
+  constexpr std::size_t kWidth = 16, kHeight = 20;  // after signature, length and type
+  constexpr std::uint32_t kMost = kMostImageSide_px;
+  if (!bytes.starts_with(kSignature) || bytes.size() < kHeight + 4)
+    throw Error(name + ": is no PNG file; convert it, or copy it anew");
+  const std::uint32_t width = from_big_endian(bytes.substr(kWidth));
+  const std::uint32_t height = from_big_endian(bytes.substr(kHeight));
+  if (width < 1 || width > kMost || height < 1 || height > kMost)
+    throw Error(name + ": its header says no size of 1 to 16384 pixels; copy the file anew");
+  const cv::Size size(static_cast<int>(width), static_cast<int>(height));
+  if (const std::string problem = too_many_pixels(size.width, size.height); !problem.empty())
+    throw Error(name + ": " + problem);
+  return size;
+}
+
 std::string encode_png(const cv::Mat3b& image) {
   std::string pixels(image.total() * kColour.bytes, '\0');
   char* out = pixels.data();

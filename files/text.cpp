@@ -54,45 +54,38 @@ bool is_control(char32_t code) {
 /// Characters that show nothing and change what others show: separators of lines, marks of
 /// direction, tags. The joiners of scripts and emoji (200C, 200D) are none of them.
 bool is_invisible(char32_t code) {
-  constexpr std::array<std::pair<char32_t, char32_t>, 9> kRanges{{{0xad, 0xad},
-                                                                  {0x61c, 0x61c},
-                                                                  {0x200b, 0x200b},
-                                                                  {0x200e, 0x200f},
-                                                                  {0x2028, 0x202e},
-                                                                  {0x2060, 0x206f},
-                                                                  {0xfeff, 0xfeff},
-                                                                  {0xfff9, 0xfffb},
-                                                                  {0xe0000, 0xe007f}}};
+  constexpr std::pair<char32_t, char32_t> kRanges[] = {
+      {0xad, 0xad},     {0x61c, 0x61c},   {0x200b, 0x200b}, {0x200e, 0x200f},  {0x2028, 0x202e},
+      {0x2060, 0x206f}, {0xfeff, 0xfeff}, {0xfff9, 0xfffb}, {0xe0000, 0xe007f}};
   return std::ranges::any_of(
       kRanges, [code](const auto& range) { return code >= range.first && code <= range.second; });
 }
 
 std::string escaped(const Character& c) {
-  switch (c.code) {
-    case '\n':
-      return "\\n";
-    case '\r':
-      return "\\r";
-    case '\t':
-      return "\\t";
-    default:
-      break;
-  }
+  if (c.code == '\n') return "\\n";
+  if (c.code == '\r') return "\\r";
+  if (c.code == '\t') return "\\t";
   const auto code = static_cast<std::uint32_t>(c.code);
   if (!c.valid || code < 0x100) return fmt::format("\\x{:02x}", code);
   return code < 0x10000 ? fmt::format("\\u{:04x}", code) : fmt::format("\\U{:08x}", code);
 }
 
-/// Every character that `keep` refuses escaped.
-template <class Keep>
-std::string with_escapes(std::string_view text, Keep keep) {
+/// The text with each of its characters as `written` writes it.
+std::string rewritten(std::string_view text, auto written) {
   std::string result;
   while (!text.empty()) {
     const Character c = first_of(text);
-    result += c.valid && keep(c.code) ? std::string(c.bytes) : escaped(c);
+    result += written(c);
     text.remove_prefix(c.bytes.size());
   }
   return result;
+}
+
+/// Every character that `keep` refuses escaped.
+std::string with_escapes(std::string_view text, bool (*keep)(char32_t)) {
+  return rewritten(text, [&](const Character& c) {
+    return c.valid && keep(c.code) ? std::string(c.bytes) : escaped(c);
+  });
 }
 
 bool is_plain(char32_t code) {
@@ -128,44 +121,41 @@ std::string shown_lines(std::string_view text) {
   return with_escapes(text, keeps_lines);
 }
 
+std::string excerpt(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string printable(text.substr(0, kLongest));
+  std::ranges::replace_if(
+      printable, [](unsigned char code) { return code < 0x20 || code == 0x7f; }, '?');
+  return fmt::format("'{}{}'", printable, text.size() > kLongest ? "..." : "");
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& letter : lower)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return lower;
+}
+
 std::string yaml_quoted(std::string_view text) {
-  std::string quoted = "\"";
-  while (!text.empty()) {
-    const Character c = first_of(text);
-    if (!c.valid)
-      quoted += kReplacement;
-    else if (c.code == '"' || c.code == '\\')
-      (quoted += '\\') += c.bytes;
-    else if (c.code == '\n')
-      quoted += "\\n";
-    else if (is_control(c.code))
-      quoted += fmt::format("\\x{:02x}", static_cast<std::uint32_t>(c.code));
-    else
-      quoted += c.bytes;
-    text.remove_prefix(c.bytes.size());
-  }
-  return quoted + '"';
+  const auto written = [](const Character& c) {
+    if (!c.valid) return std::string(kReplacement);
+    if (c.code == '\n') return std::string("\\n");
+    if (is_control(c.code)) return fmt::format("\\x{:02x}", static_cast<std::uint32_t>(c.code));
+    return (c.code == '"' || c.code == '\\' ? "\\" : "") + std::string(c.bytes);
+  };
+  return '"' + rewritten(text, written) + '"';
 }
 
 std::string xml_quoted(std::string_view text) {
-  std::string quoted = "\"";
-  while (!text.empty()) {
-    const Character c = first_of(text);
-    if (c.code == '&')
-      quoted += "&amp;";
-    else if (c.code == '<')
-      quoted += "&lt;";
-    else if (c.code == '>')
-      quoted += "&gt;";
-    else if (c.code == '"')
-      quoted += "&quot;";
-    else if (!c.valid || is_control(c.code) || c.code == 0xfffe || c.code == 0xffff)
-      quoted += '_';
-    else
-      quoted += c.bytes;
-    text.remove_prefix(c.bytes.size());
-  }
-  return quoted + '"';
+  const auto written = [](const Character& c) -> std::string_view {
+    if (c.code == '&') return "&amp;";
+    if (c.code == '<') return "&lt;";
+    if (c.code == '>') return "&gt;";
+    if (c.code == '"') return "&quot;";
+    const bool unfit = !c.valid || is_control(c.code) || c.code == 0xfffe || c.code == 0xffff;
+    return unfit ? "_" : c.bytes;
+  };
+  return '"' + rewritten(text, written) + '"';
 }
 
 std::string gnuplot_quoted(std::string_view text) {
@@ -187,12 +177,16 @@ std::string gnuplot_column(std::string_view text) {
   return '"' + column + '"';
 }
 
-std::string shell_word(std::string_view text) {
-  const auto plain = [](unsigned char c) {
+bool is_word(std::string_view text, std::string_view marks) {
+  const auto fits = [&](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-./,:+=@%").find(static_cast<char>(c)) != std::string_view::npos;
+           marks.find(c) != marks.npos;
   };
-  if (!text.empty() && std::ranges::all_of(text, plain)) return std::string(text);
+  return !text.empty() && std::ranges::all_of(text, fits);
+}
+
+std::string shell_word(std::string_view text) {
+  if (is_word(text, "_-./,:+=@%")) return std::string(text);
   std::string word = "'";
   for (const char letter : text)
     word += letter == '\'' ? std::string("'\\''") : std::string(1, letter);

@@ -32,6 +32,12 @@ template <std::same_as<std::filesystem::path> Path>
 /// The same for text of several lines: ends of lines and tabs stay.
 [[nodiscard]] std::string shown_lines(std::string_view text);
 
+/// A text of a file for a message: in single quotes, cut when long, control characters as '?'.
+[[nodiscard]] std::string excerpt(std::string_view text);
+
+/// ASCII capitals made small, as names of fields, columns and endings are compared.
+[[nodiscard]] std::string lower_case(std::string_view text);
+
 /// A YAML scalar between double quotes. Bytes that are no UTF-8, which YAML cannot hold, become
 /// U+FFFD.
 [[nodiscard]] std::string yaml_quoted(std::string_view text);
@@ -46,6 +52,9 @@ template <std::same_as<std::filesystem::path> Path>
 /// A column of a gnuplot data file; such a file cannot quote a quote, so double quotes become
 /// single ones.
 [[nodiscard]] std::string gnuplot_column(std::string_view text);
+
+/// Whether a text is of ASCII letters, digits and `marks` alone, and not empty.
+[[nodiscard]] bool is_word(std::string_view text, std::string_view marks);
 
 /// A word of a command line that a person may paste into a POSIX shell: as it is where it is
 /// plain, else between single quotes.

@@ -5,17 +5,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace mapscore {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\v\f";
-
-bool is_blank(char letter) {
-  return kBlanks.find(letter) != std::string_view::npos;
-}
 
 template <class Number>
 std::optional<Number> parse(std::string_view text) {
@@ -39,20 +37,16 @@ std::optional<std::string_view> TextLines::next() {
   return line;
 }
 
-bool TextLines::next_words(std::vector<std::string_view>& words) {
+bool TextLines::next_words(std::vector<std::string_view>& words, std::size_t most) {
   words.clear();
   while (words.empty()) {
     const auto line = next();
     if (!line) return false;
-    for (std::size_t from = 0; from < line->size() && words.size() <= kMostWords;) {
-      if (is_blank((*line)[from])) {
-        ++from;
-        continue;
-      }
-      std::size_t end = from;
-      while (end < line->size() && !is_blank((*line)[end])) ++end;
+    for (std::size_t end = 0; words.size() <= most;) {
+      const std::size_t from = line->find_first_not_of(kBlanks, end);
+      if (from == line->npos) break;
+      end = std::min(line->find_first_of(kBlanks, from), line->size());
       words.push_back(line->substr(from, end - from));
-      from = end;
     }
   }
   return true;
@@ -76,16 +70,33 @@ std::optional<long long> parse_whole(std::string_view text) {
   return parse<long long>(text);
 }
 
+std::optional<std::uint32_t> parse_id(std::string_view text) {
+  const auto number = parse<long long>(text);
+  if (!number || *number < std::numeric_limits<std::int32_t>::min() ||
+      *number > std::numeric_limits<std::uint32_t>::max())
+    return std::nullopt;
+  return static_cast<std::uint32_t>(*number);
+}
+
 std::string join_numbers(std::span<const double> numbers, std::string_view separator) {
   return fmt::format("{}", fmt::join(numbers, separator));
 }
 
 std::optional<double> parse_number(std::string_view text) {
-  double number = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || stop != end || !std::isfinite(number)) return std::nullopt;
-  return number;
+  const auto number = text.starts_with('+') ? std::nullopt : parse<double>(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+std::optional<std::vector<double>> parse_numbers(std::string_view text, std::size_t most) {
+  std::vector<double> numbers;
+  while (!text.empty() && numbers.size() < most) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    const auto number = parse_number(text.substr(0, comma));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    text.remove_prefix(std::min(comma + 1, text.size()));
+  }
+  return numbers;
 }
 
 }  // namespace mapscore

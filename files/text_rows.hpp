@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,8 +27,9 @@ class TextLines {
   /// The next line without its end; nothing after the last.
   [[nodiscard]] std::optional<std::string_view> next();
   /// The next line that is not blank, cut into `words` at blanks; false after the last. Of a line
-  /// with more words the first kMostWords + 1 are given.
-  [[nodiscard]] bool next_words(std::vector<std::string_view>& words);
+  /// with more words the first `most` + 1 are given.
+  [[nodiscard]] bool next_words(std::vector<std::string_view>& words,
+                                std::size_t most = kMostWords);
 
   /// Number of the line last taken.
   [[nodiscard]] std::size_t number() const { return number_; }
@@ -50,10 +52,17 @@ class TextLines {
 /// The whole number that is the whole of `text`.
 [[nodiscard]] std::optional<long long> parse_whole(std::string_view text);
 
+/// The whole number of 32 bits that is the whole of `text`; negative ones in two's complement.
+[[nodiscard]] std::optional<std::uint32_t> parse_id(std::string_view text);
+
 /// Shortest texts that read back as the same doubles, with `separator` between them.
 [[nodiscard]] std::string join_numbers(std::span<const double> numbers, std::string_view separator);
 
 /// The finite number that is the whole of `text`.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
+/// Finite numbers with commas between, the first `most`; nothing where one is none. A comma at the
+/// end is passed over.
+[[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text,
+                                                               std::size_t most);
 
 }  // namespace mapscore

@@ -14,25 +14,18 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
+#include <optional>
 #include <set>
 #include <sstream>
 
 namespace mapscore {
 namespace {
 
-constexpr std::string_view kTagOfQuotes = "!";
-
 std::string describe(const YAML::Node& node) {
-  switch (node.Type()) {
-    case YAML::NodeType::Map:
-      return "is a section";
-    case YAML::NodeType::Sequence:
-      return "is a list";
-    case YAML::NodeType::Scalar:
-      return fmt::format("is {}", yaml_text(node.Scalar()));
-    default:
-      return "has no value";
-  }
+  if (node.IsMap()) return "is a section";
+  if (node.IsSequence()) return "is a list";
+  return node.IsScalar() ? fmt::format("is {}", yaml_text(node.Scalar())) : "has no value";
 }
 
 int line_of(const YAML::Mark& mark) {
@@ -64,19 +57,13 @@ void refuse_hidden_characters(const std::string& text, const std::string& source
   int line = 1;
   bool indenting = true;
   for (const char c : text) {
-    if (c == '\n') {
-      ++line;
-      indenting = true;
-    } else if (c == '\t') {
-      if (indenting) {
-        throw Error(located(source, line) + "a tab indents this line; indent with spaces");
-      }
-    } else if (c != '\r' && static_cast<unsigned char>(c) < 0x20) {
+    if (c == '\t' && indenting)
+      throw Error(located(source, line) + "a tab indents this line; indent with spaces");
+    if (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r')
       throw Error(fmt::format("{}control character 0x{:02x}; remove it", located(source, line),
                               static_cast<int>(c)));
-    } else if (c != ' ') {
-      indenting = false;
-    }
+    if (c == '\n') ++line;
+    indenting = c == '\n' || (indenting && c == ' ');
   }
 }
 
@@ -121,15 +108,22 @@ YAML::Node load_one(const std::string& text, const std::string& source, bool lin
     refuse_second_document(text, source, lines);
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    const int line = lines ? line_of(error.mark) : 0;
-    throw Error(fmt::format("{}not YAML: {}; mend the syntax near here", located(source, line),
-                            shown(error.msg)));
+    throw Error(fmt::format("{}not YAML: {}; mend the syntax near here",
+                            located(source, lines ? line_of(error.mark) : 0), shown(error.msg)));
   }
+}
+
+/// The number of digits alone that is the whole of `text`.
+std::optional<std::uint64_t> digits_of(std::string_view text, int base) {
+  std::uint64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value, base);
+  return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
     std::size_t diagonal = row[0];
     row[0] = i;
@@ -140,11 +134,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return row.back();
-}
-
-/// Most often the unit is what is missing: a choice that continues the word is the nearest of all.
-std::size_t distance(std::string_view word, std::string_view choice) {
-  return choice.starts_with(std::string(word) + "_") ? 0 : edit_distance(word, choice);
 }
 
 }  // namespace
@@ -173,10 +162,9 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::entries() const {
 }
 
 void YamlValue::only(const std::vector<std::string>& keys) const {
-  for (const auto& [key, value] : entries()) {
-    if (std::ranges::find(keys, key) != keys.end()) continue;
-    value.fail(fmt::format("unknown key '{}'; {}", key, suggestion(key, keys)));
-  }
+  for (const auto& [key, value] : entries())
+    if (std::ranges::find(keys, key) == keys.end())
+      value.fail(fmt::format("unknown key '{}'; {}", key, suggestion(key, keys)));
 }
 
 YamlValue YamlValue::at(const std::string& key) const {
@@ -206,9 +194,8 @@ std::string YamlValue::scalar(std::string_view wanted) const {
 
 std::string YamlValue::plain_scalar(std::string_view wanted) const {
   std::string text = scalar(wanted);
-  if (node.Tag() == kTagOfQuotes) {
+  if (node.Tag() == "!")  // as quotes leave it
     fail(fmt::format("is the text {}; write {}, without quotes", yaml_text(text), wanted));
-  }
   return text;
 }
 
@@ -225,12 +212,10 @@ std::string YamlValue::name() const {
 Colour YamlValue::colour() const {
   constexpr const char* kWanted = "six hexadecimal digits in quotes, like \"FF0000\"";
   const std::string digits = scalar(kWanted);
-  std::uint32_t rgb = 0;
-  const char* end = digits.data() + digits.size();
-  const auto [stop, error] = std::from_chars(digits.data(), end, rgb, 16);
-  if (digits.size() != 6 || error != std::errc() || stop != end) ask_for(kWanted);
-  return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255),
-          static_cast<std::uint8_t>(rgb & 255)};
+  const auto rgb = digits_of(digits, 16);
+  if (digits.size() != 6 || !rgb) ask_for(kWanted);
+  return {static_cast<std::uint8_t>(*rgb >> 16), static_cast<std::uint8_t>(*rgb >> 8 & 255),
+          static_cast<std::uint8_t>(*rgb & 255)};
 }
 
 bool YamlValue::boolean() const {
@@ -253,12 +238,9 @@ double YamlValue::positive() const {
 
 std::uint64_t YamlValue::whole(std::uint64_t low, std::uint64_t high) const {
   const std::string wanted = fmt::format("a whole number from {} to {}", low, high);
-  const std::string digits = scalar(wanted);
-  std::uint64_t value = 0;
-  const char* end = digits.data() + digits.size();
-  const auto [stop, error] = std::from_chars(digits.data(), end, value);
-  if (error != std::errc() || stop != end || value < low || value > high) ask_for(wanted);
-  return value;
+  const auto value = digits_of(scalar(wanted), 10);
+  if (!value || *value < low || *value > high) ask_for(wanted);
+  return *value;
 }
 
 YamlValue parse_yaml(const std::string& text, const std::string& source) {
@@ -295,22 +277,20 @@ YamlValue find(const YamlValue& root, std::string_view path) {
 }
 
 std::string yaml_text(std::string_view text) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-' || c == '.' || c == '/';
-  };
-  const bool word = !text.empty() && text.front() != '-' && std::ranges::all_of(text, plain) &&
-                    text != "null" && text != "Null" && text != "NULL" && text != "...";
-  if (word) return std::string(text);
-  return yaml_quoted(text);
+  const bool word = is_word(text, "_-./") && text.front() != '-' && text != "null" &&
+                    text != "Null" && text != "NULL" && text != "...";
+  return word ? std::string(text) : yaml_quoted(text);
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& choices) {
-  const auto nearest = std::ranges::min_element(
-      choices, {}, [&](const std::string& choice) { return distance(word, choice); });
+  // Most often the unit is what is missing: a choice that continues the word is the nearest of all.
+  const auto distance = [&](const std::string& choice) {
+    return choice.starts_with(std::string(word) + "_") ? 0 : edit_distance(word, choice);
+  };
+  const auto nearest = std::ranges::min_element(choices, {}, distance);
   if (nearest == choices.end()) return "remove it";
   const std::size_t most = std::max<std::size_t>(1, std::min<std::size_t>(3, word.size() / 3));
-  if (distance(word, *nearest) <= most) return fmt::format("did you mean '{}'?", *nearest);
+  if (distance(*nearest) <= most) return fmt::format("did you mean '{}'?", *nearest);
   return fmt::format("write one of {}", fmt::join(choices, ", "));
 }
 

@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/fusion/bayes_fusion.hpp"
+// Bayes and top-3, which are made of products of distributions. Every distribution adds up to 1,
+// kOtherClasses included; an empty one says nothing.
+
+#include "core/fusion/fusion_rule.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace mapscore {
 namespace {
@@ -61,8 +65,7 @@ void multiply(const ClassBeliefs& factor, ClassBeliefs& beliefs) {
 std::vector<ClassProbability> by_weight(const ClassBeliefs& beliefs) {
   std::vector<ClassProbability> sorted(beliefs.entries().begin(), beliefs.entries().end());
   std::erase_if(sorted, [](const ClassProbability& e) { return e.class_id == kOtherClasses; });
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  std::ranges::stable_sort(sorted, std::greater{}, &ClassProbability::probability);
   return sorted;
 }
 
@@ -84,14 +87,14 @@ void keep_best(ClassBeliefs& beliefs) {
   double rest = beliefs.weight(kOtherClasses);
   for (std::size_t n = kKeptClasses; n < sorted.size(); ++n) rest += sorted[n].probability;
   sorted.resize(kKeptClasses);
-  std::sort(sorted.begin(), sorted.end(),
-            [](const auto& a, const auto& b) { return a.class_id < b.class_id; });
+  std::ranges::sort(sorted, {}, &ClassProbability::class_id);
   sorted.push_back({kOtherClasses, rest});
   beliefs = ClassBeliefs(std::move(sorted));
 }
 
-}  // namespace
-
+/// p(c | z) of one frame: the mean over its draws. A draw that class c won with mean score s says
+/// s for c, and 1 - s for the others in proportion to their priors; a draw that missed the voxel
+/// says the prior. s is kept within [doubt, 1 - doubt].
 ClassBeliefs observed(const BayesRule& rule, std::span<const VoxelHit> hits, int draws) {
   double missed = draws;   // draws that say the prior
   double elsewhere = 0.0;  // what the hits leave for other classes, over their priors
@@ -113,13 +116,18 @@ ClassBeliefs observed(const BayesRule& rule, std::span<const VoxelHit> hits, int
   return beliefs;
 }
 
+/// The same with equal priors, and no more than its three most probable classes by name.
 ClassBeliefs observed(const Top3Rule& rule, std::span<const VoxelHit> hits, int draws) {
   ClassBeliefs beliefs = observed(BayesRule{uniform_priors(rule.classes), rule.doubt}, hits, draws);
   keep_best(beliefs);
   return beliefs;
 }
 
-ClassBeliefs product(const BayesRule& rule, const ClassBeliefs& a, const ClassBeliefs& b) {
+}  // namespace
+
+/// Proportional to a(c) b(c) / p(c), over the classes that either names and the others as one. A
+/// class that one side does not name has its share of that side's others by the priors.
+ClassBeliefs merged(const BayesRule& rule, const ClassBeliefs& a, const ClassBeliefs& b) {
   if (a.empty() || b.empty()) return a.empty() ? b : a;
   ClassBeliefs whole = a, factor = b;
   name_classes_of(rule, b, whole);
@@ -132,7 +140,9 @@ ClassBeliefs product(const BayesRule& rule, const ClassBeliefs& a, const ClassBe
   return whole;
 }
 
-ClassBeliefs product(const Top3Rule& rule, const ClassBeliefs& a, const ClassBeliefs& b) {
+/// [R, algorithm 1]: classes that one side lacks are split off its rest by lambda, the most
+/// probable first; then a(c) b(c), normalised, of which the best three stay.
+ClassBeliefs merged(const Top3Rule& rule, const ClassBeliefs& a, const ClassBeliefs& b) {
   if (a.empty() || b.empty()) return a.empty() ? b : a;
   ClassBeliefs whole = a, factor = b;
   split_off(rule.lambda, a, factor);
@@ -141,6 +151,14 @@ ClassBeliefs product(const Top3Rule& rule, const ClassBeliefs& a, const ClassBel
   normalise(whole);
   keep_best(whole);
   return whole;
+}
+
+void fuse(const BayesRule& rule, std::span<const VoxelHit> hits, int draws, ClassBeliefs& beliefs) {
+  beliefs = merged(rule, beliefs, observed(rule, hits, draws));
+}
+
+void fuse(const Top3Rule& rule, std::span<const VoxelHit> hits, int draws, ClassBeliefs& beliefs) {
+  beliefs = merged(rule, beliefs, observed(rule, hits, draws));
 }
 
 }  // namespace mapscore

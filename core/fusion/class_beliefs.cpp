@@ -12,10 +12,6 @@ namespace {
 /// Probabilities that were added up in doubles stay below it; the least sum of counts above 1 is 2.
 constexpr double kMostProbability = 1.5;
 
-bool before(const ClassProbability& entry, ClassId class_id) {
-  return entry.class_id < class_id;
-}
-
 }  // namespace
 
 bool ClassBeliefs::well_formed() const {
@@ -27,12 +23,12 @@ bool ClassBeliefs::well_formed() const {
 }
 
 double ClassBeliefs::weight(ClassId class_id) const {
-  const auto place = std::lower_bound(entries_.begin(), entries_.end(), class_id, before);
+  const auto place = std::ranges::lower_bound(entries_, class_id, {}, &ClassProbability::class_id);
   return place != entries_.end() && place->class_id == class_id ? place->probability : 0.0;
 }
 
 double& ClassBeliefs::weight_of(ClassId class_id) {
-  auto place = std::lower_bound(entries_.begin(), entries_.end(), class_id, before);
+  auto place = std::ranges::lower_bound(entries_, class_id, {}, &ClassProbability::class_id);
   if (place == entries_.end() || place->class_id != class_id)
     place = entries_.insert(place, {class_id, 0.0});
   return place->probability;

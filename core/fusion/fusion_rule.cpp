@@ -4,12 +4,12 @@
 #include "core/fusion/fusion_rule.hpp"
 
 #include "core/error.hpp"
-#include "core/fusion/bayes_fusion.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <type_traits>
 
 namespace mapscore {
@@ -44,29 +44,6 @@ void keep_surer(const ClassProbability& candidate, ClassBeliefs& beliefs) {
     beliefs = ClassBeliefs({candidate});
 }
 
-ClassBeliefs merged_by(const BlendRule&, const ClassBeliefs&, const ClassBeliefs&) {
-  throw Error(
-      "blend: maps made by it cannot be merged, since each frame outweighs those before it; map "
-      "all frames in one run, or use another fusion rule");
-}
-ClassBeliefs merged_by(const MaxConfidenceRule&, const ClassBeliefs& a, const ClassBeliefs& b) {
-  ClassBeliefs sum = a;
-  for (const ClassProbability& entry : b.entries()) keep_surer(entry, sum);
-  return sum;
-}
-ClassBeliefs merged_by(const VoteRule&, const ClassBeliefs& a, const ClassBeliefs& b) {
-  ClassBeliefs sum = a;
-  for (const ClassProbability& entry : b.entries())
-    sum.weight_of(entry.class_id) += entry.probability;
-  return sum;
-}
-ClassBeliefs merged_by(const BayesRule& rule, const ClassBeliefs& a, const ClassBeliefs& b) {
-  return product(rule, a, b);
-}
-ClassBeliefs merged_by(const Top3Rule& rule, const ClassBeliefs& a, const ClassBeliefs& b) {
-  return product(rule, a, b);
-}
-
 ClassBeliefs mean_of(std::span<const ClassBeliefs* const> children) {
   ClassBeliefs mean;
   int count = 0;
@@ -99,6 +76,26 @@ std::vector<double> priors_of(const std::vector<double>& given, const ClassTable
   return priors;
 }
 
+/// Sums of scores of 1 or a little less are rounded up by no more.
+constexpr double kRounding = 1e-9;
+
+std::size_t classes_of(const FusionRule& rule, std::size_t class_count) {
+  if (const auto* bayes = std::get_if<BayesRule>(&rule))
+    return std::min(class_count, bayes->priors.size());
+  if (const auto* top3 = std::get_if<Top3Rule>(&rule))
+    return std::min(class_count, static_cast<std::size_t>(top3->classes));
+  return class_count;
+}
+
+void check_hit(const VoxelHit& hit, std::size_t classes) {
+  if (hit.class_id >= classes)
+    throw Error("hits: class " + std::to_string(hit.class_id) + " is beyond the table of " +
+                std::to_string(classes) + " classes; map with the table of the detections");
+  if (hit.draws < 1) throw Error("hits: a class is listed that won no draw; leave it out");
+  if (!(hit.score_sum >= 0.0 && hit.score_sum <= hit.draws * (1.0 + kRounding)))
+    throw Error("hits: the scores of a class do not lie in (0, 1]; give detections such scores");
+}
+
 }  // namespace
 
 std::vector<double> uniform_priors(int classes) {
@@ -129,6 +126,24 @@ void check(const FusionRule& rule) {
       rule);
 }
 
+void check_fusion(std::span<const VoxelHit> hits, int draws, const FusionRule& rule,
+                  std::size_t class_count) {
+  check(rule);
+  if (draws < 1) throw Error("N: the number of draws must be at least 1");
+  const std::size_t classes = classes_of(rule, class_count);
+  int in_voxel = 0;
+  for (std::size_t n = 0; n < hits.size(); ++n) {
+    check_hit(hits[n], classes);
+    const bool same = n > 0 && hits[n].key == hits[n - 1].key;
+    in_voxel = (same ? in_voxel : 0) + hits[n].draws;
+    if (in_voxel > draws)
+      throw Error("N: a voxel was hit by more than N draws; give the N that it was placed with");
+    if (n > 0 &&
+        std::tie(hits[n - 1].key, hits[n - 1].class_id) >= std::tie(hits[n].key, hits[n].class_id))
+      throw Error("hits: must ascend by voxel, then class; give them as placed");
+  }
+}
+
 void decay(const BlendRule& rule, ClassBeliefs& beliefs) {
   for (ClassProbability& entry : beliefs.entries()) entry.probability *= rule.K;
   beliefs.forget_below(kForgotten);
@@ -150,16 +165,23 @@ void fuse(const VoteRule&, std::span<const VoxelHit> hits, int, ClassBeliefs& be
   for (const VoxelHit& hit : hits) beliefs.weight_of(hit.class_id) += hit.draws;
 }
 
-void fuse(const BayesRule& rule, std::span<const VoxelHit> hits, int draws, ClassBeliefs& beliefs) {
-  beliefs = product(rule, beliefs, observed(rule, hits, draws));
+ClassBeliefs merged(const BlendRule&, const ClassBeliefs&, const ClassBeliefs&) {
+  throw Error(
+      "blend: maps made by it cannot be merged, since each frame outweighs those before it; map "
+      "all frames in one run, or use another fusion rule");
 }
 
-void fuse(const Top3Rule& rule, std::span<const VoxelHit> hits, int draws, ClassBeliefs& beliefs) {
-  beliefs = product(rule, beliefs, observed(rule, hits, draws));
+ClassBeliefs merged(const MaxConfidenceRule&, const ClassBeliefs& a, const ClassBeliefs& b) {
+  ClassBeliefs sum = a;
+  for (const ClassProbability& entry : b.entries()) keep_surer(entry, sum);
+  return sum;
 }
 
-ClassBeliefs merged(const FusionRule& rule, const ClassBeliefs& a, const ClassBeliefs& b) {
-  return std::visit([&](const auto& kind) { return merged_by(kind, a, b); }, rule);
+ClassBeliefs merged(const VoteRule&, const ClassBeliefs& a, const ClassBeliefs& b) {
+  ClassBeliefs sum = a;
+  for (const ClassProbability& entry : b.entries())
+    sum.weight_of(entry.class_id) += entry.probability;
+  return sum;
 }
 
 ClassBeliefs combined(const FusionRule& rule, std::span<const ClassBeliefs* const> children) {

@@ -6,8 +6,8 @@
 #include "core/classes.hpp"
 #include "core/fusion/class_beliefs.hpp"
 #include "core/parameters.hpp"
+#include "core/placement/placement.hpp"
 #include "core/placement/pose_belief.hpp"
-#include "core/placement/voxel_hit.hpp"
 
 #include <array>
 #include <concepts>
@@ -160,6 +160,12 @@ struct Fusion {
 /// Throws Error naming the parameter that is out of range.
 void check(const FusionRule& rule);
 
+/// Throws Error when the rule is out of range, `draws` < 1, or hits are not ascending by voxel and
+/// class, have no draws or more than `draws` in a voxel, a sum of scores outside [0, draws], or a
+/// class beyond `class_count` or the rule's own classes.
+void check_fusion(std::span<const VoxelHit> hits, int draws, const FusionRule& rule,
+                  std::size_t class_count);
+
 /// Changes the beliefs of one voxel by its hits in one frame: ascending by class, at least one,
 /// each with 1 to `draws` draws and at most `draws` in all; `draws` is N. Class ids must lie within
 /// the rule's classes. Neither rule nor hits are checked here (SemanticMap::fuse does).
@@ -181,8 +187,20 @@ void decay(const BlendRule& rule, ClassBeliefs& beliefs);
 /// What a voxel of two maps believes, maps of two halves of the frames. Equals the map of all of
 /// them under max confidence and vote, under Bayes up to rounding, under top-3 nearly. Throws
 /// Error under the blend, which forgets how many frames hit a voxel.
-[[nodiscard]] ClassBeliefs merged(const FusionRule& rule, const ClassBeliefs& a,
+[[nodiscard]] ClassBeliefs merged(const BlendRule& rule, const ClassBeliefs& a,
                                   const ClassBeliefs& b);
+[[nodiscard]] ClassBeliefs merged(const MaxConfidenceRule& rule, const ClassBeliefs& a,
+                                  const ClassBeliefs& b);
+[[nodiscard]] ClassBeliefs merged(const VoteRule& rule, const ClassBeliefs& a,
+                                  const ClassBeliefs& b);
+[[nodiscard]] ClassBeliefs merged(const BayesRule& rule, const ClassBeliefs& a,
+                                  const ClassBeliefs& b);
+[[nodiscard]] ClassBeliefs merged(const Top3Rule& rule, const ClassBeliefs& a,
+                                  const ClassBeliefs& b);
+template <std::same_as<FusionRule> Rule>
+[[nodiscard]] ClassBeliefs merged(const Rule& rule, const ClassBeliefs& a, const ClassBeliefs& b) {
+  return std::visit([&](const auto& kind) { return merged(kind, a, b); }, rule);
+}
 
 /// What an inner node believes: under the blend the mean of its children, else them merged in
 /// their order. Children are those that exist; null pointers and empty beliefs say nothing.

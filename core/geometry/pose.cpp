@@ -40,14 +40,6 @@ Pose exp_pose(const Vector6& xi) {
   return pose;
 }
 
-Vector6 log_pose(const Pose& pose) {
-  const Eigen::AngleAxisd rotation(pose.linear());
-  const Eigen::Vector3d omega = rotation.angle() * rotation.axis();
-  Vector6 xi;
-  xi << left_jacobian(omega).inverse() * pose.translation(), omega;
-  return xi;
-}
-
 Pose planar_pose(double x_m, double y_m, double yaw_rad) {
   Pose pose = Pose::Identity();
   pose.linear() = exp_rotation(yaw_rad * Eigen::Vector3d::UnitZ());

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,17 @@ namespace mapscore {
 /// and cylinder (radius, half length along z; a capsule's without its caps), ellipsoid and box
 /// (half extents).
 enum class ShapeKind { plane, sphere, capsule, ellipsoid, cylinder, box, mesh };
+
+[[nodiscard]] constexpr const char* name_of(ShapeKind kind) {
+  constexpr std::array kNames{"plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+/// How many of the three sizes a kind uses; these must be above 0.
+[[nodiscard]] constexpr int sizes_of(ShapeKind kind) {
+  constexpr std::array kSizes{2, 1, 2, 3, 2, 3, 0};
+  return kSizes[static_cast<std::size_t>(kind)];
+}
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
@@ -32,10 +44,5 @@ struct Shape {
 
   [[nodiscard]] bool solid() const { return kind != ShapeKind::plane && kind != ShapeKind::mesh; }
 };
-
-[[nodiscard]] const char* name_of(ShapeKind kind);
-
-/// How many of the three sizes a kind uses; these must be above 0.
-[[nodiscard]] int sizes_of(ShapeKind kind);
 
 }  // namespace mapscore

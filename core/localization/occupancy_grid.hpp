@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace mapscore {
@@ -78,5 +80,23 @@ class OccupancyGrid {
 /// Flood fill: all unknown cells that are connected to `start` through edges become free. Does
 /// nothing unless `start` is an unknown cell of the grid.
 void flood_free(OccupancyGrid& grid, const GridCell& start);
+
+/// Distance in metres along a ray to where it enters the first occupied cell, 0 from inside one;
+/// nothing when there is none within `range_m`. Visits every cell that the ray passes through, in
+/// order (J. Amanatides and A. Woo, A Fast Voxel Traversal Algorithm for Ray Tracing, Eurographics
+/// 1987); a ray through a corner enters the diagonal cell by way of its neighbour along y. Unknown
+/// cells and the space beyond the grid are passed through.
+[[nodiscard]] std::optional<double> cast_ray(const OccupancyGrid& grid,
+                                             const Eigen::Vector2d& from_map, double angle_rad,
+                                             double range_m);
+
+/// Squared distance of a cell when no cell is occupied.
+inline constexpr std::int64_t kNoObstacle = std::numeric_limits<std::int64_t>::max();
+
+/// Squared distance in cells from each cell's centre to that of the nearest occupied cell, exact;
+/// in the order of `grid.cells()`. Lower envelopes of parabolas, columns then rows: P. Felzenszwalb
+/// and D. Huttenlocher, Distance Transforms of Sampled Functions, Theory of Computing 8 (2012).
+/// Time is linear in the number of cells.
+[[nodiscard]] std::vector<std::int64_t> squared_distances(const OccupancyGrid& grid);
 
 }  // namespace mapscore

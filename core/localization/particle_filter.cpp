@@ -78,9 +78,14 @@ void smooth(std::vector<PlanarPose>& poses, double share, const KldParams& kld,
   }
 }
 
-/// What the map's cells add to the covariance of a position.
+/// What the grid's resolution r adds to the covariance of a position on each axis: a surface lies
+/// anywhere in its cell, with variance r^2 / 12, and a position that rests on four of them has r^2
+/// /
+/// 48. All scans that see these surfaces share this error, so more beams do not reduce it.
 Eigen::Matrix3d map_covariance(const ScanModel& model) {
-  const double sigma = std::visit([](const auto& scans) { return scans.map_sigma_m(); }, model);
+  const GridFrame& frame =
+      std::visit([](const auto& scans) -> const GridFrame& { return scans.frame(); }, model);
+  const double sigma = frame.resolution_m / std::sqrt(48.0);
   return Eigen::Vector3d(sigma * sigma, sigma * sigma, 0.0).asDiagonal();
 }
 
@@ -174,19 +179,16 @@ void ParticleFilter::predict(const OdometryMotion& motion, const MotionSigmas& s
 
 void ParticleFilter::weigh(const LaserScan& scan) {
   std::vector<double> news(poses_.size());
-  Runs runs(poses_.size(), kRunOfParticles);
   const std::span<const PlanarPose> poses(poses_);
   const std::span<double> results(news);
-  run_jobs(params_.jobs, [&](int) {
-    for (Runs::Run run; runs.next(run);) {
-      const std::size_t count = run.last - run.first;
-      std::visit(
-          [&](const auto& model) {
-            model.log_likelihoods(scan, poses.subspan(run.first, count),
-                                  results.subspan(run.first, count));
-          },
-          *model_);
-    }
+  const std::size_t runs = (poses.size() + kRunOfParticles - 1) / kRunOfParticles;
+  for_each_in_parallel(runs, params_.jobs, [&](std::size_t run) {
+    const std::size_t first = run * kRunOfParticles;
+    const std::size_t count = std::min(kRunOfParticles, poses.size() - first);
+    const auto weigh_run = [&](const auto& model) {
+      model.log_likelihoods(scan, poses.subspan(first, count), results.subspan(first, count));
+    };
+    std::visit(weigh_run, *model_);
   });
   const double wanted = std::min(params_.least_effective * static_cast<double>(poses_.size()),
                                  0.999 * effective_sample_size(weights_));

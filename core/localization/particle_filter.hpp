@@ -4,13 +4,12 @@
 #pragma once
 
 #include "core/localization/odometry_motion.hpp"
-#include "core/localization/pose_estimate.hpp"
+#include "core/localization/planar_pose.hpp"
 #include "core/localization/resampling.hpp"
 #include "core/localization/scan_likelihood.hpp"
 #include "core/parameters.hpp"
 #include "core/placement/pose_belief.hpp"
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <memory>
 #include <span>

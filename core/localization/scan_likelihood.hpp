@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "core/localization/laser_scan.hpp"
 #include "core/localization/occupancy_grid.hpp"
+#include "core/localization/planar_pose.hpp"
 #include "core/parameters.hpp"
 
 #include <cstddef>
@@ -13,6 +13,27 @@
 #include <vector>
 
 namespace mapscore {
+
+/// One turn of a planar lidar, as sensor_msgs/LaserScan has it. Beam n points along first_angle_rad
+/// + n angle_step_rad in the lidar's frame. A range that is not a number, or below range_min_m, is
+/// no measurement; one of range_max_m or more (infinity too) says that nothing was hit.
+struct LaserScan {
+  PlanarPose T_base_lidar;
+  double first_angle_rad = 0.0, angle_step_rad = 0.0;
+  double range_min_m = 0.0, range_max_m = 12.0;
+  std::vector<float> ranges_m;
+};
+
+/// One beam as a model uses it: direction in the lidar's frame; `hit` false when nothing was hit
+/// within the lidar's range, which is then `range_m`.
+struct Beam {
+  double angle_rad = 0.0, range_m = 0.0;
+  bool hit = true;
+};
+
+/// At most `count` beams, evenly spread over the scan: beams floor(n size / count). Of these, those
+/// that measured nothing are left out. Throws Error when the scan's numbers are not usable.
+[[nodiscard]] std::vector<Beam> beams_of(const LaserScan& scan, std::size_t count);
 
 /// What both models have in common.
 void scan_model_fields(auto& s, auto&& visit) {
@@ -31,7 +52,7 @@ struct LikelihoodFieldParams {
   double z_hit = 0.9, z_rand = 0.1;  ///< shares; sum 1
   /// Exponent of the scan's likelihood. Beams are not independent: neighbours share the map's
   /// errors. A scan is worth `temper` times as many independent beams as it has. The error that all
-  /// beams share, and that more beams do not reduce, is map_sigma.
+  /// beams share, and that more beams do not reduce, is the map's (ParticleFilter).
   double temper = 0.8;
 
   static void fields(auto& s, auto&& visit) { scan_model_fields(s, visit); }
@@ -50,12 +71,6 @@ struct BeamModelParams {
   bool operator==(const BeamModelParams&) const = default;
 };
 
-/// Standard deviation, on each axis, of the position error due to the grid's resolution r, metres:
-/// a surface lies anywhere in its cell, with variance r^2 / 12, and a position that rests on four
-/// of them has r^2 / 48. All scans that see these surfaces share this error, so more beams do not
-/// reduce it: the filter adds it to its covariance.
-[[nodiscard]] double map_sigma(const GridFrame& frame);
-
 /// ln p(scan | pose, map) of the likelihood field, up to a constant:
 ///
 ///   temper * sum over beams of ln(z_hit N(d; 0, sigma_hit) + z_rand / range_max)
@@ -69,8 +84,7 @@ class LikelihoodField {
   LikelihoodField(const OccupancyGrid& grid, const LikelihoodFieldParams& params,
                   double range_max_m);
 
-  /// See map_sigma.
-  [[nodiscard]] double map_sigma_m() const { return map_sigma(frame_); }
+  [[nodiscard]] const GridFrame& frame() const { return frame_; }
   /// One number for each pose T_map_base. Throws Error as beams_of.
   void log_likelihoods(const LaserScan& scan, std::span<const PlanarPose> poses,
                        std::span<double> results) const;
@@ -96,8 +110,7 @@ class BeamModel {
   /// Throws Error naming the parameter that is out of range. `range_max_m` is the lidar's.
   BeamModel(const OccupancyGrid& grid, const BeamModelParams& params, double range_max_m);
 
-  /// See map_sigma.
-  [[nodiscard]] double map_sigma_m() const { return map_sigma(grid_.frame()); }
+  [[nodiscard]] const GridFrame& frame() const { return grid_.frame(); }
   /// One number for each pose T_map_base. Throws Error as beams_of.
   void log_likelihoods(const LaserScan& scan, std::span<const PlanarPose> poses,
                        std::span<double> results) const;

@@ -4,13 +4,12 @@
 #pragma once
 
 #include "core/geometry/voxel.hpp"
-#include "core/space/space_blocks.hpp"
+#include "core/space/space_grid.hpp"
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace mapscore {
 

@@ -30,8 +30,7 @@ class LevelReader {
 
   std::vector<CoarseVoxel> read() {
     if (tree_.getRoot() != nullptr) descend(tree_.getRoot(), tree_.getTreeDepth(), {});
-    std::sort(voxels_.begin(), voxels_.end(),
-              [](const CoarseVoxel& a, const CoarseVoxel& b) { return a.key < b.key; });
+    std::ranges::sort(voxels_, {}, &CoarseVoxel::key);
     return std::move(voxels_);
   }
 
@@ -39,20 +38,13 @@ class LevelReader {
   /// `low`: in voxels of the node's own size, from the tree's low corner.
   void descend(const SemanticOcTreeNode* node, unsigned level, const VoxelKey& low) {
     if (level == level_) return add(low, content(node, level));
-    if (!tree_.nodeHasChildren(node)) return spread(low, level, content(node, level_));
-    for (int index = 0; index < 8; ++index)
-      if (tree_.nodeChildExists(node, static_cast<unsigned>(index)))
-        descend(tree_.getNodeChild(node, static_cast<unsigned>(index)), level - 1,
+    const bool is_leaf = !tree_.nodeHasChildren(node);
+    for (int index = 0; index < 8; ++index) {
+      const auto child = static_cast<unsigned>(index);
+      if (is_leaf || tree_.nodeChildExists(node, child))
+        descend(is_leaf ? node : tree_.getNodeChild(node, child), level - 1,
                 {2 * low.i + (index & 1), 2 * low.j + (index >> 1 & 1), 2 * low.k + (index >> 2)});
-  }
-
-  /// A pruned leaf above the level that is read.
-  void spread(const VoxelKey& low, unsigned level, const Content& content) {
-    const std::int32_t span = 1 << (level - level_);
-    for (std::int32_t i = 0; i < span; ++i)
-      for (std::int32_t j = 0; j < span; ++j)
-        for (std::int32_t k = 0; k < span; ++k)
-          add({low.i * span + i, low.j * span + j, low.k * span + k}, content);
+    }
   }
 
   void add(const VoxelKey& low, const Content& content) {

@@ -6,13 +6,20 @@
 #include "core/geometry/depth_rays.hpp"
 #include "core/geometry/posed_depth.hpp"
 #include "core/placement/placement.hpp"
-#include "core/space/depth_view.hpp"
 
+#include <ctime>
 #include <utility>
 #include <variant>
 
 namespace mapscore {
 namespace {
+
+/// Processor time of this thread since its start.
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 /// Points of the depth image, in frame map.
 std::vector<Eigen::Vector3d> points_of(const PosedDepth& seen) {

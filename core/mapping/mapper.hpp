@@ -3,11 +3,9 @@
 
 #pragma once
 
-#include "core/frame_times.hpp"
 #include "core/fusion/fusion_rule.hpp"
 #include "core/mapping/semantic_map.hpp"
-#include "core/parameters.hpp"
-#include "core/placement/observation.hpp"
+#include "core/placement/placement.hpp"
 #include "core/placement/pose_belief.hpp"
 #include "core/random_stream.hpp"
 #include "core/segmentation/segmentation.hpp"
@@ -36,6 +34,15 @@ struct Mapping {
   Place place = Place::points;
   Fusion fusion{};
   Carving occupancy{};
+};
+
+/// Processor time that a method spent on one frame, in seconds. Measured, so not the same twice.
+struct FrameTimes {
+  double segmentation_s = 0.0;  ///< registration, where a segmentation reads a point, and all
+                                ///< detections
+  double mapping_s = 0.0;       ///< drawing poses, placing, carving, fusing
+
+  [[nodiscard]] double total_s() const { return segmentation_s + mapping_s; }
 };
 
 /// Makes a semantic map of frames. Used by one thread at a time.

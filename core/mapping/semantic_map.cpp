@@ -4,30 +4,27 @@
 #include "core/mapping/semantic_map.hpp"
 
 #include "core/error.hpp"
-#include "core/fusion/frame_hits.hpp"
 #include "core/mapping/free_space.hpp"
+#include "core/mapping/map_resolution.hpp"
 #include "core/whole_file.hpp"
-
-#include <octomap/ColorOcTree.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <string>
 #include <utility>
 #include <variant>
 
 namespace mapscore {
 namespace {
 
-/// Calls `use(key)` for every finest voxel that a leaf stands for.
-void for_each_finest(const SemanticOcTree::leaf_iterator& leaf, const SemanticOcTree& tree,
-                     const auto& use) {
-  const int span = 1 << (tree.getTreeDepth() - leaf.getDepth());
-  const VoxelKey low = voxel_key(leaf.getIndexKey());
-  for (int i = 0; i < span; ++i)
-    for (int j = 0; j < span; ++j)
-      for (int k = 0; k < span; ++k) use(VoxelKey{low.i + i, low.j + j, low.k + k});
+/// Calls act(hits of one voxel) in their order.
+void for_each_voxel(std::span<const VoxelHit> hits, auto&& act) {
+  for (auto hit = hits.begin(); hit != hits.end();) {
+    const auto end =
+        std::find_if(hit, hits.end(), [&](const VoxelHit& h) { return h.key != hit->key; });
+    act(std::span<const VoxelHit>(hit, end));
+    hit = end;
+  }
 }
 
 }  // namespace
@@ -77,7 +74,7 @@ void SemanticMap::see(const Eigen::Vector3d& origin, std::span<const Eigen::Vect
 
 void SemanticMap::add_colours(std::span<const ColouredPoint> points) {
   for (const ColouredPoint& point : points) {
-    if (!(point.position.array().abs() < edge_m_ * (1 << 15)).all()) continue;
+    if (!(point.position.array().abs() < edge_m_ * kOctreeReach).all()) continue;
     const octomap::OcTreeKey key = octree_key(voxel_of(point.position, edge_m_));
     if (tree_->search(key) != nullptr) tree_->finest(key).mutable_colour().add(point.colour);
   }
@@ -92,12 +89,28 @@ void SemanticMap::merge(const SemanticMap& other, const FusionRule& rule) {
   hits_beyond_span_ += other.hits_beyond_span_;
 }
 
+void SemanticMap::decay_in_view(const DepthView& view, const BlendRule& rule,
+                                std::span<const VoxelHit> hits) {
+  check(rule);
+  const Eigen::AlignedBox3d box = view.box(edge_m_);
+  if (box.isEmpty()) return;
+  std::vector<VoxelKey> in_view;
+  for_each_leaf_in(*tree_, box, [&](const auto& leaf) {
+    if (leaf->beliefs().empty()) return;
+    for_each_finest(*tree_, leaf, [&](const VoxelKey& key) {
+      if (view.sees(key, edge_m_) && !std::ranges::binary_search(hits, key, {}, &VoxelHit::key))
+        in_view.push_back(key);
+    });
+  });
+  for (const VoxelKey& key : in_view) decay(rule, tree_->finest(octree_key(key)).mutable_beliefs());
+}
+
 std::vector<MapVoxel> SemanticMap::voxels() const {
   std::vector<MapVoxel> voxels;
   for (auto leaf = tree_->begin_leafs(), end = tree_->end_leafs(); leaf != end; ++leaf) {
     const ClassProbability best = leaf->best();
     const bool occupied = tree_->isNodeOccupied(*leaf);
-    for_each_finest(leaf, *tree_, [&](const VoxelKey& key) {
+    for_each_finest(*tree_, leaf, [&](const VoxelKey& key) {
       voxels.push_back({key, best.class_id, best.probability, occupied});
     });
   }
@@ -111,7 +124,7 @@ std::vector<BelievedVoxel> SemanticMap::believed_voxels() const {
     if (leaf->beliefs().empty()) continue;
     std::optional<Colour> colour;
     if (leaf->colour().count > 0) colour = leaf->colour().mean();
-    for_each_finest(leaf, *tree_, [&](const VoxelKey& key) {
+    for_each_finest(*tree_, leaf, [&](const VoxelKey& key) {
       voxels.push_back({key, leaf->beliefs(), colour});
     });
   }
@@ -133,12 +146,6 @@ std::span<const ClassProbability> SemanticMap::classes_at(const VoxelKey& key) c
   return node ? node->beliefs().entries() : std::span<const ClassProbability>();
 }
 
-std::optional<Colour> SemanticMap::colour_at(const VoxelKey& key) const {
-  const SemanticOcTreeNode* node = fits_octree(key) ? tree_->search(octree_key(key)) : nullptr;
-  if (node == nullptr || node->colour().count == 0) return std::nullopt;
-  return node->colour().mean();
-}
-
 void SemanticMap::save(const std::filesystem::path& file) const {
   WholeFile whole(file);
   tree_->write(whole.stream());
@@ -157,20 +164,7 @@ SemanticMap SemanticMap::load(const std::filesystem::path& file) {
 
 void SemanticMap::export_color(const std::filesystem::path& file, const ClassTable& table,
                                double threshold) const {
-  octomap::ColorOcTree coloured(edge_m_);
-  for (const MapVoxel& voxel : voxels()) {
-    if (!voxel.occupied || voxel.best_class == kBackground || voxel.probability < threshold)
-      continue;
-    if (voxel.best_class >= table.classes.size())
-      throw Error("map: class " + std::to_string(voxel.best_class) +
-                  " is not in the class table; export it with the table that it was made with");
-    const Colour colour = table.classes[voxel.best_class].colour;
-    coloured.updateNode(octree_key(voxel.key), true, true)->setColor(colour.r, colour.g, colour.b);
-  }
-  if (coloured.size() > 0) coloured.updateInnerOccupancy();
-  WholeFile whole(file);
-  coloured.write(whole.stream());
-  whole.finish();
+  export_color_at(*this, VoteRule{}, 1, Paint::classes, table, threshold, file);  // any rule: 1
 }
 
 }  // namespace mapscore

@@ -5,10 +5,10 @@
 
 #include "core/classes.hpp"
 #include "core/fusion/fusion_rule.hpp"
+#include "core/geometry/posed_depth.hpp"
 #include "core/geometry/voxel.hpp"
 #include "core/mapping/semantic_octree.hpp"
-#include "core/placement/voxel_hit.hpp"
-#include "core/space/depth_view.hpp"
+#include "core/placement/placement.hpp"
 #include "core/space/occupancy.hpp"
 
 #include <Eigen/Core>
@@ -91,8 +91,6 @@ class SemanticMap {
   /// Gives a voxel of the map other beliefs. Throws Error, the map unchanged, when it is not in the
   /// map or they are not well formed.
   void set_beliefs(const VoxelKey& key, ClassBeliefs beliefs);
-  /// Mean colour of one voxel; none when it is not in the map or no colour was seen there.
-  [[nodiscard]] std::optional<Colour> colour_at(const VoxelKey& key) const;
   [[nodiscard]] const SemanticOcTree& tree() const { return *tree_; }
 
   /// Writes the map as .ot (type SemanticOcTree), aside and then renamed. Throws Error.

@@ -4,12 +4,13 @@
 #include "core/mapping/semantic_octree.hpp"
 
 #include "core/error.hpp"
-#include "core/mapping/slot_pool.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <istream>
 #include <limits>
+#include <mutex>
+#include <new>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -19,8 +20,6 @@
 namespace mapscore {
 namespace {
 
-constexpr std::int32_t kOctreeOffset = 1 << 15;
-/// In a node's number of classes: a sum of colours follows them.
 constexpr const char* kMisfit = "its data do not fit its header; write it again";
 constexpr const char* kCutShort = "it is cut short; copy it whole or write it again";
 
@@ -60,13 +59,76 @@ OcTreeHeader read_header(std::istream& stream) {
   return header;
 }
 
+/// Memory for very many nodes, without an allocator's overhead for each. Slots given back are
+/// reused by the same thread, after its end by any thread; they never return to the system. Safe
+/// from all threads.
+class NodePool {
+ public:
+  static void* take() {
+    List& list = mine();
+    if (list.head == nullptr) list.head = shared().take_all();
+    Slot* slot = list.head;
+    list.head = slot->next;
+    return slot;
+  }
+  static void give(void* memory) noexcept {
+    List& list = mine();
+    list.head = new (memory) Slot{list.head};
+  }
+
+ private:
+  struct Slot {
+    Slot* next;
+  };
+  static constexpr std::size_t kBytes = sizeof(SemanticOcTreeNode);
+  static_assert(kBytes >= sizeof(Slot) && kBytes % alignof(Slot) == 0);
+  static constexpr std::size_t kSlotsAtOnce = 4096;
+
+  /// What ended threads gave back, and memory from the system.
+  struct Shared {
+    std::mutex mutex;
+    Slot* head = nullptr;
+
+    Slot* take_all() {
+      const std::lock_guard lock(mutex);
+      if (Slot* all = head) {
+        head = nullptr;
+        return all;
+      }
+      auto* bytes = static_cast<std::byte*>(::operator new(kSlotsAtOnce* kBytes));
+      Slot* first = nullptr;
+      for (std::size_t n = kSlotsAtOnce; n > 0; --n)
+        first = new (bytes + (n - 1) * kBytes) Slot{first};
+      return first;
+    }
+    void give_all(Slot* first) {
+      Slot* last = first;
+      while (last->next != nullptr) last = last->next;
+      const std::lock_guard lock(mutex);
+      last->next = head;
+      head = first;
+    }
+  };
+  /// Outlives every thread.
+  static Shared& shared() {
+    static Shared& shared = *new Shared;
+    return shared;
+  }
+
+  struct List {
+    Slot* head = nullptr;
+    ~List() {
+      if (head != nullptr) shared().give_all(head);
+      head = nullptr;
+    }
+  };
+  static List& mine() {
+    thread_local List list;
+    return list;
+  }
+};
+
 }  // namespace
-
-SemanticOcTreeNode::SemanticOcTreeNode(const SemanticOcTreeNode& other)
-    : octomap::OcTreeNode(other),
-      surface_(other.surface_ ? std::make_unique<Surface>(*other.surface_) : nullptr) {}
-
-using NodePool = SlotPool<sizeof(SemanticOcTreeNode)>;
 
 void* SemanticOcTreeNode::operator new(std::size_t bytes) {
   if (bytes != sizeof(SemanticOcTreeNode)) throw std::bad_alloc();
@@ -142,9 +204,7 @@ std::ostream& SemanticOcTreeNode::write_as(float log_odds, std::ostream& stream)
 }
 
 SemanticOcTree::SemanticOcTree(double edge_m)
-    : octomap::OccupancyOcTreeBase<SemanticOcTreeNode>(edge_m) {
-  initializer_.ensureLinking();
-}
+    : octomap::OccupancyOcTreeBase<SemanticOcTreeNode>(edge_m) {}
 
 std::unique_ptr<SemanticOcTree> SemanticOcTree::read_whole(std::istream& stream) {
   const OcTreeHeader header = read_header(stream);
@@ -218,30 +278,11 @@ std::ostream& SemanticOcTree::writeData(std::ostream& stream) const {
   return stream;
 }
 
-SemanticOcTree::StaticMemberInitializer::StaticMemberInitializer() {
-  auto* prototype =
-      new SemanticOcTree(0.1);  // OctoMap's registry keeps it to the end of the program
+const bool SemanticOcTree::kKnown = [] {
+  auto* prototype = new SemanticOcTree(0.1);  // OctoMap's registry keeps it to the program's end
   prototype->clearKeyRays();
-  octomap::AbstractOcTree::registerTreeType(prototype);
-}
-
-SemanticOcTree::StaticMemberInitializer SemanticOcTree::initializer_;
-
-octomap::OcTreeKey octree_key(const VoxelKey& key) {
-  return {static_cast<octomap::key_type>(key.i + kOctreeOffset),
-          static_cast<octomap::key_type>(key.j + kOctreeOffset),
-          static_cast<octomap::key_type>(key.k + kOctreeOffset)};
-}
-
-VoxelKey voxel_key(const octomap::OcTreeKey& key) {
-  return {key[0] - kOctreeOffset, key[1] - kOctreeOffset, key[2] - kOctreeOffset};
-}
-
-bool fits_octree(const VoxelKey& key) {
-  const auto fits = [](std::int32_t index) {
-    return index >= -kOctreeOffset && index < kOctreeOffset;
-  };
-  return fits(key.i) && fits(key.j) && fits(key.k);
-}
+  registerTreeType(prototype);
+  return true;
+}();
 
 }  // namespace mapscore

@@ -7,13 +7,13 @@
 #include "core/fusion/class_beliefs.hpp"
 #include "core/fusion/fusion_rule.hpp"
 #include "core/geometry/voxel.hpp"
-#include "core/mapping/colour_sum.hpp"
 #include "core/space/occupancy.hpp"
-#include "core/space/space_blocks.hpp"
+#include "core/space/space_grid.hpp"
 
 #include <octomap/OcTreeNode.h>
 #include <octomap/OccupancyOcTreeBase.h>
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
@@ -30,15 +30,31 @@ inline constexpr std::size_t kMostMapVoxels = 50'000'000;
 /// In a file, the bit of a voxel's number of classes that says that its colour follows them.
 inline constexpr std::uint16_t kHasColour = 0x8000;
 
+/// Sum of the colours seen in a voxel, whose mean is exact in any order; 2^24 of them at most.
+struct ColourSum {
+  std::uint32_t r = 0, g = 0, b = 0, count = 0;
+
+  bool operator==(const ColourSum&) const = default;
+
+  void add(const Colour& colour) { *this += {colour.r, colour.g, colour.b, 1}; }
+  ColourSum& operator+=(const ColourSum& other) {
+    r += other.r, g += other.g, b += other.b, count += other.count;
+    return *this;
+  }
+  /// Rounded to the nearest; black where there is none.
+  [[nodiscard]] Colour mean() const {
+    const auto channel = [&](std::uint32_t sum) {
+      return static_cast<std::uint8_t>(count == 0 ? 0 : (sum + count / 2) / count);
+    };
+    return {channel(r), channel(g), channel(b)};
+  }
+};
+
 /// Voxel of a semantic map: occupancy log-odds (OctoMap's), and where a surface was seen its mean
 /// colour and what is believed of its class. Free voxels, which are most of a carved map, hold
 /// neither and take 24 bytes.
 class SemanticOcTreeNode : public octomap::OcTreeNode {
  public:
-  SemanticOcTreeNode() = default;
-  SemanticOcTreeNode(const SemanticOcTreeNode& other);
-  SemanticOcTreeNode& operator=(const SemanticOcTreeNode&) = delete;
-
   static void* operator new(std::size_t bytes);
   static void* operator new(std::size_t, void* place) { return place; }
   static void operator delete(void* node) noexcept;
@@ -107,6 +123,11 @@ class SemanticOcTree : public octomap::OccupancyOcTreeBase<SemanticOcTreeNode> {
   class Merge;
   /// The root, made where there is none, and whether it was.
   std::pair<SemanticOcTreeNode*, bool> root_or_new();
+  /// The same of a child.
+  std::pair<SemanticOcTreeNode*, bool> child_or_new(SemanticOcTreeNode* node, unsigned index) {
+    if (nodeChildExists(node, index)) return {getNodeChild(node, index), false};
+    return {createNodeChild(node, index), true};
+  }
   /// Makes children of a pruned leaf.
   void expand_leaf(SemanticOcTreeNode* node);
 
@@ -122,18 +143,52 @@ class SemanticOcTree : public octomap::OccupancyOcTreeBase<SemanticOcTreeNode> {
   void write_node(const SemanticOcTreeNode* node, const float*& next, std::ostream& stream) const;
 
   /// Makes the type known to octomap::AbstractOcTree::read.
-  class StaticMemberInitializer {
-   public:
-    StaticMemberInitializer();
-    void ensureLinking() {}
-  };
-  static StaticMemberInitializer initializer_;
+  static const bool kKnown;
 };
 
+/// An octree spans this many voxels on either side of the origin.
+inline constexpr std::int32_t kOctreeReach = 1 << 15;
+
+/// Whether the voxel lies within the octree's span.
+[[nodiscard]] inline bool fits_octree(const VoxelKey& key) {
+  const auto fits = [](std::int32_t index) {
+    return index >= -kOctreeReach && index < kOctreeReach;
+  };
+  return fits(key.i) && fits(key.j) && fits(key.k);
+}
+
 /// OctoMap's key of a voxel: its index plus 2^15.
-[[nodiscard]] octomap::OcTreeKey octree_key(const VoxelKey& key);
-[[nodiscard]] VoxelKey voxel_key(const octomap::OcTreeKey& key);
-/// Whether the voxel lies within the +-2^15 voxels that an octree spans on each axis.
-[[nodiscard]] bool fits_octree(const VoxelKey& key);
+[[nodiscard]] inline octomap::OcTreeKey octree_key(const VoxelKey& key) {
+  return {static_cast<octomap::key_type>(key.i + kOctreeReach),
+          static_cast<octomap::key_type>(key.j + kOctreeReach),
+          static_cast<octomap::key_type>(key.k + kOctreeReach)};
+}
+[[nodiscard]] inline VoxelKey voxel_key(const octomap::OcTreeKey& key) {
+  return {key[0] - kOctreeReach, key[1] - kOctreeReach, key[2] - kOctreeReach};
+}
+
+/// Calls `use(leaf)` with an iterator at every leaf with voxels in a box (metres; what lies beyond
+/// the span counts as the last voxel there).
+void for_each_leaf_in(const SemanticOcTree& tree, const Eigen::AlignedBox3d& box, const auto& use) {
+  const auto key_within = [&](const Eigen::Vector3d& p) {
+    const Eigen::Array3d index = (p / tree.getResolution()).array().floor();
+    const Eigen::Array3i fitting =
+        index.max(-kOctreeReach).min(kOctreeReach - 1).cast<std::int32_t>();
+    return octree_key({fitting.x(), fitting.y(), fitting.z()});
+  };
+  const auto end = tree.end_leafs_bbx();
+  for (auto leaf = tree.begin_leafs_bbx(key_within(box.min()), key_within(box.max())); leaf != end;
+       ++leaf)
+    use(leaf);
+}
+
+/// Calls `use(key)` for every finest voxel that the leaf stands for at which an iterator is.
+void for_each_finest(const SemanticOcTree& tree, const auto& leaf, const auto& use) {
+  const int span = 1 << (tree.getTreeDepth() - leaf.getDepth());
+  const VoxelKey low = voxel_key(leaf.getIndexKey());
+  for (int i = 0; i < span; ++i)
+    for (int j = 0; j < span; ++j)
+      for (int k = 0; k < span; ++k) use(VoxelKey{low.i + i, low.j + j, low.k + k});
+}
 
 }  // namespace mapscore

@@ -38,9 +38,38 @@ struct MapObject {
   int age = 0;               ///< of these, since the last detection
   /// (1 + sum of its detections' scores) / (2 + observations + misses), Laplace's rule.
   double confidence = 0.5;
-  /// Least covers of its latest detections along the axes of `box`, in coordinates with these axes
-  /// and the map's origin; what the quantile rule reads (object_merge.hpp). Not in files.
+  /// Least covers of its latest 200 detections along the axes of `box`, in coordinates with these
+  /// axes and the map's origin; what the quantile rule reads. Not in files.
   std::vector<Eigen::AlignedBox3d> views{};
 };
+
+/// How a box takes in another of the same object, face by face along its own axes; the other stands
+/// in with its least cover along these.
+enum class BoxUpdate {
+  hull,     ///< the farther face stands: right for exact views of parts
+  mean,     ///< mean of the faces, weighted by observations: wrong views wash out, parts shrink it
+  quantile  ///< quantile of each face over the views, counted outwards: few wrong views and many
+            ///< parts do nothing
+};
+
+/// The rule, and for `quantile` its share s in (0, 1]: of n views each face is the ceil(s n)-th,
+/// counted outwards; 1: the hull of the views.
+struct BoxMerge {
+  BoxUpdate rule = BoxUpdate::quantile;
+  double share = 0.75;
+};
+
+/// `object` after one more detection, at `stamp_s`: box, observations, confidence, age 0. Its model
+/// stays unless the detection names one. An object without views (of a file) counts as
+/// `observations` views of its box.
+[[nodiscard]] MapObject updated(const MapObject& object, const ObjectDetection& detection,
+                                double stamp_s, const BoxMerge& merge);
+
+/// Two objects that turned out to be one: id of the lower, axes of the one with more observations
+/// (ties: the lower id), counts added, the later stamp with its age (ties: the lesser age).
+[[nodiscard]] MapObject merged(const MapObject& a, const MapObject& b, const BoxMerge& merge);
+
+/// `object` after a frame in which it should have been seen and was not.
+[[nodiscard]] MapObject missed(const MapObject& object);
 
 }  // namespace mapscore

@@ -16,14 +16,10 @@ constexpr double kSamePlane_m = 1e-9;
 
 using Polygon = std::vector<Eigen::Vector3d>;
 
-/// Points p with normal . p <= offset.
-struct HalfSpace {
-  Eigen::Vector3d normal;
-  double offset_m;
-};
-
+/// Points p of the box have normal . p <= offset.
 struct Face {
-  HalfSpace plane;  ///< outwards
+  Eigen::Vector3d normal;  ///< outwards
+  double offset_m;
   Polygon corners;  ///< counter-clockwise seen from outside
 };
 
@@ -39,21 +35,21 @@ std::array<Face, 6> faces_of(const ObjectBox& box) {
       const Eigen::Vector3d normal = side * axes.col(axis);
       Polygon corners{middle - a - b, middle + a - b, middle + a + b, middle - a + b};
       if (side < 0) std::reverse(corners.begin(), corners.end());
-      faces[static_cast<std::size_t>(2 * axis + (side > 0))] = {{normal, normal.dot(middle)},
+      faces[static_cast<std::size_t>(2 * axis + (side > 0))] = {normal, normal.dot(middle),
                                                                 std::move(corners)};
     }
   }
   return faces;
 }
 
-/// Sutherland and Hodgman: the part of a convex polygon within a half-space widened by
-/// kSamePlane_m.
-Polygon clipped(const Polygon& polygon, const HalfSpace& half) {
+/// Sutherland and Hodgman: the part of a convex polygon on the inner side of a
+/// face, widened by kSamePlane_m.
+Polygon clipped(const Polygon& polygon, const Face& face) {
   Polygon kept;
   for (std::size_t n = 0; n < polygon.size(); ++n) {
     const Eigen::Vector3d &from = polygon[n], &to = polygon[(n + 1) % polygon.size()];
-    const double out_from = half.normal.dot(from) - half.offset_m - kSamePlane_m;
-    const double out_to = half.normal.dot(to) - half.offset_m - kSamePlane_m;
+    const double out_from = face.normal.dot(from) - face.offset_m - kSamePlane_m;
+    const double out_to = face.normal.dot(to) - face.offset_m - kSamePlane_m;
     if (out_from <= 0.0) kept.push_back(from);
     if ((out_from < 0.0 && out_to > 0.0) || (out_from > 0.0 && out_to < 0.0))
       kept.push_back(from + out_from / (out_from - out_to) * (to - from));
@@ -69,8 +65,8 @@ double area_m2(const Polygon& polygon, const Eigen::Vector3d& normal) {
 }
 
 bool same_plane(const Face& a, const Face& b) {
-  return (a.plane.normal - b.plane.normal).norm() < kSamePlane_m &&
-         std::abs(a.plane.offset_m - b.plane.offset_m) < 2.0 * kSamePlane_m;
+  return (a.normal - b.normal).norm() < kSamePlane_m &&
+         std::abs(a.offset_m - b.offset_m) < 2.0 * kSamePlane_m;
 }
 
 /// Flux of (p - origin) through the parts of `faces` within `other`. `again`: faces that lie on one
@@ -82,8 +78,8 @@ double flux(const std::array<Face, 6>& faces, const std::array<Face, 6>& other,
     const auto shared = [&](const Face& of) { return same_plane(face, of); };
     if (again && std::any_of(other.begin(), other.end(), shared)) continue;
     Polygon part = face.corners;
-    for (const Face& of : other) part = clipped(part, of.plane);
-    sum += area_m2(part, face.plane.normal) * (face.plane.offset_m - face.plane.normal.dot(origin));
+    for (const Face& of : other) part = clipped(part, of);
+    sum += area_m2(part, face.normal) * (face.offset_m - face.normal.dot(origin));
   }
   return sum;
 }
@@ -108,19 +104,11 @@ Eigen::AlignedBox3d ObjectBox::bounds() const {
   return cover_in(Pose::Identity(), *this);
 }
 
-ObjectBox ObjectBox::widened(double margin_m) const {
-  return {T_frame_box, (size_m.array() + 2.0 * margin_m).matrix()};
-}
-
 ObjectBox oriented(const Eigen::AlignedBox3d& box) {
   ObjectBox result;
   result.T_frame_box.translation() = box.center();
   result.size_m = box.sizes();
   return result;
-}
-
-ObjectBox moved(const Pose& T_to_frame, const ObjectBox& box) {
-  return {T_to_frame * box.T_frame_box, box.size_m};
 }
 
 Eigen::AlignedBox3d cover_in(const Pose& axes, const ObjectBox& box) {

@@ -24,14 +24,18 @@ struct ObjectBox {
   /// Its bounds in the frame, along the frame's axes.
   [[nodiscard]] Eigen::AlignedBox3d bounds() const;
   /// Moved outwards by `margin_m` on each side.
-  [[nodiscard]] ObjectBox widened(double margin_m) const;
+  [[nodiscard]] ObjectBox widened(double margin_m) const {
+    return {T_frame_box, (size_m.array() + 2.0 * margin_m).matrix()};
+  }
 };
 
 /// The box of an axis-aligned one, which must not be empty.
 [[nodiscard]] ObjectBox oriented(const Eigen::AlignedBox3d& box);
 
 /// The box in the frame that T_to_frame leads to.
-[[nodiscard]] ObjectBox moved(const Pose& T_to_frame, const ObjectBox& box);
+[[nodiscard]] inline ObjectBox moved(const Pose& T_to_frame, const ObjectBox& box) {
+  return {T_to_frame * box.T_frame_box, box.size_m};
+}
 
 /// The least box with the axes of `axes` (a pose in the frame) about all of `box`, as an
 /// axis-aligned box in the coordinates of `axes`.

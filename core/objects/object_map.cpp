@@ -7,30 +7,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <tuple>
 
 namespace mapscore {
 namespace {
 
 void check_params(const ObjectMapParams& params) {
-  const auto refuse = [](const char* name, const char* mend) {
-    throw Error(std::string("object map: ") + name + ": " + mend);
+  const auto require = [](bool holds, const char* name, const char* mend) {
+    if (!holds) throw Error(std::string("object map: ") + name + ": " + mend);
   };
-  const auto share = [](double value) { return value >= 0.0 && value <= 1.0; };
-  const AssociationGate& gate = params.gate;
-  const auto length = [](double value) { return value >= 0.0 && std::isfinite(value); };
-  if (!length(gate.max_distance_m)) refuse("max_distance_m", "give a length of at least 0");
-  if (!length(gate.margin_m)) refuse("margin_m", "give a length of at least 0");
-  if (!share(gate.min_overlap) || gate.min_overlap == 0.0)
-    refuse("min_overlap", "give a share above 0, up to 1");
-  if (!share(params.merge_overlap) || params.merge_overlap == 0.0)
-    refuse("merge_overlap", "give a share above 0, up to 1");
-  if (!length(params.visibility.tolerance_m)) refuse("tolerance_m", "give a length of at least 0");
-  if (!share(params.visibility.min_share)) refuse("min_share", "give a share from 0 to 1");
-  if (params.visibility.min_pixels < 1) refuse("min_pixels", "give at least 1");
-  if (!share(params.update.share) || params.update.share == 0.0)
-    refuse("update.share", "give a share above 0, up to 1");
-  if (params.max_age < 1) refuse("max_age", "give at least 1");
+  const auto length = [&](double value, const char* name) {
+    require(value >= 0.0 && std::isfinite(value), name, "give a length of at least 0");
+  };
+  const auto share = [&](double value, const char* name) {
+    require(value > 0.0 && value <= 1.0, name, "give a share above 0, up to 1");
+  };
+  const Visibility& visibility = params.visibility;
+  length(params.gate.max_distance_m, "max_distance_m");
+  length(params.gate.margin_m, "margin_m");
+  share(params.gate.min_overlap, "min_overlap");
+  share(params.merge_overlap, "merge_overlap");
+  length(visibility.tolerance_m, "tolerance_m");
+  require(visibility.min_share >= 0.0 && visibility.min_share <= 1.0, "min_share",
+          "give a share from 0 to 1");
+  require(visibility.min_pixels >= 1, "min_pixels", "give at least 1");
+  share(params.update.share, "update.share");
+  require(params.max_age >= 1, "max_age", "give at least 1");
 }
 
 /// Rotations read from files with six digits pass.
@@ -50,23 +54,28 @@ void check_stamp(double stamp_s) {
     throw Error("object map: stamp " + std::to_string(stamp_s) + "; give the frame's, in seconds");
 }
 
-void check_counts(const MapObject& object) {
-  if (object.observations < 0 || object.misses < 0 || object.age < 0)
-    throw Error("object map: observations, misses and age must be at least 0; mend the object");
-  if (!(object.confidence >= 0.0 && object.confidence <= 1.0))
-    throw Error("object map: confidence " + std::to_string(object.confidence) +
-                "; give one from 0 to 1");
+MapObject first_of(const ObjectDetection& detection, double stamp_s) {
+  return {.class_id = detection.class_id,
+          .box = detection.box,
+          .model = detection.model,
+          .last_seen_s = stamp_s,
+          .observations = 1,
+          .confidence = (1.0 + detection.score) / 3.0};
 }
 
-MapObject first_of(const ObjectDetection& detection, double stamp_s) {
-  MapObject object;
-  object.class_id = detection.class_id;
-  object.box = detection.box;
-  object.model = detection.model;
-  object.last_seen_s = stamp_s;
-  object.observations = 1;
-  object.confidence = (1.0 + detection.score) / 3.0;
-  return object;
+/// A detection and an object that pass the gate.
+struct Pair {
+  double distance_m;
+  std::size_t object, detection;
+};
+
+/// Those of a class (none: every class) that pass, ascending by id.
+std::vector<const MapObject*> those_of(const std::vector<MapObject>& objects,
+                                       std::optional<ClassId> class_id, const auto& pass) {
+  std::vector<const MapObject*> found;
+  for (const MapObject& object : objects)
+    if ((!class_id || object.class_id == *class_id) && pass(object)) found.push_back(&object);
+  return found;
 }
 
 }  // namespace
@@ -92,12 +101,43 @@ void ObjectMap::check(const ObjectDetection& detection, std::size_t position) co
     refuse("score " + std::to_string(detection.score) + "; give one above 0, up to 1");
 }
 
+/// Position of each detection's object, or nothing. Pairs that pass the gate are taken from the
+/// least distance of centres on, each detection and each object once; ties go to the earlier
+/// object, then the earlier detection.
+std::vector<std::optional<std::size_t>> ObjectMap::associate(
+    std::span<const ObjectDetection> detections) const {
+  const AssociationGate& gate = params_.gate;
+  std::vector<Pair> pairs;
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    for (std::size_t o = 0; o < objects_.size(); ++o) {
+      if (detections[d].class_id != objects_[o].class_id) continue;
+      const ObjectBox &seen = detections[d].box, &known = objects_[o].box;
+      const double distance_m = (seen.centre() - known.centre()).norm();
+      if (distance_m <= gate.max_distance_m ||
+          overlap_share(seen.widened(gate.margin_m), known.widened(gate.margin_m)) >=
+              gate.min_overlap)
+        pairs.push_back({distance_m, o, d});
+    }
+  }
+  std::ranges::sort(pairs, {}, [](const Pair& pair) {
+    return std::tie(pair.distance_m, pair.object, pair.detection);
+  });
+  std::vector<std::optional<std::size_t>> object_of(detections.size());
+  std::vector<bool> taken(objects_.size());
+  for (const Pair& pair : pairs) {
+    if (object_of[pair.detection] || taken[pair.object]) continue;
+    object_of[pair.detection] = pair.object;
+    taken[pair.object] = true;
+  }
+  return object_of;
+}
+
 ObjectChanges ObjectMap::integrate(std::span<const ObjectDetection> detections, double stamp_s,
                                    const PosedDepth* view) {
   check_stamp(stamp_s);
   for (std::size_t d = 0; d < detections.size(); ++d) check(detections[d], d);
   if (view) mapscore::check(*view);
-  const auto object_of = associate(detections, objects_, params_.gate);
+  const auto object_of = associate(detections);
   ObjectChanges changes;
   std::set<ObjectId> seen;
   for (std::size_t d = 0; d < detections.size(); ++d) {
@@ -171,7 +211,11 @@ void ObjectMap::age(const std::set<ObjectId>& seen, const PosedDepth& view,
 ObjectId ObjectMap::add(MapObject object) {
   check({object.class_id, object.box, 1.0, {}}, 0);
   check_stamp(object.last_seen_s);
-  check_counts(object);
+  if (object.observations < 0 || object.misses < 0 || object.age < 0)
+    throw Error("object map: observations, misses and age must be at least 0; mend the object");
+  if (!(object.confidence >= 0.0 && object.confidence <= 1.0))
+    throw Error("object map: confidence " + std::to_string(object.confidence) +
+                "; give one from 0 to 1");
   if (object.id == 0) object.id = next_;
   if (object.id < next_)
     throw Error("object map: id " + std::to_string(object.id) +
@@ -182,11 +226,9 @@ ObjectId ObjectMap::add(MapObject object) {
 }
 
 std::vector<MapObject>::iterator ObjectMap::require(ObjectId id) {
-  const auto at = std::lower_bound(objects_.begin(), objects_.end(), id,
-                                   [](const MapObject& o, ObjectId key) { return o.id < key; });
-  if (at == objects_.end() || at->id != id)
-    throw Error("object map: there is no object " + std::to_string(id));
-  return at;
+  const MapObject* found = find(id);
+  if (!found) throw Error("object map: there is no object " + std::to_string(id));
+  return objects_.begin() + (found - objects_.data());
 }
 
 void ObjectMap::update(ObjectId id, const ObjectDetection& detection, double stamp_s) {
@@ -202,6 +244,39 @@ void ObjectMap::update(ObjectId id, const ObjectDetection& detection, double sta
 void ObjectMap::remove(ObjectId id) {
   objects_.erase(require(id));
   std::erase_if(apart_, [&](const auto& pair) { return pair.first == id || pair.second == id; });
+}
+
+const MapObject* ObjectMap::find(ObjectId id) const {
+  const auto at = std::ranges::lower_bound(objects_, id, {}, &MapObject::id);
+  return at != objects_.end() && at->id == id ? &*at : nullptr;
+}
+
+std::vector<const MapObject*> ObjectMap::of_class(ClassId class_id) const {
+  return those_of(objects_, class_id, [](const MapObject&) { return true; });
+}
+
+std::vector<const MapObject*> ObjectMap::in_box(const Eigen::AlignedBox3d& box,
+                                                std::optional<ClassId> class_id) const {
+  if (box.isEmpty()) return {};
+  return those_of(objects_, class_id,
+                  [&](const MapObject& object) { return meet(object.box, oriented(box)); });
+}
+
+std::vector<const MapObject*> ObjectMap::within(const Eigen::Vector3d& p, double radius_m,
+                                                std::optional<ClassId> class_id) const {
+  const auto distance_m = [&](const MapObject* object) {
+    return (object->box.centre() - p).norm();
+  };
+  std::vector<const MapObject*> found = those_of(
+      objects_, class_id, [&](const MapObject& object) { return distance_m(&object) <= radius_m; });
+  std::ranges::stable_sort(found, {}, distance_m);
+  return found;
+}
+
+const MapObject* ObjectMap::nearest(const Eigen::Vector3d& p,
+                                    std::optional<ClassId> class_id) const {
+  const auto all = within(p, std::numeric_limits<double>::infinity(), class_id);
+  return all.empty() ? nullptr : all.front();
 }
 
 }  // namespace mapscore

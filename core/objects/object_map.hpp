@@ -3,10 +3,8 @@
 
 #pragma once
 
-#include "core/objects/box_votes.hpp"
+#include "core/objects/box_depth.hpp"
 #include "core/objects/map_object.hpp"
-#include "core/objects/object_association.hpp"
-#include "core/objects/object_merge.hpp"
 
 #include <Eigen/Geometry>
 #include <cstddef>
@@ -17,6 +15,15 @@
 #include <vector>
 
 namespace mapscore {
+
+/// When a detection may be an object of the map: same class, and centres within `max_distance_m` or
+/// boxes that share `min_overlap` of the smaller one, each widened by `margin_m` on every side, so
+/// that flat boxes have a volume.
+struct AssociationGate {
+  double max_distance_m = 0.05;
+  double min_overlap = 0.25;
+  double margin_m = 0.025;
+};
 
 struct ObjectMapParams {
   AssociationGate gate;
@@ -59,8 +66,6 @@ class ObjectMap {
 
   /// Ascending by id.
   [[nodiscard]] const std::vector<MapObject>& objects() const { return objects_; }
-  [[nodiscard]] const ObjectMapParams& params() const { return params_; }
-  [[nodiscard]] std::size_t class_count() const { return class_count_; }
 
   // Queries by class (none: every class) and place; what they give is valid until the map changes.
 
@@ -79,6 +84,8 @@ class ObjectMap {
 
  private:
   void check(const ObjectDetection& detection, std::size_t position) const;
+  [[nodiscard]] std::vector<std::optional<std::size_t>> associate(
+      std::span<const ObjectDetection> detections) const;
   [[nodiscard]] std::vector<MapObject>::iterator require(ObjectId id);
   void tell_apart(const std::set<ObjectId>& seen);
   void pass_on_apart(ObjectId gone, ObjectId kept);

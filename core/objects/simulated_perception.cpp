@@ -3,10 +3,8 @@
 
 #include "core/objects/simulated_perception.hpp"
 
-#include "core/error.hpp"
 #include "core/geometry/depth_rays.hpp"
 #include "core/objects/box_depth.hpp"
-#include "core/objects/frustum.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -4,27 +4,18 @@
 #include "core/objects/solid_piece.hpp"
 
 #include "core/error.hpp"
+#include "core/geometry/voxel.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 namespace mapscore {
 namespace {
 
-using Cell = std::array<std::int64_t, 3>;
-
-Cell cell_of(const Eigen::Vector3d& p, double cell_m) {
-  return {static_cast<std::int64_t>(std::floor(p.x() / cell_m)),
-          static_cast<std::int64_t>(std::floor(p.y() / cell_m)),
-          static_cast<std::int64_t>(std::floor(p.z() / cell_m))};
-}
-
 /// Pieces of the cells, ascending and different: a number for each, 0 up.
-std::vector<std::size_t> pieces_of(const std::vector<Cell>& cells) {
+std::vector<std::size_t> pieces_of(const std::vector<VoxelKey>& cells) {
   constexpr auto kNone = static_cast<std::size_t>(-1);
   std::vector<std::size_t> piece(cells.size(), kNone), open;
   std::size_t count = 0;
@@ -33,14 +24,13 @@ std::vector<std::size_t> pieces_of(const std::vector<Cell>& cells) {
     piece[start] = count;
     open.assign(1, start);
     while (!open.empty()) {
-      const Cell at = cells[open.back()];
+      const VoxelKey at = cells[open.back()];
       open.pop_back();
-      for (std::int64_t dx = -1; dx <= 1; ++dx) {
-        for (std::int64_t dy = -1; dy <= 1; ++dy) {
+      for (std::int32_t i = at.i - 1; i <= at.i + 1; ++i) {
+        for (std::int32_t j = at.j - 1; j <= at.j + 1; ++j) {
           // the up to three cells of a column stand side by side
-          auto next =
-              std::lower_bound(cells.begin(), cells.end(), Cell{at[0] + dx, at[1] + dy, at[2] - 1});
-          const Cell last{at[0] + dx, at[1] + dy, at[2] + 1};
+          auto next = std::ranges::lower_bound(cells, VoxelKey{i, j, at.k - 1});
+          const VoxelKey last{i, j, at.k + 1};
           for (; next != cells.end() && *next <= last; ++next) {
             const auto n = static_cast<std::size_t>(next - cells.begin());
             if (piece[n] != kNone) continue;
@@ -62,22 +52,21 @@ std::vector<Eigen::Vector3d> largest_solid_piece(const std::vector<Eigen::Vector
   if (!(cell_m > 0.0) || !std::isfinite(cell_m))
     throw Error("cell_m: must be a positive length in metres");
   if (points.empty()) return {};
-  std::vector<Cell> cells;
+  std::vector<VoxelKey> cells;
   cells.reserve(points.size());
-  for (const Eigen::Vector3d& p : points) cells.push_back(cell_of(p, cell_m));
+  for (const Eigen::Vector3d& p : points) cells.push_back(voxel_of(p, cell_m));
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   const std::vector<std::size_t> piece_of_cell = pieces_of(cells);
   std::vector<std::size_t> piece;  // of each point
   std::vector<std::size_t> size(cells.size());
   for (const Eigen::Vector3d& p : points) {
-    const auto at = std::lower_bound(cells.begin(), cells.end(), cell_of(p, cell_m));
+    const auto at = std::ranges::lower_bound(cells, voxel_of(p, cell_m));
     piece.push_back(piece_of_cell[static_cast<std::size_t>(at - cells.begin())]);
     ++size[piece.back()];
   }
-  const std::size_t most = *std::max_element(size.begin(), size.end());
   const std::size_t kept =
-      *std::find_if(piece.begin(), piece.end(), [&](std::size_t n) { return size[n] == most; });
+      *std::ranges::max_element(piece, {}, [&](std::size_t n) { return size[n]; });
   std::vector<Eigen::Vector3d> solid;
   for (std::size_t n = 0; n < points.size(); ++n)
     if (piece[n] == kept) solid.push_back(points[n]);

@@ -4,17 +4,173 @@
 #include "core/placement/placement.hpp"
 
 #include "core/error.hpp"
-#include "core/geometry/voxel.hpp"
-#include "core/placement/draw_votes.hpp"
-#include "core/placement/part_boxes.hpp"
 #include "core/placement/point_parts.hpp"
+#include "core/placement/voxel_index.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 namespace mapscore {
 namespace {
+
+/// Counts each object's points in each voxel, one draw after the other, and credits each voxel to
+/// the class with most points. Only contested voxels, which hold points of several classes, need
+/// exact counts; in all others one vote an object is enough.
+class DrawVotes {
+ public:
+  /// Objects are numbered by their place in the observation, which must outlive this.
+  explicit DrawVotes(const Observation& observation) : observation_(observation) {}
+
+  /// Adds points of an object to a voxel in the current draw.
+  void add(const VoxelKey& key, std::uint32_t object, int points) {
+    if (key != last_key_ || object != last_object_) begin_votes(key, object);
+    last_vote_->points += points;
+  }
+  /// True if the object has votes in the voxel in the current draw.
+  [[nodiscard]] bool has(const VoxelKey& key, std::uint32_t object) {
+    const std::uint32_t number = index_.find(key);
+    if (number == kNone || voxels_[number].draw != draw_) return false;
+    for (const Vote* vote = &voxels_[number].first; vote; vote = next(vote))
+      if (vote->object == object) return vote->draw == draw_;
+    return false;
+  }
+  /// True if several classes have votes in the voxel in the current draw.
+  [[nodiscard]] bool contested(const VoxelKey& key) {
+    const std::uint32_t number = index_.find(key);
+    return number != kNone && voxels_[number].draw == draw_ && voxels_[number].contested;
+  }
+  /// True if any voxel is contested in the current draw.
+  [[nodiscard]] bool any_contested() const { return any_contested_; }
+
+  /// Credits each voxel to the class with most points, ties to the lower id, and starts a new draw.
+  void end_draw() {
+    for (const std::uint32_t number : voted_) credit(voxels_[number], winner_of(voxels_[number]));
+    voted_.clear();
+    any_contested_ = false;
+    last_object_ = kNone;
+    ++draw_;
+  }
+  /// What each class won in all ended draws, ascending by voxel, then class.
+  [[nodiscard]] std::vector<VoxelHit> hits() const {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order;  // packed key, number
+    order.reserve(voxels_.size());
+    for (std::uint32_t number = 0; number < voxels_.size(); ++number)
+      order.emplace_back(index_.keys()[number], number);
+    std::sort(order.begin(), order.end());
+    std::vector<VoxelHit> hits;
+    hits.reserve(voxels_.size() + votes_.size());
+    for (const auto& [key, number] : order) {
+      const auto begin = static_cast<std::ptrdiff_t>(hits.size());
+      for (const Vote* vote = &voxels_[number].first; vote; vote = next(vote))
+        if (vote->draws_won > 0)
+          hits.push_back({unpack(key), class_of(*vote), vote->draws_won, vote->score_sum});
+      std::ranges::sort(hits.begin() + begin, hits.end(), {}, &VoxelHit::class_id);
+    }
+    return hits;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = VoxelIndex::kNone;
+
+  /// One object in one voxel.
+  struct Vote {
+    std::uint32_t object = kNone;
+    std::uint32_t next = kNone;  ///< in the list of the same voxel, an index into votes_
+    int draw = -1;               ///< latest draw in which the object had points here
+    int points = 0;              ///< in that draw
+    int draws_won = 0;           ///< by the class; kept in the class's first vote of the voxel
+    double score_sum = 0.0;      ///< over those draws
+  };
+  /// The votes of one voxel: `first`, then the list that starts at its `next`.
+  struct Voxel {
+    Vote first;
+    int draw = -1;                   ///< latest draw in which anything had points here
+    ClassId class_id = kBackground;  ///< of the first vote of that draw
+    bool contested = false;          ///< in that draw
+  };
+
+  void begin_votes(const VoxelKey& key, std::uint32_t object) {
+    const std::uint32_t number = index_.number(key);
+    if (number == voxels_.size()) voxels_.emplace_back();
+    Voxel& voxel = voxels_[number];
+    const ClassId class_id = observation_[object].class_id;
+    if (voxel.draw != draw_) {
+      voxel.draw = draw_;
+      voxel.class_id = class_id;
+      voxel.contested = false;
+      voted_.push_back(number);
+    } else if (voxel.class_id != class_id) {
+      voxel.contested = any_contested_ = true;
+    }
+    Vote& vote = vote_of(voxel, object);
+    if (vote.draw != draw_) vote.points = 0;
+    vote.draw = draw_;
+    last_key_ = key;
+    last_object_ = object;
+    last_vote_ = &vote;
+  }
+
+  [[nodiscard]] Vote& vote_of(Voxel& voxel, std::uint32_t object) {
+    if (voxel.first.object == kNone) voxel.first.object = object;
+    Vote* vote = &voxel.first;
+    while (vote->object != object && vote->next != kNone) vote = &votes_[vote->next];
+    if (vote->object == object) return *vote;
+    vote->next = static_cast<std::uint32_t>(votes_.size());
+    return votes_.emplace_back(Vote{.object = object});
+  }
+
+  [[nodiscard]] ClassId winner_of(const Voxel& voxel) const {
+    if (!voxel.contested) return voxel.class_id;
+    int most = 0;
+    ClassId winner = kBackground;
+    for (const Vote* vote = &voxel.first; vote; vote = next(vote)) {
+      if (vote->draw != draw_) continue;
+      int points = 0;
+      for (const Vote* same = &voxel.first; same; same = next(same))
+        if (same->draw == draw_ && class_of(*same) == class_of(*vote)) points += same->points;
+      if (points < most || (points == most && class_of(*vote) >= winner)) continue;
+      most = points;
+      winner = class_of(*vote);
+    }
+    return winner;
+  }
+
+  /// The class's score in a draw is the best one among its objects in the voxel.
+  void credit(Voxel& voxel, ClassId winner) {
+    Vote* first = nullptr;
+    double best = 0.0;
+    for (Vote* vote = &voxel.first; vote; vote = next(vote)) {
+      if (class_of(*vote) != winner) continue;
+      if (!first) first = vote;
+      if (vote->draw == draw_) best = std::max(best, observation_[vote->object].score);
+    }
+    ++first->draws_won;
+    first->score_sum += best;
+  }
+
+  [[nodiscard]] ClassId class_of(const Vote& vote) const {
+    return observation_[vote.object].class_id;
+  }
+  [[nodiscard]] Vote* next(const Vote* vote) {
+    return vote->next == kNone ? nullptr : &votes_[vote->next];
+  }
+  [[nodiscard]] const Vote* next(const Vote* vote) const {
+    return vote->next == kNone ? nullptr : &votes_[vote->next];
+  }
+
+  const Observation& observation_;
+  VoxelIndex index_;
+  std::vector<Voxel> voxels_;         ///< by their numbers in index_
+  std::vector<Vote> votes_;           ///< all but the first of each voxel
+  int draw_ = 0;                      ///< the current one
+  std::vector<std::uint32_t> voted_;  ///< numbers of the voxels with votes in the current draw
+  bool any_contested_ = false;
+  VoxelKey last_key_;  ///< with last_object_, what add() was called with last
+  std::uint32_t last_object_ = kNone;
+  Vote* last_vote_ = nullptr;
+};
 
 /// Places the points of one frame in one draw after the other (docs/fusion.md, Many draws).
 class FramePlacer {

@@ -6,19 +6,8 @@
 #include "core/error.hpp"
 
 #include <Eigen/Cholesky>
-#include <cmath>
 
 namespace mapscore {
-namespace {
-
-/// One draw of xi ~ N(0, L L^T).
-Vector6 draw(const Covariance6& root, RandomStream& stream) {
-  Vector6 standard;
-  for (int axis = 0; axis < 6; ++axis) standard[axis] = stream.normal();
-  return root * standard;
-}
-
-}  // namespace
 
 Covariance6 covariance_root(const Covariance6& covariance) {
   const double scale = covariance.cwiseAbs().maxCoeff();
@@ -45,7 +34,9 @@ std::vector<Pose> draw_poses(const PoseBelief& belief, const Draws& draws, Rando
   std::vector<Pose> poses(static_cast<std::size_t>(draws.N), mean);
   if (root.isZero(0.0)) return poses;
   for (Pose& pose : poses) {
-    const Pose noise = exp_pose(draw(root, stream));
+    Vector6 standard;
+    for (double& number : standard) number = stream.normal();
+    const Pose noise = exp_pose(root * standard);  // of xi ~ N(0, L L^T)
     pose = draws.noise_at == NoiseAt::base ? mean * noise
                                            : belief.T_map_odom * noise * belief.T_odom_base;
   }

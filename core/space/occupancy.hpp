@@ -6,6 +6,7 @@
 #include "core/parameters.hpp"
 
 #include <optional>
+#include <string_view>
 
 namespace mapscore {
 
@@ -18,22 +19,14 @@ struct OccupancyModel {
   static void fields(auto& s, auto&& visit) {
     constexpr Range kOccupied{.low = 0.5, .high = 1, .open_low = true, .open_high = true};
     constexpr Range kFree{.low = 0, .high = 0.5, .open_low = true, .open_high = true};
-    visit(s.hit, Field{.key = "hit",
-                       .meaning = "carving: occupancy that a point in the voxel says",
-                       .range = kOccupied,
-                       .later = true});
-    visit(s.miss, Field{.key = "miss",
-                        .meaning = "carving: occupancy that a ray through the voxel says",
-                        .range = kFree,
-                        .later = true});
-    visit(s.clamp_min, Field{.key = "clamp_min",
-                             .meaning = "carving: least occupancy of a voxel",
-                             .range = kFree,
-                             .later = true});
-    visit(s.clamp_max, Field{.key = "clamp_max",
-                             .meaning = "carving: greatest occupancy of a voxel",
-                             .range = kOccupied,
-                             .later = true});
+    const auto probability = [&](auto& p, std::string_view key, std::string_view meaning,
+                                 const Range& range) {
+      visit(p, Field{.key = key, .meaning = meaning, .range = range, .later = true});
+    };
+    probability(s.hit, "hit", "carving: occupancy that a point in the voxel says", kOccupied);
+    probability(s.miss, "miss", "carving: occupancy that a ray through the voxel says", kFree);
+    probability(s.clamp_min, "clamp_min", "carving: least occupancy of a voxel", kFree);
+    probability(s.clamp_max, "clamp_max", "carving: greatest occupancy of a voxel", kOccupied);
   }
   bool operator==(const OccupancyModel&) const = default;
 };

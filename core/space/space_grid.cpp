@@ -31,14 +31,15 @@ constexpr std::array<std::uint64_t, 16> kColumns = [] {
   return columns;
 }();
 
-}  // namespace
-
+/// Place of a block in the octree's own order, of blocks within +-2^20.
 std::uint64_t octree_order(const VoxelKey& block) {
   constexpr std::int32_t kOffset = 1 << 20;
   return spread(static_cast<std::uint64_t>(block.i + kOffset)) |
          spread(static_cast<std::uint64_t>(block.j + kOffset)) << 1 |
          spread(static_cast<std::uint64_t>(block.k + kOffset)) << 2;
 }
+
+}  // namespace
 
 void VoxelBounds::include(const VoxelKey& key) {
   low = {std::min(low.i, key.i), std::min(low.j, key.j), std::min(low.k, key.k)};
@@ -88,9 +89,7 @@ SpaceBlocks SpaceGrid::blocks() const {
       }
     }
   }
-  std::sort(blocks.begin(), blocks.end(), [](const SpaceBlock& a, const SpaceBlock& b) {
-    return octree_order(a.key) < octree_order(b.key);
-  });
+  std::ranges::sort(blocks, {}, [](const SpaceBlock& block) { return octree_order(block.key); });
   return blocks;
 }
 

@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/trial_maps.hpp"
-#include "eval/cli/shared/view_flag.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/bench.hpp"
 #include "eval/report/figures/believed_figures.hpp"
@@ -19,7 +18,6 @@
 
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,16 +27,15 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FigureFlags {
-  std::string results, folder, method;
+  std::string results, folder;
   std::vector<std::string> trial;
-  int seed = 0;
-  std::size_t memory_bytes = std::size_t{1} << 30;
+  PictureChoice choice;  ///< but for what trial and view say
   bool no_pictures = false;
   ViewFlag view;
 };
 
 PictureChoice choice_of(const FigureFlags& flags) {
-  PictureChoice choice;
+  PictureChoice choice = flags.choice;
   for (const std::string& dose : flags.trial) {
     const std::size_t equals = dose.find('=');
     if (equals == std::string::npos)
@@ -46,9 +43,6 @@ PictureChoice choice_of(const FigureFlags& flags) {
                   ": must be path=value, e.g. faults.misregistration.magnitude_m=0.02");
     choice.doses.emplace_back(dose.substr(0, equals), dose.substr(equals + 1));
   }
-  if (!flags.method.empty()) choice.method = flags.method;
-  choice.seed_index = flags.seed;
-  choice.memory_bytes = flags.memory_bytes;
   choice.view = flags.view.view();
   return choice;
 }
@@ -57,27 +51,23 @@ void print(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) std::cout << shown(file) << std::endl;
 }
 
-/// The recording, from the store's folder; none and a note when it is not there.
-std::optional<Recording> find_recording(const StudyRecord& record, const fs::path& folder) {
-  const fs::path recording = (folder / record.recording).lexically_normal();
-  if (fs::exists(recording)) return Recording::open(recording);
-  std::cerr << "mapscore: no pictures: the recording " << shown(recording)
-            << " is not there; `mapscore sweep` renders it\n";
-  return std::nullopt;
-}
-
 void draw_from_recording(const FigureFlags& flags, const PictureChoice& choice,
                          const fs::path& folder) {
   const fs::path file = store_file(flags.results);
   const StudyRecord record = read_study(ResultStore::open_existing(file), file.parent_path());
-  const std::optional<Recording> recording = find_recording(record, file.parent_path());
-  if (!recording) return;
+  const fs::path place = (file.parent_path() / record.recording).lexically_normal();
+  if (!fs::exists(place)) {
+    std::cerr << "mapscore: no pictures: the recording " << shown(place)
+              << " is not there; `mapscore sweep` renders it\n";
+    return;
+  }
+  const Recording recording = Recording::open(place);
   print({write_picture(folder / "contact_sheet.png",
-                       contact_sheet(record.study, record.table, *recording))});
-  print(draw_believed(record.study, *recording, choice, folder));
+                       contact_sheet(record.study, record.table, recording))});
+  print(draw_believed(record.study, recording, choice, folder));
   const Pictures pictures =
-      draw_pictures(record.study, record.table, *recording, choice, folder, [&] {
-        Bench bench(*recording, record.table, reads_colour(record.study), choice.memory_bytes);
+      draw_pictures(record.study, record.table, recording, choice, folder, [&] {
+        Bench bench(recording, record.table, reads_colour(record.study), choice.memory_bytes);
         return map_trials(record.study, bench, choice);
       });
   print(pictures.files);
@@ -99,19 +89,19 @@ void figures(const FigureFlags& flags) {
 }  // namespace
 
 void add_figures(CLI::App& program) {
-  auto* verb = program.add_subcommand("figures", "Draw figures and pictures of a swept study");
-  const auto flags = std::make_shared<FigureFlags>();
+  const auto [verb, flags] = add_verb<FigureFlags>(
+      program, "figures", "Draw figures and pictures of a swept study", figures);
   verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
   verb->add_option("-o,--output", flags->folder, "Folder of the pictures [RESULTS/figures]");
   verb->add_option("--trial", flags->trial,
                    "Dose whose maps are drawn, path=value of a swept path; may be repeated [the "
                    "middle of each]")
       ->allow_extra_args(false);
-  verb->add_option("--method", flags->method, "Draw the map of this method alone [all]");
-  verb->add_option("--seed", flags->seed, "Index of the seed whose maps are drawn [0]")
+  verb->add_option("--method", flags->choice.method, "Draw the map of this method alone [all]");
+  verb->add_option("--seed", flags->choice.seed_index, "Index of the seed whose maps are drawn [0]")
       ->check(CLI::NonNegativeNumber);
   flags->view.add_to(*verb);
-  add_memory_flag(*verb, flags->memory_bytes);
+  add_memory_flag(*verb, flags->choice.memory_bytes);
   verb->add_flag("--no-pictures", flags->no_pictures, "Figures and tables alone");
   verb->footer(
       "Writes trials.csv, table.txt, figures (PNG, PDF, and the gnuplot script and numbers they "
@@ -124,7 +114,6 @@ void add_figures(CLI::App& program) {
       "  mapscore figures results/demo -o paper --trial faults.misregistration.magnitude_m=0.04\n"
       "  mapscore figures results/demo --view 4 1 2.2 5.5 3 0.8\n"
       "  mapscore figures results/person --no-pictures");
-  verb->callback([flags] { figures(*flags); });
 }
 
 }  // namespace mapscore::eval

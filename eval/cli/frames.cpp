@@ -5,8 +5,7 @@
 #include "core/whole_file.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
-#include "eval/cli/shared/recording_progress.hpp"
-#include "eval/cli/shared/truth_size.hpp"
+#include "eval/cli/shared/truth_source.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/bench.hpp"
 #include "eval/render/study_recording.hpp"
@@ -18,7 +17,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -38,23 +36,12 @@ struct FramesFlags {
   std::string format = "text";
 };
 
-void check_frames(const Study& study, int seed) {
-  if (study.score.unit != ScoreUnit::frame)
-    throw Error("score.unit: each frame is scored by itself here; --set score.unit=frame");
-  if (seed < 0 || seed >= study.seeds)
-    throw Error(fmt::format("no trial of seed {}; seeds: 0 to {}", seed, study.seeds - 1));
-}
-
 /// The trials of one seed at the first cell of the sweep, a method each.
 std::vector<Task> tasks_of(const Study& study, int seed, const std::string& recording_hash) {
   std::vector<Task> tasks;
-  std::vector<std::string> seen;
-  for (const TrialSpec& spec : trials(study)) {
-    if (spec.seed_index != seed || std::find(seen.begin(), seen.end(), spec.method) != seen.end())
-      continue;
-    seen.push_back(spec.method);
-    tasks.push_back(task_of(study, spec, Labels::detected, recording_hash));
-  }
+  for (const TrialSpec& spec : trials(study))
+    if (spec.seed_index == seed && spec.cell.index == 0)
+      tasks.push_back(task_of(study, spec, Labels::detected, recording_hash));
   return tasks;
 }
 
@@ -84,7 +71,10 @@ std::vector<MethodFrames> walk(const Study& study, const std::vector<Task>& task
 
 void compare_frames(const FramesFlags& flags) {
   const Study study = flags.study.load();
-  check_frames(study, flags.seed);
+  if (study.score.unit != ScoreUnit::frame)
+    throw Error("score.unit: each frame is scored by itself here; --set score.unit=frame");
+  if (flags.seed < 0 || flags.seed >= study.seeds)
+    throw Error(fmt::format("no trial of seed {}; seeds: 0 to {}", flags.seed, study.seeds - 1));
   const fs::path results = flags.study.results_folder(study);
   ShownRecording display(flags.work.quiet);
   const Recording recording = recording_of(study, results, flags.work.jobs, display.progress());
@@ -97,26 +87,21 @@ void compare_frames(const FramesFlags& flags) {
   fs::create_directories(folder);
   const Table times = frames_table(methods);
   write_whole_file(folder / "by_method.csv", to_csv(times));
-  std::cout << (flags.format == "csv"    ? to_csv(times)
-                : flags.format == "json" ? to_json(times)
-                                         : to_text(times));
-  if (flags.format != "text") return void(draw(frames_figure(study, table, methods), folder));
+  std::cout << formatted(times, flags.format);
   for (const fs::path& file : draw(frames_figure(study, table, methods), folder))
-    std::cout << shown(file) << '\n';
+    if (flags.format == "text") std::cout << shown(file) << '\n';
 }
 
 }  // namespace
 
 void add_frames(CLI::App& program) {
-  auto* verb =
-      program.add_subcommand("frames", "All methods, frame by frame: voxels, scores, times");
-  const auto flags = std::make_shared<FramesFlags>();
+  const auto [verb, flags] = add_verb<FramesFlags>(
+      program, "frames", "All methods, frame by frame: voxels, scores, times", compare_frames);
   flags->study.add_to(*verb);
   flags->work.add_to(*verb);
   add_yes_flag(*verb, flags->yes);
   verb->add_option("--seed", flags->seed, "Index of the seed [0]");
-  verb->add_option("--format", flags->format, "text, csv or json [text]")
-      ->check(CLI::IsMember({"text", "csv", "json"}));
+  add_format_flag(*verb, flags->format);
   verb->footer(
       "Walks the recording once, all methods side by side on one thread, at the first cell of the "
       "sweep; --set changes doses.\n"
@@ -127,7 +112,6 @@ void add_frames(CLI::App& program) {
       "  mapscore frames configs/person_sequence.yaml\n"
       "  mapscore frames configs/person_sequence.yaml --set 'sweep={}' --set "
       "faults.depth.preset=astra --format csv");
-  verb->callback([flags] { compare_frames(*flags); });
 }
 
 }  // namespace mapscore::eval

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/cli/info_logs.hpp"
 #include "eval/cli/info_scene.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/map_files/legend.hpp"
 #include "eval/map_files/map_file.hpp"
 #include "eval/recording/recording.hpp"
-#include "eval/render/study_recording.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/results/plan.hpp"
 #include "eval/results/study_store.hpp"
@@ -18,14 +16,46 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <iostream>
-#include <map>
-#include <memory>
+#include <numbers>
 
 namespace mapscore::eval {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// How far the odometry has come off the truth since the true pose at its start, and on how long a
+/// way; nothing where the trajectory does not reach its ends.
+std::string drift_text(const Recording& recording, const std::vector<OdometryPose>& odometry) {
+  const auto start = recording.T_world_base_at(odometry.front().stamp_s);
+  const auto end = recording.T_world_base_at(odometry.back().stamp_s);
+  if (!start || !end) return "";
+  double way_m = 0.0;
+  for (std::size_t i = 1; i < odometry.size(); ++i)
+    way_m +=
+        (odometry[i].T_odom_base.translation() - odometry[i - 1].T_odom_base.translation()).norm();
+  const Pose T_world_odom = *start * odometry.front().T_odom_base.inverse();
+  const Pose error = end->inverse() * T_world_odom * odometry.back().T_odom_base;
+  const double yaw_deg =
+      std::atan2(error.linear()(1, 0), error.linear()(0, 0)) * 180.0 / std::numbers::pi;
+  return fmt::format(", {:.1f} m long, at its end {:.3f} m and {:.1f} deg off the truth", way_m,
+                     error.translation().head<2>().norm(), std::abs(yaw_deg));
+}
+
+std::string odometry_line(const Recording& recording) {
+  const std::vector<OdometryPose> odometry = recording.read_odometry();
+  return fmt::format("odometry: {} poses, {:.1f} s{}\n", odometry.size(),
+                     odometry.back().stamp_s - odometry.front().stamp_s,
+                     drift_text(recording, odometry));
+}
+
+std::string scan_line(const Recording& recording) {
+  const ScanLog log = recording.read_scans();
+  return fmt::format("lidar: {} scans of {} beams, {:g} to {:g} m\n", log.scans.size(),
+                     log.scans.front().ranges_m.size(), log.geometry.range_min_m,
+                     log.geometry.range_max_m);
+}
 
 void print_recording(const fs::path& folder) {
   const Recording recording = Recording::open(folder);
@@ -36,7 +66,10 @@ void print_recording(const fs::path& folder) {
                            color.height_px, info.color_rate_hz,
                            info.has_truth ? "with truth" : "without truth");
   std::cout << fmt::format("content hash {}\n", recording.content_hash());
-  std::cout << log_lines(recording);
+  std::string logs;
+  if (recording.has_odometry()) logs += odometry_line(recording);
+  if (recording.has_scans()) logs += scan_line(recording);
+  std::cout << logs;
   if (info.baked)
     std::cout << fmt::format("baked into depth: {{{}}}, into labels: {{{}}}, seed {}\n",
                              info.baked->depth, info.baked->labels, info.baked->seed);
@@ -56,16 +89,10 @@ void print_store(const fs::path& results) {
 }
 
 const char* name_of(LabelKind kind) {
-  switch (kind) {
-    case LabelKind::colour:
-      return "colour";
-    case LabelKind::id:
-      return "id";
-    case LabelKind::name:
-      return "class";
-    default:
-      return "label";
-  }
+  return kind == LabelKind::colour ? "colour"
+         : kind == LabelKind::id   ? "id"
+         : kind == LabelKind::name ? "class"
+                                   : "label";
 }
 
 void print_map(const fs::path& file) {
@@ -93,7 +120,12 @@ void print_map(const fs::path& file) {
     std::cout << fmt::format("  and {} labels more\n", labels.size() - kLabels);
 }
 
-void info(const fs::path& file, const SceneInfoFlags& flags) {
+struct InfoFlags : SceneInfoFlags {
+  std::string file;
+};
+
+void info(const InfoFlags& flags) {
+  const fs::path file = flags.file;
   if (!fs::exists(file)) throw Error(file.string() + ": there is no such file or folder");
   if (file.extension() == ".xml") return info_of_scene(file, flags);
   if (flags.any()) throw Error(file.string() + ": not a scene (.xml), so no flag applies");
@@ -108,10 +140,9 @@ void info(const fs::path& file, const SceneInfoFlags& flags) {
 }  // namespace
 
 void add_info(CLI::App& program) {
-  auto* verb = program.add_subcommand("info", "What is this scene, recording, map or store");
-  const auto file = std::make_shared<std::string>();
-  const auto flags = std::make_shared<SceneInfoFlags>();
-  verb->add_option("FILE", *file, "Scene, recording, map or results")->required();
+  const auto [verb, flags] =
+      add_verb<InfoFlags>(program, "info", "What is this scene, recording, map or store", info);
+  verb->add_option("FILE", flags->file, "Scene, recording, map or results")->required();
   verb->add_option("--picture", flags->picture,
                    "Of a scene: where its picture by class goes [STEM.classes.png beside it]");
   verb->add_flag("--no-picture", flags->no_picture, "Of a scene: draw none");
@@ -124,7 +155,6 @@ void add_info(CLI::App& program) {
       "  mapscore info kitchen.xml --suggest-classes -o kitchen.classes.yaml\n"
       "  mapscore info map.pcd\n"
       "  mapscore info results/demo");
-  verb->callback([file, flags] { info(*file, *flags); });
 }
 
 }  // namespace mapscore::eval

@@ -158,10 +158,7 @@ void suggest(const fs::path& scene, const SceneInfoFlags& flags) {
   if (inventory.unseen.no_light) std::cerr << "info: note: " << kNoLight << '\n';
   const std::string text =
       sim::class_file_text(sim::suggest_classes(inventory.bodies), scene.filename().string());
-  if (flags.output.empty()) {
-    std::cout << text;
-    return;
-  }
+  if (flags.output.empty()) return void(std::cout << text);
   if (fs::exists(flags.output)) throw Error(flags.output + ": exists already; give another file");
   write_whole_file(flags.output, text);
 }

@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/error.hpp"
 #include "core/whole_file.hpp"
-#include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/pose_sources.hpp"
-#include "eval/localization/believed_file.hpp"
+#include "eval/localization/believed_trajectory.hpp"
 #include "eval/localization/localization_score.hpp"
 #include "eval/recording/grid_file.hpp"
 #include "eval/recording/recording.hpp"
@@ -21,7 +19,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -114,8 +111,7 @@ void localize(const LocalizeFlags& flags) {
   const std::vector<LocalizationScore> scores =
       localised(study, recording, grid, flags.quiet, folder);
   std::string csv = "seed,stamp_s,position_error_m,heading_error_deg,nees,sigma_m,converged\n";
-  for (int run = 0; run < study.seeds; ++run)
-    csv += csv_of(run, scores[static_cast<std::size_t>(run)]);
+  for (int run = 0; const LocalizationScore& score : scores) csv += csv_of(run++, score);
   write_whole_file(folder / "localization.csv", csv);
   if (flags.source != "odometry")
     study.sweep = {{"localization.source", {flags.source, "odometry"}}};
@@ -124,16 +120,14 @@ void localize(const LocalizeFlags& flags) {
   std::cout << fmt::format("{:<16} {:>5} {:>11} {:>9} {:>9} {:>10} {:>10} {:>10}\n", "source",
                            "seed", "converged_s", "mean_m", "p95_m", "mean_deg", "p95_deg",
                            "nees_share");
-  for (int run = 0; run < study.seeds; ++run)
-    print_row(flags.source, run, scores[static_cast<std::size_t>(run)]);
+  for (int run = 0; const LocalizationScore& score : scores) print_row(flags.source, run++, score);
 }
 
 }  // namespace
 
 void add_localize(CLI::App& program) {
-  auto* verb =
-      program.add_subcommand("localize", "Localise the robot anew from a recording's logs");
-  const auto flags = std::make_shared<LocalizeFlags>();
+  const auto [verb, flags] = add_verb<LocalizeFlags>(
+      program, "localize", "Localise the robot anew from a recording's logs", localize);
   verb->add_option("RECORDING", flags->recording, "Folder with odometry.txt and scan/scans.bin")
       ->required();
   verb->add_option("-o,--output", flags->output, "Folder for the results")->required();
@@ -168,7 +162,6 @@ void add_localize(CLI::App& program) {
       "  mapscore localize /data/home -o out --source odometry\n"
       "  mapscore localize /data/home -o out --set localization.grid_resolution_m=0.05 "
       "--set localization.filter.temper=0.2");
-  verb->callback([flags] { localize(*flags); });
 }
 
 }  // namespace mapscore::eval

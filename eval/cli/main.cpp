@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/cli/shared/terminal_guard.hpp"
 #include "eval/cli/verbs.hpp"
 #include "files/text.hpp"
 
@@ -11,12 +10,51 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <streambuf>
 #include <string>
 #include <string_view>
 
 namespace {
 
 constexpr int kWrongInput = 2;
+
+/// While it exists, escapes all that a stream prints by shown_lines(), so that names from
+/// strangers' files cannot control the terminal. One thread at a time.
+class TerminalGuard : public std::streambuf {
+ public:
+  explicit TerminalGuard(std::ostream& stream) : stream_(stream), inner_(stream.rdbuf(this)) {}
+  ~TerminalGuard() override {
+    hand_on(pending_.size());
+    stream_.rdbuf(inner_);
+  }
+  TerminalGuard(const TerminalGuard&) = delete;
+  TerminalGuard& operator=(const TerminalGuard&) = delete;
+
+ protected:
+  int_type overflow(int_type letter) override {
+    if (traits_type::eq_int_type(letter, traits_type::eof())) return traits_type::not_eof(letter);
+    const char byte = traits_type::to_char_type(letter);
+    return xsputn(&byte, 1) == 1 ? letter : traits_type::eof();
+  }
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    pending_.append(bytes, static_cast<std::size_t>(count));
+    return hand_on(pending_.size() - mapscore::unfinished_tail(pending_)) ? count : 0;
+  }
+  int sync() override { return inner_->pubsync(); }
+
+ private:
+  /// Passes on the first `bytes` of the pending text, escaped; false when the stream fails.
+  bool hand_on(std::size_t bytes) {
+    const std::string text = mapscore::shown_lines(std::string_view(pending_).substr(0, bytes));
+    pending_.erase(0, bytes);
+    const auto size = static_cast<std::streamsize>(text.size());
+    return inner_->sputn(text.data(), size) == size;
+  }
+
+  std::ostream& stream_;
+  std::streambuf* inner_;
+  std::string pending_;
+};
 
 int complain(const std::string& message) {
   std::cerr << "mapscore: " << mapscore::shown(message) << '\n';
@@ -47,8 +85,14 @@ void refuse_empty_values(int argc, char** argv) {
 }
 
 int run(CLI::App& program, int argc, char** argv) {
+  using namespace mapscore::eval;
+  for (const auto add :
+       {add_record, add_run, add_frames, add_sweep, add_map, add_localize, add_segment, add_objects,
+        add_truth, add_score, add_resolutions, add_table, add_compare, add_figures})
+    add(program);  // in the order of the help
   int exit_code = 0;
-  mapscore::eval::add_verbs(program, exit_code);
+  add_check(program, exit_code);
+  add_info(program);
   refuse_unknown_verb(program, argc, argv);
   refuse_empty_values(argc, argv);
   program.parse(argc, argv);
@@ -60,7 +104,7 @@ int run(CLI::App& program, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is then an error of writing, with a line
-  const mapscore::eval::TerminalGuard guarded_output(std::cout), guarded_errors(std::cerr);
+  const TerminalGuard guarded_output(std::cout), guarded_errors(std::cerr);
   CLI::App program(
       "How good is a semantic 3D map, and how much calibration and localisation error can it "
       "take?");

@@ -4,12 +4,11 @@
 #include "core/error.hpp"
 #include "eval/cli/shared/choice_flags.hpp"
 #include "eval/cli/shared/options.hpp"
-#include "eval/cli/shared/output_check.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/folder_mapping.hpp"
 #include "eval/lab/map_frame.hpp"
-#include "eval/map_files/voxel_ply.hpp"
+#include "eval/map_files/clouds/cloud_file.hpp"
 #include "eval/recording/frame_selection.hpp"
 #include "eval/results/study_store.hpp"
 #include "eval/score/map_snapshot.hpp"
@@ -18,7 +17,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -26,18 +24,13 @@
 namespace mapscore::eval {
 namespace {
 
-/// As the authors' released code has it, where neither a study nor flags say otherwise.
-const Segmentation kReleasedGrowing = RegionGrowing{.radius_factor = 0.5};
-
 struct MapVerbFlags {
-  explicit MapVerbFlags(CLI::App& verb)
-      : segmentation(verb, "--segmentation", kReleasedGrowing, "Mapping") {}
-
   std::string folder, file, color_file, ply_file;
   LabelledFolderOptions reading;
   std::vector<double> range_m;
   std::string study, method, frames, masks;
-  ChoiceFlags<Segmentation> segmentation;
+  /// As the authors' released code has it, where neither a study nor flags say otherwise.
+  ChoiceFlags<Segmentation> segmentation{"--segmentation", RegionGrowing{.radius_factor = 0.5}};
   std::vector<std::string> detect, overrides;
   std::optional<double> voxel_m, K, threshold;
   std::vector<double> origin_m{0, 0, 0};
@@ -77,19 +70,16 @@ void check_mappable(const Study& study, const MethodSettings& method) {
                     method.name));
 }
 
-void take_from_study(const Study& study, const MapVerbFlags& flags, const ClassTable& table,
-                     FolderMapping& mapping) {
-  const MethodSettings& method = method_of(study, flags.method);
-  check_mappable(study, method);
-  mapping.mapping = mapping_of(with_method(study, method.name), table);
-  mapping.mapping.fusion.draws = {};  // a pose that is known is drawn once
-  mapping.refinement = method.refinement;
-}
-
 FolderMapping folder_mapping(const std::optional<Study>& study, const MapVerbFlags& flags,
                              const ClassTable& table) {
   FolderMapping mapping;
-  if (study) take_from_study(*study, flags, table, mapping);
+  if (study) {
+    const MethodSettings& method = method_of(*study, flags.method);
+    check_mappable(*study, method);
+    mapping.mapping = mapping_of(with_method(*study, method.name), table);
+    mapping.mapping.fusion.draws = {};  // a pose that is known is drawn once
+    mapping.refinement = method.refinement;
+  }
   if (!study || flags.segmentation.given())
     mapping.mapping.segmentation = flags.segmentation.value();
   if (flags.voxel_m) mapping.mapping.voxel_m = *flags.voxel_m;
@@ -154,7 +144,7 @@ void map_recording(const MapVerbFlags& flags) {
   if (map.voxels().empty() && !flags.quiet)
     std::cerr << "mapscore: note: the map has no voxel; do the classes occur in the labels, and do "
                  "poses, depth and --origin_m fit?\n";
-  const OutputLocks together({flags.file, flags.color_file, flags.ply_file});
+  const auto together = lock_outputs({flags.file, flags.color_file, flags.ply_file});
   map.save(flags.file);
   if (!flags.color_file.empty()) map.export_color(flags.color_file, folder.table(), threshold);
   if (!flags.ply_file.empty()) write_voxel_ply(flags.ply_file, map, folder.table(), threshold);
@@ -219,8 +209,9 @@ void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
 }  // namespace
 
 void add_map(CLI::App& program) {
-  auto* verb = program.add_subcommand("map", "Map a recording of any origin, truth or not");
-  const auto flags = std::make_shared<MapVerbFlags>(*verb);
+  const auto [verb, flags] = add_verb<MapVerbFlags>(
+      program, "map", "Map a recording of any origin, truth or not", map_recording);
+  flags->segmentation.add_to(*verb, "Mapping");
   verb->add_option("FOLDER", flags->folder,
                    "Folder with depth.txt, groundtruth.txt, color.txt or rgb.txt, and label/ or "
                    "label.txt")
@@ -241,7 +232,6 @@ void add_map(CLI::App& program) {
       "--classes coco.yaml -o desk.ot --color desk_colour.ot\n"
       "  mapscore map /data/robot --intrinsics cameras.yaml --classes ade.yaml --depth_scale 1000 "
       "--study configs/demo.yaml --method direct --voxel_m 0.02 -o map.ot");
-  verb->callback([flags] { map_recording(*flags); });
 }
 
 }  // namespace mapscore::eval

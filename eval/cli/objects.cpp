@@ -5,12 +5,11 @@
 #include "core/whole_file.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
-#include "eval/cli/shared/recording_progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/object_run.hpp"
-#include "eval/objects/object_mjcf.hpp"
+#include "eval/objects/object_file.hpp"
 #include "eval/render/study_recording.hpp"
-#include "eval/report/object_table.hpp"
+#include "eval/report/table.hpp"
 #include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"
 
@@ -18,7 +17,6 @@
 
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,9 +31,8 @@ struct ObjectFlags {
   std::optional<std::string> start;
   std::vector<std::string> overrides;
   std::optional<double> face_share;
-  double piece_m = ObjectRunOptions{}.piece_m;
-  int seed = 0, max_age = ObjectMapParams{}.max_age, min_points = ObjectRunOptions{}.min_points;
-  int jobs = WorkFlags{}.jobs;
+  ObjectRunOptions options;  ///< but for the rule of boxes
+  int seed = 0, jobs = WorkFlags{}.jobs;
   bool quiet = false;
 };
 
@@ -76,14 +73,11 @@ TrialSpec spec_of(const Study& study, const ObjectFlags& flags) {
 ObjectRunOptions options_of(const ObjectFlags& flags) {
   if (flags.face_share && flags.update != "quantile")
     throw Error("--face_share: belongs to --update quantile; leave it out");
-  ObjectRunOptions options;
+  ObjectRunOptions options = flags.options;
   options.map.update.rule = flags.update == "hull"   ? BoxUpdate::hull
                             : flags.update == "mean" ? BoxUpdate::mean
                                                      : BoxUpdate::quantile;
-  options.map.update.share = flags.face_share.value_or(BoxMerge{}.share);
-  options.piece_m = flags.piece_m;
-  options.map.max_age = flags.max_age;
-  options.min_points = flags.min_points;
+  if (flags.face_share) options.map.update.share = *flags.face_share;
   return options;
 }
 
@@ -100,18 +94,9 @@ void write_files(const ObjectRun& run, const ClassTable& table, const fs::path& 
   const ObjectFile file = run.file();
   const FolderLock lock(folder);
   fs::create_directories(folder);
-  write_objects(folder / "objects.yaml", file, table);
+  write_whole_file(folder / "objects.yaml", object_text(file, table));
   write_whole_file(folder / "objects.xml", object_mjcf(file, table));
   write_whole_file(folder / "objects.ply", object_ply(file.objects, table));
-}
-
-void print_score(const ObjectRun& run, const ClassTable& table, const ObjectFlags& flags) {
-  const Table scores = object_table(
-      score_objects(run.map().objects(), run.truth(flags.against == "seen"), table.classes.size()),
-      table);
-  std::cout << (flags.format == "csv"    ? to_csv(scores)
-                : flags.format == "json" ? to_json(scores)
-                                         : to_text(scores));
 }
 
 void map_objects(const ObjectFlags& flags) {
@@ -130,7 +115,10 @@ void map_objects(const ObjectFlags& flags) {
   if (flags.start) run.start_from(read_objects(*flags.start, table));
   drive_through(recording, flags.quiet, run);
   write_files(run, table, flags.output);
-  if (recording.info().has_truth) print_score(run, table, flags);
+  if (!recording.info().has_truth) return;
+  const std::vector<ObjectCounts> counts =
+      score_objects(run.map().objects(), run.truth(flags.against == "seen"), table.classes.size());
+  std::cout << formatted(object_table(counts, table), flags.format);
 }
 
 /// How the points of a detection become a box, and the boxes of views an object.
@@ -143,17 +131,18 @@ void add_box_flags(CLI::App& verb, ObjectFlags& flags) {
                               "[{}]",
                               BoxMerge{}.share))
       ->check(CLI::Range(0.01, 1.0));
-  verb.add_option("--piece_m", flags.piece_m,
+  verb.add_option("--piece_m", flags.options.piece_m,
                   "Cells in which the points of a detection hang together; the largest piece "
                   "becomes the box")
       ->check(CLI::Range(0.001, 1000.0))
       ->capture_default_str();
-  verb.add_option("--max_age", flags.max_age,
+  verb.add_option("--max_age", flags.options.map.max_age,
                   "Frames in a row after which an object is removed that should have been seen "
                   "and was not")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  verb.add_option("--min_points", flags.min_points, "Points of a detection that becomes a box")
+  verb.add_option("--min_points", flags.options.min_points,
+                  "Points of a detection that becomes a box")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
 }
@@ -161,8 +150,8 @@ void add_box_flags(CLI::App& verb, ObjectFlags& flags) {
 }  // namespace
 
 void add_objects(CLI::App& program) {
-  auto* verb = program.add_subcommand("objects", "Map and score objects: class, pose, size, model");
-  const auto flags = std::make_shared<ObjectFlags>();
+  const auto [verb, flags] = add_verb<ObjectFlags>(
+      program, "objects", "Map and score objects: class, pose, size, model", map_objects);
   verb->add_option("SOURCE", flags->source,
                    "Recording's folder, or a study (its sweep is left out)")
       ->required()
@@ -200,7 +189,6 @@ void add_objects(CLI::App& program) {
       "--set faults.labels.preset=typical\n"
       "  mapscore objects /data/tuesday -o tuesday --start monday/objects.yaml --format csv\n"
       "  mapscore info objects/objects.xml");
-  verb->callback([flags] { map_objects(*flags); });
 }
 
 }  // namespace mapscore::eval

@@ -3,17 +3,12 @@
 
 #include "core/error.hpp"
 #include "eval/cli/shared/options.hpp"
-#include "eval/cli/shared/recording_progress.hpp"
+#include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/recording/recording.hpp"
 #include "eval/render/baked_frames.hpp"
 #include "eval/render/study_recording.hpp"
-#include "sim/recorder/recorded_drive.hpp"
-
-#include <fmt/format.h>
 
 #include <iostream>
-#include <memory>
 
 namespace mapscore::eval {
 namespace {
@@ -25,17 +20,14 @@ struct RecordFlags {
   WorkFlags work;
 };
 
-bool is_scene(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".xml";
-}
-
 void record(const RecordFlags& flags) {
-  if (is_scene(flags.source) && flags.trajectory.empty())
+  const bool is_scene = std::filesystem::path(flags.source).extension() == ".xml";
+  if (is_scene && flags.trajectory.empty())
     throw Error(flags.source +
                 ": a scene by itself says no way to drive; add --trajectory FILE, or record a "
                 "study");
-  Study study = is_scene(flags.source) ? study_of_scene(flags.source, flags.overrides)
-                                       : load_study(flags.source, flags.overrides);
+  Study study = is_scene ? study_of_scene(flags.source, flags.overrides)
+                         : load_study(flags.source, flags.overrides);
   if (!flags.motion.empty()) study.motion = std::filesystem::absolute(flags.motion).string();
   if (flags.bake && has_verdict_faults(study))
     std::cerr << "record: note: wrong classes and scores are not baked: images of instance ids "
@@ -48,8 +40,8 @@ void record(const RecordFlags& flags) {
 }  // namespace
 
 void add_record(CLI::App& program) {
-  auto* verb = program.add_subcommand("record", "Drive, render, write a recording");
-  const auto flags = std::make_shared<RecordFlags>();
+  const auto [verb, flags] =
+      add_verb<RecordFlags>(program, "record", "Drive, render, write a recording", record);
   verb->add_option("SOURCE", flags->source, "Study file, or a scene (MJCF) with --trajectory")
       ->required();
   verb->add_option("-o,--output", flags->folder, "Folder of the recording; must not exist")
@@ -75,7 +67,6 @@ void add_record(CLI::App& program) {
       "  mapscore record scenes/apartment.xml --trajectory poses.txt -o /data/handheld\n"
       "  mapscore record scenes/moving_person.xml --motion scenes/moving_person.motion.csv "
       "--trajectory poses.txt -o /data/person");
-  verb->callback([flags] { record(*flags); });
 }
 
 }  // namespace mapscore::eval

@@ -6,13 +6,10 @@
 #include "core/mapping/map_resolution.hpp"
 #include "eval/cli/shared/map_score.hpp"
 #include "eval/cli/shared/options.hpp"
-#include "eval/cli/shared/output_check.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/shared/truth_source.hpp"
-#include "eval/cli/shared/view_flag.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/report/pictures/map_pictures.hpp"
-#include "eval/report/pictures/resolution_picture.hpp"
 #include "eval/report/pictures/view.hpp"
 #include "eval/report/tidy_csv.hpp"
 
@@ -20,7 +17,6 @@
 
 #include <bit>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -129,13 +125,6 @@ Resolutions score_sizes(const ResolutionFlags& flags, const SemanticMap& map) {
   return result;
 }
 
-void draw(const ResolutionFlags& flags, const Resolutions& sizes) {
-  const TruthSource source(flags.truth, flags.lattice, flags.work);
-  ScenePainter painter(source.shapes(), sizes.classes);
-  const sim::View view = flags.view.view().value_or(overview(sizes.maps));
-  write_picture(flags.picture, resolution_picture(sizes.maps, sizes.classes, painter, view));
-}
-
 void read_resolutions(const ResolutionFlags& flags) {
   check_times(flags.times);
   std::vector<OutputFile> outputs{{"--picture", flags.picture, ".png"}};
@@ -145,23 +134,26 @@ void read_resolutions(const ResolutionFlags& flags) {
   if (flags.view.view() && flags.picture.empty())
     throw Error("--view: needs --picture, the file that it is drawn into");
   const SemanticMap map = SemanticMap::load(flags.map.file);
-  const OutputLocks together({flags.picture, flags.color});
+  const auto together = lock_outputs({flags.picture, flags.color});
   Resolutions sizes = score_sizes(flags, map);
-  if (!flags.picture.empty()) draw(flags, sizes);
+  if (!flags.picture.empty()) {
+    const TruthSource source(flags.truth, flags.lattice, flags.work);
+    ScenePainter painter(source.shapes(), sizes.classes);
+    const sim::View view = flags.view.view().value_or(overview(sizes.maps));
+    write_picture(flags.picture, resolution_picture(sizes.maps, sizes.classes, painter, view));
+  }
   sizes.table.caption = {
       fmt::format("{}, read as {} puts voxels together, against {} at the same size",
                   flags.map.file, flags.rule, flags.truth)};
-  std::cout << (flags.format == "csv"    ? to_csv(sizes.table)
-                : flags.format == "json" ? to_json(sizes.table)
-                                         : to_text(sizes.table));
+  std::cout << formatted(sizes.table, flags.format);
 }
 
 }  // namespace
 
 void add_resolutions(CLI::App& program) {
-  auto* verb = program.add_subcommand(
-      "resolutions", "Read one semantic map at 1, 2, 4, 8 times its voxels and score each");
-  const auto flags = std::make_shared<ResolutionFlags>();
+  const auto [verb, flags] = add_verb<ResolutionFlags>(
+      program, "resolutions", "Read one semantic map at 1, 2, 4, 8 times its voxels and score each",
+      read_resolutions);
   verb->add_option("MAP", flags->map.file, "Map of `map` or `run` (.ot, type SemanticOcTree)")
       ->required();
   verb->add_option("--truth", flags->truth, "Recording, or scene (MJCF)")->required();
@@ -183,8 +175,7 @@ void add_resolutions(CLI::App& program) {
   flags->view.add_to(*verb);
   verb->add_option("--color", flags->color,
                    "FILE.ot: also ColorOcTrees FILE_x1.ot, FILE_x2.ot, ... for octovis and ROS");
-  verb->add_option("--format", flags->format, "text, csv or json [text]")
-      ->check(CLI::IsMember({"text", "csv", "json"}));
+  add_format_flag(*verb, flags->format);
   flags->lattice.add_without_voxel_to(*verb);
   flags->work.add_to(*verb);
   verb->footer(
@@ -194,7 +185,6 @@ void add_resolutions(CLI::App& program) {
       "  mapscore resolutions map.ot --truth /data/apartment\n"
       "  mapscore resolutions map.ot --truth scenes/home.xml --times 1,2,4,8,16 --picture "
       "sizes.png");
-  verb->callback([flags] { read_resolutions(*flags); });
 }
 
 }  // namespace mapscore::eval

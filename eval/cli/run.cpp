@@ -5,10 +5,8 @@
 #include "core/whole_file.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
-#include "eval/cli/shared/recording_progress.hpp"
 #include "eval/cli/shared/trial_maps.hpp"
-#include "eval/cli/shared/truth_size.hpp"
-#include "eval/cli/shared/view_flag.hpp"
+#include "eval/cli/shared/truth_source.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/bench.hpp"
 #include "eval/lab/map_frame.hpp"
@@ -124,41 +122,40 @@ void run(const RunFlags& flags) {
   const bool by_frame = task.config.score.unit == ScoreUnit::frame;
 
   Bench bench(recording, table, reads_colour(study), flags.work.memory_bytes);
-  const std::unique_ptr<TrialRun> run_trial = bench.start(task);
-  TrialRun& trial = *run_trial;
-  trial.keep_frames();
+  const std::unique_ptr<TrialRun> trial = bench.start(task);
+  trial->keep_frames();
   Progress progress("run", "frames", flags.work.quiet);
-  bench.run(trial, [&](int done, int all) { progress.show(done, all); });
+  bench.run(*trial, [&](int done, int all) { progress.show(done, all); });
   const std::filesystem::path folder =
       results / "runs" /
       fmt::format("{}-seed{}-{}", spec.method, spec.seed_index, task.key.substr(0, 8));
   const FolderLock lock(folder);
   std::filesystem::create_directories(folder);
-  const TrialResult result = trial.finish();  // which refines the map
-  trial.map().save(folder / "map.ot");
-  trial.map().export_color(folder / "map_colour.ot", table, trial.threshold());
+  const TrialResult result = trial->finish();  // which refines the map
+  trial->map().save(folder / "map.ot");
+  trial->map().export_color(folder / "map_colour.ot", table, trial->threshold());
   std::cout << fmt::format("# {} seed {}{}{}, voxels of {} m, each {} scored, threshold {}\n",
                            spec.method, spec.seed_index, spec.cell.doses.empty() ? "" : " ",
                            text_of(spec.cell), task.config.voxel_m, by_frame ? "frame" : "map",
-                           trial.threshold())
+                           trial->threshold())
             << score_text(result, table) << shown(folder / "map.ot")
             << (by_frame ? " (of the last frame)\n" : "\n") << shown(folder / "map_colour.ot")
             << '\n'
-            << score_command(folder / "map.ot", study, recording, table, task, trial.threshold());
-  write_frames(trial, table, folder / "frames.csv");
+            << score_command(folder / "map.ot", study, recording, table, task, trial->threshold());
+  write_frames(*trial, table, folder / "frames.csv");
   const PictureChoice choice{spec.cell.doses, spec.method, spec.seed_index, flags.work.memory_bytes,
                              view};
   print_pictures(draw_pictures(study, table, recording, choice, folder, [&] {
     return by_frame ? map_trials(study, bench, choice)  // of the fullest frame, not the last
-                    : std::vector{judged_trial(study, trial, task, table, spec, {})};
+                    : std::vector{judged_trial(study, *trial, task, table, spec, {})};
   }));
 }
 
 }  // namespace
 
 void add_run(CLI::App& program) {
-  auto* verb = program.add_subcommand("run", "One trial, with its map and pictures of its errors");
-  const auto flags = std::make_shared<RunFlags>();
+  const auto [verb, flags] =
+      add_verb<RunFlags>(program, "run", "One trial, with its map and pictures of its errors", run);
   flags->study.add_to(*verb);
   flags->work.add_to(*verb);
   add_yes_flag(*verb, flags->yes);
@@ -171,7 +168,6 @@ void add_run(CLI::App& program) {
       "  mapscore run configs/demo.yaml --method region_growing\n"
       "  mapscore run configs/demo.yaml --view 4 1 2.2 5.5 3 0.8\n"
       "  mapscore run configs/demo.yaml --set 'sweep={}' --set faults.depth.preset=astra");
-  verb->callback([flags] { run(*flags); });
 }
 
 }  // namespace mapscore::eval

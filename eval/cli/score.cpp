@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/cli/shared/map_input.hpp"
 #include "eval/cli/shared/map_score.hpp"
 #include "eval/cli/shared/options.hpp"
-#include "eval/cli/shared/output_check.hpp"
 #include "eval/cli/shared/truth_source.hpp"
-#include "eval/cli/shared/view_flag.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/report/pictures/error_ply.hpp"
+#include "eval/report/pictures/judgement.hpp"
 #include "eval/report/pictures/map_pictures.hpp"
 #include "eval/report/pictures/view.hpp"
 #include "eval/report/table.hpp"
@@ -17,15 +14,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <optional>
 
 namespace mapscore::eval {
 namespace {
-
-constexpr std::size_t kListedLeftovers = 10;
 
 struct ScoreFlags {
   MapFlags map;
@@ -45,10 +40,7 @@ void print(const ScoreFlags& flags, const std::vector<Table>& tables) {
     return;
   }
   for (std::size_t n = 0; n < tables.size(); ++n)
-    std::cout << (n ? "\n" : "")
-              << (flags.format == "csv"    ? to_csv(tables[n])
-                  : flags.format == "json" ? to_json(tables[n])
-                                           : to_text(tables[n]));
+    std::cout << (n ? "\n" : "") << formatted(tables[n], flags.format);
 }
 
 /// For other tools: never as text.
@@ -77,6 +69,16 @@ std::vector<std::string> caption_of(const ScoreFlags& flags, const InputMap& map
   return caption;
 }
 
+/// The labels without meaning in one line, the commonest first.
+std::string text_of(const std::vector<Leftover>& leftovers) {
+  constexpr std::size_t kMost = 10;
+  std::string text;
+  for (std::size_t n = 0; n < std::min(kMost, leftovers.size()); ++n)
+    text += fmt::format("{}{} ({})", n ? ", " : "", leftovers[n].label, leftovers[n].count);
+  if (leftovers.size() > kMost) text += fmt::format(" and {} more", leftovers.size() - kMost);
+  return text;
+}
+
 /// What the user may want to know, of figures that are right as they are.
 void note(const ScoreFlags& flags, const std::string& text) {
   if (!flags.work.quiet) std::cerr << "mapscore: note: " << text << '\n';
@@ -86,7 +88,7 @@ void note(const ScoreFlags& flags, const std::string& text) {
 void write_errors(const ScoreFlags& flags, const InputMap& map, const MapScore& score,
                   const TruthSource& source) {
   if (flags.picture.empty() && flags.errors_ply.empty()) return;
-  const OutputLocks together({flags.picture, flags.errors_ply});
+  const auto together = lock_outputs({flags.picture, flags.errors_ply});
   const std::string name = std::filesystem::path(flags.map.file).filename().string();
   const JudgedMap judged =
       judged_map(name, name, map.snapshot, score.threshold, score.truth.surface,
@@ -99,21 +101,16 @@ void write_errors(const ScoreFlags& flags, const InputMap& map, const MapScore& 
   draw_error_picture(flags.picture, judged, painter, flags.view.view(), T_world_depth);
 }
 
-/// Refuses before the work what could not be written after it.
-void check_outputs(const ScoreFlags& flags) {
+void score_map(const ScoreFlags& flags) {
   if (!flags.picture.empty()) check_picture_name(flags.picture);
   if (flags.view.view() && flags.picture.empty())
     throw Error("--view: needs --picture, the file that it is drawn into");
-}
-
-void score_map(const ScoreFlags& flags) {
-  check_outputs(flags);
   TruthSource source(flags.truth, flags.lattice, flags.work);
   if (!flags.detect.empty()) source.detect(flags.detect);
   const InputMap map = read_input_map(flags.map, source.table(), flags.lattice.voxel_m);
   if (!map.leftovers.empty())
-    note(flags, "labels without a meaning: " + text_of(map.leftovers, kListedLeftovers) +
-                    "; --legend can give them one");
+    note(flags,
+         "labels without a meaning: " + text_of(map.leftovers) + "; --legend can give them one");
   const double threshold =
       flags.threshold.value_or(map.geometry ? 0.0 : default_threshold(BlendRule{}));
   const MapScore score = score_input(map, flags.map, threshold, source, flags.work.jobs);
@@ -159,18 +156,8 @@ void check_label_flags(const ScoreFlags& flags) {
   for (const auto& [given, flag] : idle)
     if (given)
       throw Error(
-          fmt::format("{}: {} is a folder of label images, which have no voxels; leave it "
-                      "out",
+          fmt::format("{}: {} is a folder of label images, which have no voxels; leave it out",
                       flag, flags.map.file));
-}
-
-/// The recording's own label images hold numbers of instances, which would pass for classes.
-void refuse_own_labels(const std::string& folder, const Recording& recording) {
-  std::error_code none;
-  if (std::filesystem::equivalent(folder, recording.folder() / "label", none))
-    throw Error(folder +
-                ": holds ids of instances, the truth; label images to score hold ids of "
-                "classes");
 }
 
 void score_label_images(const ScoreFlags& flags) {
@@ -178,7 +165,11 @@ void score_label_images(const ScoreFlags& flags) {
   TruthSource source(flags.truth, flags.lattice, flags.work);
   if (!source.recording())
     throw Error(flags.map.file + ": a folder of label images needs a recording as --truth");
-  refuse_own_labels(flags.map.file, *source.recording());
+  std::error_code none;
+  // The recording's own label images hold numbers of instances, which would pass for classes.
+  if (std::filesystem::equivalent(flags.map.file, source.recording()->folder() / "label", none))
+    throw Error(flags.map.file +
+                ": holds ids of instances, the truth; label images to score hold ids of classes");
   const ConfusionMatrix matrix =
       label_folder_confusion(*source.recording(), flags.map.file, source.frames(),
                              legend_of(flags, source.table()), flags.work.jobs);
@@ -203,9 +194,8 @@ void score(const ScoreFlags& flags) {
 }  // namespace
 
 void add_score(CLI::App& program) {
-  auto* verb =
-      program.add_subcommand("score", "Score any map against the truth of a recording or a scene");
-  const auto flags = std::make_shared<ScoreFlags>();
+  const auto [verb, flags] = add_verb<ScoreFlags>(
+      program, "score", "Score any map against the truth of a recording or a scene", score);
   flags->map.add_to(*verb);
   verb->add_option("--truth", flags->truth, "Recording, or scene (MJCF)")->required();
   verb->add_option("--threshold", flags->threshold,
@@ -218,8 +208,7 @@ void add_score(CLI::App& program) {
   verb->add_flag("--details", flags->details,
                  "And distances, probabilities, instances, confusion, free space");
   verb->add_flag("--tidy", flags->tidy, "Everything as one table: class,metric,value");
-  verb->add_option("--format", flags->format, "text, csv or json [text]")
-      ->check(CLI::IsMember({"text", "csv", "json"}));
+  add_format_flag(*verb, flags->format);
   verb->add_option("--picture", flags->picture,
                    "PNG: true, near, leak, floating and missed voxels in the scene");
   flags->view.add_to(*verb);
@@ -234,7 +223,6 @@ void add_score(CLI::App& program) {
       "  mapscore score map.ot --truth /data/apartment --picture errors.png --view 4 1 2 5 3 0.8\n"
       "  mapscore score cloud.pcd --transform '1 0 0 0 0 0.7071068 0.7071068' --truth /data/home\n"
       "  mapscore score predicted_labels/ --truth /data/apartment --frames 0:50");
-  verb->callback([flags] { score(*flags); });
 }
 
 }  // namespace mapscore::eval

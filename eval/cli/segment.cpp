@@ -18,8 +18,6 @@
 
 #include <cmath>
 #include <iostream>
-#include <memory>
-#include <optional>
 
 namespace mapscore::eval {
 namespace {
@@ -27,20 +25,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SegmentFlags {
-  explicit SegmentFlags(CLI::App& verb) : segmentation(verb, "--method", Direct{}) {}
-
   std::string recording, output;
-  ChoiceFlags<Segmentation> segmentation;
+  ChoiceFlags<Segmentation> segmentation{"--method", Direct{}};
   int frame = 0;
   double voxel_m = 0.05;
 };
-
-Frame frame_of(const Recording& recording, int frame) {
-  if (frame < 0 || frame >= recording.frame_count())
-    throw Error(fmt::format("no frame {}; frames: 0 to {}", frame, recording.frame_count() - 1));
-  return recording.read(frame,
-                        {.color = false, .label = true, .depth = true, .depth_label = false});
-}
 
 std::string_view name_of(SkipReason reason) {
   return names_of(reason)[static_cast<std::size_t>(reason)];
@@ -109,7 +98,11 @@ void write_all(const std::vector<Segment>& segments, const ClassTable& table,
 void write_segments(const SegmentFlags& flags) {
   const Segmentation segmentation = flags.segmentation.value();
   const Recording recording = Recording::open(flags.recording);
-  const Frame frame = frame_of(recording, flags.frame);
+  if (flags.frame < 0 || flags.frame >= recording.frame_count())
+    throw Error(
+        fmt::format("no frame {}; frames: 0 to {}", flags.frame, recording.frame_count() - 1));
+  const Frame frame = recording.read(
+      flags.frame, {.color = false, .label = true, .depth = true, .depth_label = false});
   const Calibration& calibration = recording.info().calibration;
   const ClassTable& table = recording.info().table;
   const Sight sight(calibration, frame.depth, detections_of(frame.label, table));
@@ -133,9 +126,10 @@ void write_segments(const SegmentFlags& flags) {
 }  // namespace
 
 void add_segment(CLI::App& program) {
-  auto* verb =
-      program.add_subcommand("segment", "Write the points, voxels and boxes of a frame's objects");
-  const auto flags = std::make_shared<SegmentFlags>(*verb);
+  const auto [verb, flags] = add_verb<SegmentFlags>(
+      program, "segment", "Write the points, voxels and boxes of a frame's objects",
+      write_segments);
+  flags->segmentation.add_to(*verb);
   verb->add_option("RECORDING", flags->recording, "Folder of a recording")->required();
   verb->add_option("-o,--output", flags->output, "Folder for the files, new or empty")->required();
   verb->add_option("--frame", flags->frame, "Index of the frame [0]");
@@ -149,7 +143,6 @@ void add_segment(CLI::App& program) {
       "  mapscore segment results/demo/recordings/apartment-* --frame 12 -o segments\n"
       "  mapscore segment /data/home --method region_growing --seed depth_mode --voxel_m 0.02 -o "
       "segments");
-  verb->callback([flags] { write_segments(*flags); });
 }
 
 }  // namespace mapscore::eval

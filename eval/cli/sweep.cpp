@@ -4,13 +4,11 @@
 #include "core/error.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
-#include "eval/cli/shared/recording_progress.hpp"
-#include "eval/cli/shared/truth_size.hpp"
+#include "eval/cli/shared/truth_source.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/runner.hpp"
 #include "eval/render/replay_check.hpp"
 #include "eval/render/study_recording.hpp"
-#include "eval/report/lattice_check.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/results/plan.hpp"
 #include "eval/results/store.hpp"
@@ -21,7 +19,6 @@
 
 #include <cstdio>
 #include <iostream>
-#include <memory>
 
 namespace mapscore::eval {
 namespace {
@@ -41,12 +38,6 @@ std::pair<int, int> parse_shard(const std::string& text) {
       read != static_cast<int>(text.size()) || shard < 1 || shard > shards)
     throw Error("--shard " + text + ": must be i/n with 1 <= i <= n, e.g. 2/4");
   return {shard, shards};
-}
-
-void merge_into(ResultStore& store, const std::string& other, bool quiet) {
-  const int taken = store.merge(ResultStore::open_existing(store_file(other)));
-  if (!quiet)
-    std::cerr << fmt::format("sweep: {} trials taken over from {}\n", taken, shown(other));
 }
 
 /// A store keeps the trials of every study, and shows those of the last one.
@@ -89,7 +80,11 @@ void sweep(const SweepFlags& flags) {
               {study, table, recording.content_hash(),
                std::filesystem::relative(recording.folder(), results).string()},
               results);
-  for (const std::string& other : flags.merged) merge_into(store, other, flags.work.quiet);
+  for (const std::string& other : flags.merged) {
+    const int taken = store.merge(ResultStore::open_existing(store_file(other)));
+    if (!flags.work.quiet)
+      std::cerr << fmt::format("sweep: {} trials taken over from {}\n", taken, shown(other));
+  }
   Progress progress("sweep", "frame evaluations", flags.work.quiet);
   const RunnerOutcome outcome =
       run_plan(plan, recording, table, store,
@@ -106,8 +101,8 @@ void sweep(const SweepFlags& flags) {
 }  // namespace
 
 void add_sweep(CLI::App& program) {
-  auto* verb = program.add_subcommand("sweep", "Compute all trials of a study; resumes");
-  const auto flags = std::make_shared<SweepFlags>();
+  const auto [verb, flags] =
+      add_verb<SweepFlags>(program, "sweep", "Compute all trials of a study; resumes", sweep);
   flags->study.add_to(*verb);
   flags->work.add_to(*verb);
   add_yes_flag(*verb, flags->yes);
@@ -125,7 +120,6 @@ void add_sweep(CLI::App& program) {
       "  mapscore sweep configs/demo.yaml --set seeds=20 --set voxel_m=0.02\n"
       "  mapscore sweep configs/demo.yaml -o part2 --shard 2/2\n"
       "  mapscore sweep configs/demo.yaml -o part1 --merge part2");
-  verb->callback([flags] { sweep(*flags); });
 }
 
 }  // namespace mapscore::eval

@@ -4,6 +4,7 @@
 #include "eval/report/table.hpp"
 
 #include "core/error.hpp"
+#include "eval/cli/shared/options.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/report/tidy_csv.hpp"
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 
 namespace mapscore::eval {
 namespace {
@@ -30,29 +30,24 @@ void print_table(const TableFlags& flags) {
   if (std::find(groups.begin(), groups.end(), flags.group) == groups.end())
     throw Error(fmt::format("--class {}: not scored in this study; there are: {}", flags.group,
                             fmt::join(groups, ", ")));
-  const Table table = score_table(summary, flags.group);
-  std::cout << (flags.format == "csv"    ? to_csv(table)
-                : flags.format == "json" ? to_json(table)
-                                         : to_text(table));
+  std::cout << formatted(score_table(summary, flags.group), flags.format);
 }
 
 }  // namespace
 
 void add_table(CLI::App& program) {
-  auto* verb = program.add_subcommand("table", "Print the scores of a swept study");
-  const auto flags = std::make_shared<TableFlags>();
+  const auto [verb, flags] =
+      add_verb<TableFlags>(program, "table", "Print the scores of a swept study", print_table);
   verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
   verb->add_option("--class", flags->group,
                    "pooled, macro, or the name of a detected class [pooled]");
-  verb->add_option("--format", flags->format, "text, csv or json [text]")
-      ->check(CLI::IsMember({"text", "csv", "json"}));
+  add_format_flag(*verb, flags->format);
   verb->add_flag("--tidy", flags->tidy, "Everything as tidy CSV: a row a trial, class and metric");
   verb->footer(
       "Examples:\n"
       "  mapscore table results/demo\n"
       "  mapscore table results/demo --class chair --format csv\n"
       "  mapscore table results/demo --tidy > demo.csv");
-  verb->callback([flags] { print_table(*flags); });
 }
 
 }  // namespace mapscore::eval

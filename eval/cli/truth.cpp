@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <memory>
 
 namespace mapscore::eval {
 namespace {
@@ -38,8 +37,8 @@ void write_truth_of(const TruthFlags& flags) {
 }  // namespace
 
 void add_truth(CLI::App& program) {
-  auto* verb = program.add_subcommand("truth", "Write the voxels that the surfaces really touch");
-  const auto flags = std::make_shared<TruthFlags>();
+  const auto [verb, flags] = add_verb<TruthFlags>(
+      program, "truth", "Write the voxels that the surfaces really touch", write_truth_of);
   verb->add_option("SOURCE", flags->source,
                    "Scene (MJCF: surfaces alone) or recording (and what it saw)")
       ->required();
@@ -53,7 +52,6 @@ void add_truth(CLI::App& program) {
       "  mapscore truth scenes/apartment.xml --voxel_m 0.05 -o truth.ply\n"
       "  mapscore truth results/demo/recordings/apartment-* --voxel_m 0.02 -o truth.csv\n"
       "  mapscore truth /data/apartment --frames 0:50:2 -o half.csv");
-  verb->callback([flags] { write_truth_of(*flags); });
 }
 
 }  // namespace mapscore::eval

@@ -5,7 +5,22 @@
 
 #include <CLI/CLI.hpp>
 
+#include <memory>
+#include <utility>
+
 namespace mapscore::eval {
+
+/// Adds a verb that calls `work` with its flags; gives both, to add the options.
+template <class Flags>
+[[nodiscard]] std::pair<CLI::App*, std::shared_ptr<Flags>> add_verb(CLI::App& program,
+                                                                    const char* name,
+                                                                    const char* help,
+                                                                    void (*work)(const Flags&)) {
+  CLI::App* verb = program.add_subcommand(name, help);
+  const auto flags = std::make_shared<Flags>();
+  verb->callback([work, flags] { work(*flags); });
+  return {verb, flags};
+}
 
 /// Each function adds one verb to the program. A verb's callback does the work and throws Error
 /// when the input is wrong; `check` sets `exit_code` to 1 when the answer is no.
@@ -25,25 +40,5 @@ void add_compare(CLI::App& program);
 void add_figures(CLI::App& program);
 void add_check(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program);
-
-/// All of them, in the order of the help.
-inline void add_verbs(CLI::App& program, int& exit_code) {
-  add_record(program);
-  add_run(program);
-  add_frames(program);
-  add_sweep(program);
-  add_map(program);
-  add_localize(program);
-  add_segment(program);
-  add_objects(program);
-  add_truth(program);
-  add_score(program);
-  add_resolutions(program);
-  add_table(program);
-  add_compare(program);
-  add_figures(program);
-  add_check(program, exit_code);
-  add_info(program);
-}
 
 }  // namespace mapscore::eval

@@ -3,16 +3,15 @@
 
 #include "eval/foreign/labelled_folder.hpp"
 
-#include "core/error.hpp"
 #include "eval/foreign/association.hpp"
-#include "eval/foreign/camera_file.hpp"
 #include "eval/recording/image_files.hpp"
 #include "eval/recording/info_yaml.hpp"
+#include "eval/recording/pose_text.hpp"
 #include "files/file_bytes.hpp"
 #include "files/png.hpp"
-#include "files/png_size.hpp"
-
-#include <fmt/format.h>
+#include "files/refusal.hpp"
+#include "files/text_rows.hpp"
+#include "files/yaml_value.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,14 +25,56 @@ constexpr const char* kMendOutside = "copy it there, or give --follow if the fol
 
 namespace fs = std::filesystem;
 
-/// The first of these files that is there; the last where none is.
-fs::path first_there(const fs::path& folder, std::initializer_list<const char*> names) {
-  fs::path file;
-  for (const char* name : names) {
-    file = folder / name;
-    if (fs::is_regular_file(file)) break;
-  }
-  return file;
+/// Least and most depth that counts where nothing says otherwise, metres.
+constexpr double kRangeMin_m = 0.1, kRangeMax_m = 10.0;
+
+CameraModel camera_of(const std::vector<double>& numbers, const std::string& text) {
+  if (numbers.size() != 4 || numbers[0] <= 0.0 || numbers[1] <= 0.0)
+    throw Error(
+        fmt::format("--intrinsics: '{}' is not fx,fy,cx,cy in pixels, fx and fy above 0; "
+                    "undistort images of a camera with more",
+                    text));
+  return {0, 0, numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+CameraModel camera_of(const YamlValue& value) {
+  value.only({"fx_px", "fy_px", "cx_px", "cy_px"});
+  const double fx_px = value.at("fx_px").positive(), fy_px = value.at("fy_px").positive();
+  return {0, 0, fx_px, fy_px, value.at("cx_px").number(), value.at("cy_px").number()};
+}
+
+Calibration read_camera_file(const std::filesystem::path& file) {
+  const YamlValue root = load_yaml(file);
+  root.only({"color", "depth", "T_color_depth", "T_base_depth", "range_min_m", "range_max_m"});
+  const auto pose_at = [&](const char* key) {
+    return root.has(key) ? pose_of(root.at(key)) : Pose::Identity();
+  };
+  const auto number_at = [&](const char* key, double otherwise) {
+    return root.has(key) ? root.at(key).number() : otherwise;
+  };
+  Calibration cameras;
+  cameras.color = cameras.depth = camera_of(root.at("color"));
+  if (root.has("depth")) cameras.depth = camera_of(root.at("depth"));
+  cameras.T_color_depth = pose_at("T_color_depth");
+  cameras.T_base_depth = pose_at("T_base_depth");
+  cameras.range_min_m = number_at("range_min_m", kRangeMin_m);
+  cameras.range_max_m = number_at("range_max_m", kRangeMax_m);
+  if (cameras.range_min_m < 0.0 || cameras.range_max_m <= cameras.range_min_m)
+    root.fail("expected 0 <= range_min_m < range_max_m");
+  return cameras;
+}
+
+/// Cameras of a recording without recording.yaml. `text` is "fx,fy,cx,cy" in pixels, of depth that
+/// is registered to colour and poses of that camera, or else a YAML file with the keys of
+/// docs/foreign_recordings.md. Widths and heights are 0: the images say them. Throws Error.
+Calibration read_cameras(const std::string& text) {
+  const auto numbers = parse_numbers(text, text.size());
+  if (!numbers) return read_camera_file(text);
+  Calibration cameras;
+  cameras.color = cameras.depth = camera_of(*numbers, text);
+  cameras.range_min_m = kRangeMin_m;
+  cameras.range_max_m = kRangeMax_m;
+  return cameras;
 }
 
 std::vector<double> stamps_of(const std::vector<StampedImage>& images) {
@@ -47,9 +88,8 @@ std::string read_sized(const fs::path& file, const CameraModel& camera, const ch
   std::string bytes = read_file(file);
   const cv::Size size = png_size(bytes, file.string());
   if (size != cv::Size(camera.width_px, camera.height_px))
-    throw Error(fmt::format("{}: is {} x {}, {} images are {} x {}; make all of one size",
-                            file.string(), size.width, size.height, what, camera.width_px,
-                            camera.height_px));
+    refuse(file, "is {} x {}, {} images are {} x {}; make all of one size", size.width, size.height,
+           what, camera.width_px, camera.height_px);
   return bytes;
 }
 
@@ -69,8 +109,7 @@ cv::Mat1w in_our_units(const cv::Mat1w& depth, double units_per_m) {
 
 LabelledFolder::LabelledFolder(const fs::path& folder, const LabelledFolderOptions& options)
     : folder_(folder), options_(options) {
-  if (!fs::is_directory(folder))
-    throw Error(fmt::format("{}: no such folder; give the folder of a recording", folder.string()));
+  if (!fs::is_directory(folder)) refuse(folder, "no such folder; give the folder of a recording");
   read_meaning();
   pair_frames();
   size_cameras();
@@ -81,10 +120,9 @@ void LabelledFolder::read_meaning() {
   const fs::path own = folder_ / "recording.yaml";
   const bool is_ours = fs::is_regular_file(own);
   if (!is_ours && options_.cameras.empty())
-    throw Error(fmt::format("{}: no recording.yaml in it; give --intrinsics fx,fy,cx,cy or a file",
-                            folder_.string()));
+    refuse(folder_, "no recording.yaml in it; give --intrinsics fx,fy,cx,cy or a file");
   if (!is_ours && options_.classes.empty())
-    throw Error(fmt::format("{}: no recording.yaml in it; give --classes FILE", folder_.string()));
+    refuse(folder_, "no recording.yaml in it; give --classes FILE");
   if (is_ours) {
     const RecordingInfo info = read_info(own);
     calibration_ = info.calibration;
@@ -105,8 +143,9 @@ void LabelledFolder::read_meaning() {
 
 std::vector<StampedImage> LabelledFolder::label_images() const {
   if (fs::is_regular_file(folder_ / "label.txt")) return read_stamp_list(folder_ / "label.txt");
+  const bool has_color = fs::is_regular_file(folder_ / "color.txt");
   std::vector<StampedImage> images =
-      read_stamp_list(first_there(folder_, {"color.txt", "rgb.txt"}));
+      read_stamp_list(folder_ / (has_color ? "color.txt" : "rgb.txt"));
   for (StampedImage& image : images) {
     if (!options_.follow) check_inside(folder_, image.path, kMendOutside);
     image.path = fs::path(sibling_path(image.path, "label")).replace_extension(".png").string();
@@ -141,17 +180,15 @@ void LabelledFolder::pair_frames() {
       ++counts_.no_pose;
   }
   if (frames_.empty())
-    throw Error(
-        fmt::format("{}: no frame left: of {} label images {} have no depth image within "
-                    "{} s, {} no pose; mend the stamps or give --max_offset_s",
-                    folder_.string(), counts_.labels, counts_.no_depth, options_.max_offset_s,
-                    counts_.no_pose));
+    refuse(folder_,
+           "no frame left: of {} label images {} have no depth image within {} s, {} no pose; mend "
+           "the stamps or give --max_offset_s",
+           counts_.labels, counts_.no_depth, options_.max_offset_s, counts_.no_pose);
   for (const LabelledDepth& frame : frames_)
     for (const std::string& path : {frame.label, frame.depth.path}) {
       if (!options_.follow) check_inside(folder_, path, kMendOutside);
       if (!fs::is_regular_file(folder_ / path))
-        throw Error(fmt::format("{}: image is missing; copy it there, or list only what there is",
-                                (folder_ / path).string()));
+        refuse(folder_ / path, "image is missing; copy it there, or list only what there is");
     }
 }
 
@@ -171,11 +208,10 @@ void LabelledFolder::size_cameras() {
   const CameraModel &color = calibration_.color, &depth = calibration_.depth;
   const bool other_size = color.width_px != depth.width_px || color.height_px != depth.height_px;
   if (other_size && color.fx_px == depth.fx_px && color.cx_px == depth.cx_px)
-    throw Error(
-        fmt::format("{}: depth is {} x {}, labels are {} x {}; give --intrinsics FILE with "
-                    "a depth camera, or make both of one size",
-                    (folder_ / frames_.front().depth.path).string(), depth.width_px,
-                    depth.height_px, color.width_px, color.height_px));
+    refuse(folder_ / frames_.front().depth.path,
+           "depth is {} x {}, labels are {} x {}; give --intrinsics FILE with a depth camera, or "
+           "make both of one size",
+           depth.width_px, depth.height_px, color.width_px, color.height_px);
 }
 
 void LabelledFolder::check_cameras() const {

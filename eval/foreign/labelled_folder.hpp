@@ -17,7 +17,7 @@ namespace mapscore::eval {
 
 /// How a folder in the layout of the TUM RGB-D benchmark is to be read.
 struct LabelledFolderOptions {
-  std::string cameras;  ///< as read_cameras takes them; empty: recording.yaml's
+  std::string cameras;  ///< "fx,fy,cx,cy" in pixels, or a file; empty: recording.yaml's
   std::string classes;  ///< file of read_label_classes; empty: recording.yaml's
   ClassMasks masks = ClassMasks::components;
   double depth_units_per_m = kDepthUnitsPerMetre;

@@ -3,7 +3,6 @@
 
 #include "eval/lab/folder_mapping.hpp"
 
-#include "core/mapping/mapper.hpp"
 #include "core/refinement/map_refinement.hpp"
 #include "core/segmentation/detection.hpp"
 

@@ -3,19 +3,13 @@
 
 #pragma once
 
-#include "core/classes.hpp"
-#include "eval/lab/map_frame.hpp"
 #include "eval/lab/recorded_surfaces.hpp"
 #include "eval/recording/frame_cache.hpp"
 #include "eval/recording/frame_selection.hpp"
-#include "eval/recording/recording.hpp"
-#include "eval/score/distances/distance_score.hpp"
 #include "eval/score/distances/sample_set.hpp"
-#include "eval/truth/surface_truth.hpp"
 #include "eval/truth/visible_truth.hpp"
 
 #include <optional>
-#include <vector>
 
 namespace mapscore::eval {
 
@@ -41,11 +35,8 @@ struct TruthOptions {
 };
 
 /// Truth of one recording on one lattice. Immutable, shared by all trials that are scored on it.
-struct LatticeTruth {
-  SurfaceTruth surface;
-  CubeDistance distance_to_class;
-  CubeDistance distance_to_thin;  ///< to the class's thin geoms alone
-  ViewTruth view;                 ///< of all selected frames together; empty until it is made
+struct LatticeTruth : SurfacesAt {
+  ViewTruth view;  ///< of all selected frames together; empty until it is made
 
   /// Counts of a map against this truth and a view of it; distances where the options name
   /// some. They do not depend on `jobs`.
@@ -53,11 +44,6 @@ struct LatticeTruth {
                              std::size_t class_count, const ScoreOptions& options,
                              int jobs = 1) const;
 };
-
-/// The surfaces alone, without any view.
-[[nodiscard]] LatticeTruth make_surface_truth(const std::vector<Shape>& shapes,
-                                              const ClassTable& table, const MapFrame& map_frame,
-                                              const TruthOptions& options, int jobs);
 
 /// What the selected frames of a recording saw together of `surface`, which lies on the lattice of
 /// `map_frame`; `frames` must decode depth and depth_label. Works on `jobs` threads, on which the
@@ -67,11 +53,5 @@ struct LatticeTruth {
                                   FrameCache& frames, const MapFrame& map_frame,
                                   const TruthOptions& options, const SurfaceTruth& surface,
                                   int jobs);
-
-/// Makes the truth of a recording: its surfaces, at the options' time where they move, and what was
-/// seen of them. Throws Error when they move and the options say no time.
-[[nodiscard]] LatticeTruth make_lattice_truth(const Recording& recording, const ClassTable& table,
-                                              FrameCache& frames, const MapFrame& map_frame,
-                                              const TruthOptions& options, int jobs);
 
 }  // namespace mapscore::eval

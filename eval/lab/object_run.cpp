@@ -6,20 +6,11 @@
 #include "core/error.hpp"
 #include "core/mapping/mapper.hpp"
 #include "core/objects/solid_piece.hpp"
+#include "eval/lab/recorded_surfaces.hpp"
 
 #include <numbers>
 
 namespace mapscore::eval {
-namespace {
-
-Eigen::AlignedBox3d bounds_of(const std::vector<Eigen::Vector3d>& points,
-                              const Pose& T_map_points) {
-  Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3d& p : points) bounds.extend(T_map_points * p);
-  return bounds;
-}
-
-}  // namespace
 
 ObjectRun::ObjectRun(const Task& task, const Recording& recording, const ClassTable& table,
                      PoseSources& poses, const ObjectRunOptions& options)
@@ -48,7 +39,9 @@ std::vector<ObjectDetection> ObjectRun::detect(const Sight& sight, const Pose& T
     const std::vector<Eigen::Vector3d> solid =
         largest_solid_piece(segment.points, options_.piece_m);
     if (solid.size() < static_cast<std::size_t>(options_.min_points)) continue;
-    found.push_back({segment.class_id, oriented(bounds_of(solid, T_map_depth)), segment.score, {}});
+    Eigen::AlignedBox3d bounds;
+    for (const Eigen::Vector3d& p : solid) bounds.extend(T_map_depth * p);
+    found.push_back({segment.class_id, oriented(bounds), segment.score, {}});
   }
   return found;
 }

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include "core/classes.hpp"
-#include "core/frame.hpp"
 #include "core/objects/object_map.hpp"
 #include "core/placement/pose_belief.hpp"
 #include "core/segmentation/segmentation.hpp"
@@ -13,11 +11,7 @@
 #include "eval/lab/sights.hpp"
 #include "eval/objects/object_file.hpp"
 #include "eval/objects/true_objects.hpp"
-#include "eval/recording/recording.hpp"
-#include "eval/results/plan.hpp"
 
-#include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace mapscore::eval {
@@ -32,7 +26,7 @@ struct ObjectRunOptions {
 /// the same faults. Used by one thread at a time; `recording` and `table` must outlive it.
 class ObjectRun {
  public:
-  /// Throws Error as PoseSources and SimulatedLabels.
+  /// Throws Error as PoseSources and Sights.
   ObjectRun(const Task& task, const Recording& recording, const ClassTable& table,
             PoseSources& poses, const ObjectRunOptions& options);
 

@@ -5,15 +5,11 @@
 
 #include "core/error.hpp"
 #include "eval/lab/map_frame.hpp"
-#include "eval/localization/believed_file.hpp"
-#include "eval/localization/filter_run.hpp"
-#include "eval/localization/odometry_run.hpp"
+#include "eval/localization/localization_run.hpp"
 #include "eval/recording/grid_file.hpp"
 #include "eval/truth/floor_grid.hpp"
 
 #include <fmt/format.h>
-
-#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -132,33 +128,11 @@ std::vector<PoseBelief> PoseSources::beliefs(const Task& task, const std::vector
   const PoseSource source = task.config.localization.source;
   if (source == PoseSource::gaussian || source == PoseSource::truth)
     return gaussian(recording_, task, depth_of, T_map_world);
-  std::vector<PoseBelief> beliefs = *shared(task, depth_of);
+  std::vector<PoseBelief> beliefs = *beliefs_.get(poses_key(task), [&] {
+    return std::make_shared<const std::vector<PoseBelief>>(believed_at(task, depth_of));
+  });
   for (PoseBelief& belief : beliefs) belief.T_map_odom = T_map_world * belief.T_map_odom;
   return beliefs;
-}
-
-PoseSources::Beliefs PoseSources::shared(const Task& task, const std::vector<int>& depth_of) {
-  std::promise<Beliefs> promise;
-  std::shared_future<Beliefs> made;
-  bool is_first = false;
-  {
-    const std::scoped_lock lock(mutex_);
-    const auto [entry, is_new] = made_.try_emplace(poses_key(task), promise.get_future());
-    made = entry->second;
-    is_first = is_new;
-    if (is_new) order_.push_back(entry->first);
-    if (order_.size() > kHeld) {
-      made_.erase(order_.front());
-      order_.pop_front();
-    }
-  }
-  if (is_first) try {
-      promise.set_value(
-          std::make_shared<const std::vector<PoseBelief>>(believed_at(task, depth_of)));
-    } catch (...) {
-      promise.set_exception(std::current_exception());
-    }
-  return made.get();
 }
 
 std::vector<PoseBelief> PoseSources::believed_at(const Task& task,
@@ -182,10 +156,8 @@ std::shared_ptr<const OccupancyGrid> PoseSources::grid(const Task& task) {
   if (settings.source != PoseSource::particle_filter) return nullptr;
   const std::string key = settings.grid ? resolve_path(task.config, *settings.grid).string()
                                         : fmt::format("{}", grid_resolution_m(settings));
-  const std::scoped_lock lock(grids_mutex_);
-  std::shared_ptr<const OccupancyGrid>& grid = grids_[key];
-  if (!grid) grid = std::make_shared<const OccupancyGrid>(grid_of(recording_, task.config));
-  return grid;
+  return grids_.get(
+      key, [&] { return std::make_shared<const OccupancyGrid>(grid_of(recording_, task.config)); });
 }
 
 }  // namespace mapscore::eval

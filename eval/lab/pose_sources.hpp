@@ -5,16 +5,13 @@
 
 #include "core/localization/occupancy_grid.hpp"
 #include "core/placement/pose_belief.hpp"
+#include "eval/lab/shared_cache.hpp"
 #include "eval/localization/believed_trajectory.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/results/plan.hpp"
 
-#include <deque>
 #include <functional>
-#include <future>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -36,26 +33,17 @@ class PoseSources {
   [[nodiscard]] std::vector<PoseBelief> beliefs(const Task& task, const std::vector<int>& depth_of);
 
   /// How many are kept at present.
-  [[nodiscard]] std::size_t held() {
-    const std::scoped_lock lock(mutex_);
-    return made_.size();
-  }
+  [[nodiscard]] std::size_t held() { return beliefs_.held(); }
 
  private:
-  using Beliefs = std::shared_ptr<const std::vector<PoseBelief>>;
-
-  [[nodiscard]] Beliefs shared(const Task& task, const std::vector<int>& depth_of);
   [[nodiscard]] std::vector<PoseBelief> believed_at(const Task& task,
                                                     const std::vector<int>& depth_of);
   /// Made once for all tasks that share it; none where the source needs none.
   [[nodiscard]] std::shared_ptr<const OccupancyGrid> grid(const Task& task);
 
   const Recording& recording_;
-  std::mutex mutex_;  // guards what is made
-  std::map<std::string, std::shared_future<Beliefs>> made_;
-  std::deque<std::string> order_;  ///< keys of what is made, the oldest first
-  std::mutex grids_mutex_;         // guards the grids, while one is made, too
-  std::map<std::string, std::shared_ptr<const OccupancyGrid>> grids_;
+  SharedCache<std::string, std::shared_ptr<const std::vector<PoseBelief>>> beliefs_{kHeld};
+  SharedCache<std::string, std::shared_ptr<const OccupancyGrid>> grids_{kHeld};
 };
 
 /// What the robot believes along a whole recording, in the scene's world, as a task's source says:

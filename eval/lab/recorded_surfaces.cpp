@@ -33,19 +33,24 @@ RecordedShapes shapes_of(const Recording& recording) {
   return {recording.read_shapes(), recording.read_poses()};
 }
 
+SurfacesAt surfaces_of(const std::vector<Shape>& shapes, const ClassTable& table,
+                       const MapFrame& map_frame, double epsilon_m, int jobs) {
+  const Pose T_map_world = map_frame.T_map_world();
+  return {surface_truth(shapes, table, T_map_world, {map_frame.edge_m, epsilon_m, jobs}),
+          cube_distance(prepare(shapes, T_map_world), table, map_frame.edge_m),
+          distance_to_thin(shapes, table, T_map_world, map_frame.edge_m)};
+}
+
 RecordedSurfaces::RecordedSurfaces(const RecordedShapes& shapes, const ClassTable& table,
                                    const MapFrame& map_frame, double epsilon_m, int jobs)
     : shapes_(shapes), table_(table), map_frame_(map_frame) {
-  const Pose T_map_world = map_frame.T_map_world();
-  const SurfaceOptions options{map_frame.edge_m, epsilon_m, jobs};
   if (shapes.poses.empty()) {
-    still_ = {surface_truth(shapes.shapes, table, T_map_world, options),
-              cube_distance(prepare(shapes.shapes, T_map_world), table, map_frame.edge_m),
-              distance_to_thin(shapes.shapes, table, T_map_world, map_frame.edge_m)};
+    still_ = surfaces_of(shapes.shapes, table, map_frame, epsilon_m, jobs);
     return;
   }
-  moving_ = std::make_unique<const MovingSurface>(shapes.poses.fixed(shapes.shapes), table,
-                                                  T_map_world, options);
+  moving_ = std::make_unique<const MovingSurface>(
+      shapes.poses.fixed(shapes.shapes), table, map_frame.T_map_world(),
+      SurfaceOptions{map_frame.edge_m, epsilon_m, jobs});
   fixed_distances_ = class_distances(moving_->fixed_pieces(), table);
 }
 

@@ -37,6 +37,10 @@ struct SurfacesAt {
   CubeDistance distance_to_thin;  ///< to the class's thin geoms alone
 };
 
+/// Surfaces that do not move; works on `jobs` threads.
+[[nodiscard]] SurfacesAt surfaces_of(const std::vector<Shape>& shapes, const ClassTable& table,
+                                     const MapFrame& map_frame, double epsilon_m, int jobs);
+
 /// The surfaces of a recording on one lattice. What stays is voxelised once, what moves at each
 /// time that is asked for. Immutable, safe to share between threads.
 class RecordedSurfaces {

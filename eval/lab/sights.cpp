@@ -3,14 +3,42 @@
 
 #include "eval/lab/sights.hpp"
 
+#include "core/error.hpp"
+#include "core/objects/simulated_perception.hpp"
+#include "core/segmentation/registered_cloud.hpp"
+#include "eval/lab/recorded_surfaces.hpp"
+#include "eval/objects/object_file.hpp"
+#include "eval/objects/true_objects.hpp"
 #include "sim/faults/calibration_faults.hpp"
 #include "sim/faults/depth_noise.hpp"
 #include "sim/faults/label_noise.hpp"
 
-#include <utility>
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+
+#include <limits>
+#include <variant>
 
 namespace mapscore::eval {
 namespace {
+
+/// The objects of a file, each an instance beyond those of the table; in the scene's world.
+std::vector<PerceivedModel> models_of_file(const std::filesystem::path& path, ClassTable& table) {
+  const ObjectFile file = read_objects(path, table);
+  const Pose T_world_map = file.T_world_map();
+  std::vector<PerceivedModel> models;
+  for (const MapObject& object : file.objects) {
+    const std::size_t id = table.instances.size();
+    if (id > std::numeric_limits<InstanceId>::max())
+      throw Error(fmt::format("{}: more objects than label images can tell apart; remove some",
+                              path.string()));
+    const auto instance = static_cast<InstanceId>(id);
+    table.instances.push_back({instance, fmt::format("object_{}", object.id), object.class_id});
+    if (table.detected(object.class_id))
+      models.push_back({instance, {moved(T_world_map, object.box)}});
+  }
+  return models;
+}
 
 /// The depth image of every frame under the time offset.
 std::vector<int> paired_depth(const Recording& recording, const Study& config) {
@@ -21,6 +49,56 @@ std::vector<int> paired_depth(const Recording& recording, const Study& config) {
 }
 
 }  // namespace
+
+/// The label images of simulated perception in place of a recording's: a sensor without faults,
+/// which knows the true pose and calibration and votes with the noise-free depth image. Immutable,
+/// safe to share between threads.
+class Sights::SimulatedLabels {
+ public:
+  /// Throws Error when the file of the objects is refused, holds too many, or there is neither file
+  /// nor truth.
+  SimulatedLabels(const SimulatedPerception& settings, const Study& config,
+                  const Recording& recording, const ClassTable& table)
+      : settings_(settings), calibration_(recording.info().calibration), table_(table) {
+    if (settings.objects) {
+      models_ = models_of_file(resolve_path(config, *settings.objects), table_);
+      return;
+    }
+    if (!recording.info().has_truth)
+      throw Error(recording.folder().string() +
+                  ": has no truth to simulate perception of; name an object map as "
+                  "perception.simulated.objects");
+    shapes_ = shapes_of(recording);
+    if (!shapes_.poses.empty()) return;
+    models_ = models_of(shapes_.shapes, Pose::Identity(), table_,
+                        settings_.boxes == PerceivedBoxes::surfaces);
+    shapes_ = {};
+  }
+
+  /// The recording's table; where a file is given, with its objects as further instances.
+  [[nodiscard]] const ClassTable& table() const { return table_; }
+  /// Instance ids per colour pixel. Reads the frame's `depth`, stamp and pose.
+  [[nodiscard]] cv::Mat1w of(const Frame& frame) const {
+    const PosedDepth view{calibration_.depth, frame.T_world_base * calibration_.T_base_depth,
+                          calibration_.range_min_m, calibration_.range_max_m, frame.depth};
+    const cv::Mat1w seen =
+        perceive(models_at(frame.stamp_s), view, settings_.tolerance_m, settings_.min_pixels);
+    return labels_in_color(seen, register_depth(frame.depth, calibration_));
+  }
+
+ private:
+  [[nodiscard]] std::vector<PerceivedModel> models_at(double stamp_s) const {
+    if (shapes_.poses.empty()) return models_;
+    return models_of(shapes_.at(stamp_s), Pose::Identity(), table_,
+                     settings_.boxes == PerceivedBoxes::surfaces);
+  }
+
+  SimulatedPerception settings_;
+  Calibration calibration_;
+  ClassTable table_;
+  RecordedShapes shapes_;               ///< of the truth, where they move
+  std::vector<PerceivedModel> models_;  ///< in the scene's world, where nothing moves
+};
 
 Calibration believed_calibration(const Calibration& truth, const Task& task) {
   const std::uint64_t seed = trial_seed(task);
@@ -36,8 +114,10 @@ Sights::Sights(const Task& task, const Recording& recording, const ClassTable& t
       depth_camera_(recording.info().calibration.depth),
       believed_(believed_calibration(recording.info().calibration, task)),
       depth_of_(paired_depth(recording, task.config)),
-      faults_(task.config.faults),
-      simulated_(simulated_labels(task.config, recording, table)) {}
+      faults_(task.config.faults) {
+  if (const auto* settings = std::get_if<SimulatedPerception>(&task.config.perception))
+    simulated_ = std::make_shared<const SimulatedLabels>(*settings, task.config, recording, table);
+}
 
 std::string Sights::key(const Study& config, Labels labels) {
   Study seen;

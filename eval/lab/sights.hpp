@@ -7,13 +7,12 @@
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/segmentation/sight.hpp"
-#include "eval/lab/simulated_labels.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/results/task_list.hpp"
 #include "eval/study/study.hpp"
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,7 +23,8 @@ namespace mapscore::eval {
 /// threads; `recording` and `table` must outlive it.
 class Sights {
  public:
-  /// Throws Error as simulated_labels.
+  /// Throws Error when the objects of simulated perception are refused or too many, or there is
+  /// neither a file of them nor truth.
   Sights(const Task& task, const Recording& recording, const ClassTable& table);
 
   /// Equal for tasks of one plan and seed where their sights are: what of a configuration decides
@@ -36,8 +36,6 @@ class Sights {
     return depth_of_.at(static_cast<std::size_t>(frame));
   }
   [[nodiscard]] const std::vector<int>& depth_of_frames() const { return depth_of_; }
-  /// What the method believes of the cameras.
-  [[nodiscard]] const Calibration& believed() const { return believed_; }
   /// The table of the instances in the detections: the recording's, or that of simulated
   /// perception.
   [[nodiscard]] const ClassTable& table() const;
@@ -47,14 +45,16 @@ class Sights {
   [[nodiscard]] Sight of(const Frame& frame) const;
 
  private:
+  class SimulatedLabels;
+
   const ClassTable& table_;
   Labels labels_;
   std::uint64_t seed_;
-  CameraModel depth_camera_;  ///< true
-  Calibration believed_;
+  CameraModel depth_camera_;   ///< true
+  Calibration believed_;       ///< what the method believes of the cameras
   std::vector<int> depth_of_;  ///< by frame
   FaultSettings faults_;
-  std::optional<SimulatedLabels> simulated_;  ///< in place of the recording's labels
+  std::shared_ptr<const SimulatedLabels> simulated_;  ///< in place of the recording's labels
 };
 
 /// The calibration that a task's method uses: the true one with the task's calibration faults.

@@ -4,13 +4,7 @@
 #include "eval/lab/trial_run.hpp"
 
 #include "core/refinement/map_refinement.hpp"
-#include "eval/lab/map_frame.hpp"
-#include "eval/lab/truth_cache.hpp"
 #include "eval/score/instances/instance_score.hpp"
-#include "eval/study/trial_seed.hpp"
-
-#include <limits>
-#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -30,13 +24,6 @@ std::vector<int> positive(const std::vector<int>& tolerances) {
 
 }  // namespace
 
-TruthOptions truth_options(const Study& config) {
-  return {.epsilon_m = config.score.epsilon_m,
-          .min_samples = config.score.min_samples,
-          .at_s = config.score.at_s,
-          .distances = !config.score.distances_m.empty()};
-}
-
 TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTable& table,
                    TruthCache& truths, PoseSources& poses, std::shared_ptr<const Sights> sights)
     : task_(task),
@@ -51,13 +38,9 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
                      task.config.score.asked},
       map_frame_(map_frame(task.config, task.seed_index)),
       truths_(truths),
-      boxes_(truths.boxes()),
       mapper_(mapping_, table.classes.size()) {
   result_.counts = zero_counts(table_.classes.size(), score_options_);
-  if (task.config.score.unit == ScoreUnit::frame) return;
-  truth_ = truths.get(map_frame_, truth_options(task.config));
-  if (score_options_.asked.instances)
-    instance_truth_ = truths.of_instances(map_frame_, truth_options(task.config));
+  if (task.config.score.unit == ScoreUnit::map) look_up_truth({});
 }
 
 void TrialRun::advance(const Frame& frame, const Sight& sight) {
@@ -69,12 +52,12 @@ void TrialRun::advance(const Frame& frame, const Sight& sight) {
   if (task_.labels == Labels::truth) {
     mapper_.fuse(observe_truth(frame), sight, belief, draws);
   } else {
-    count(mapper_.integrate(sight, belief, draws), boxes_.of(frame), counts);
+    count(mapper_.integrate(sight, belief, draws), truths_.boxes_of(frame), counts);
     if (reads_colour(task_.config)) mapper_.add_colours(sight, frame.color, belief);
   }
   ++result_.accounting.frames;
   if (by_itself) {
-    look_up_truth_of(frame.depth_index);
+    look_up_truth(frame.depth_index);
     score(counts);
   }
   pool_into(result_.counts, counts);
@@ -89,8 +72,11 @@ TrialResult TrialRun::finish() {
 
 void TrialRun::count(const std::vector<Segment>& segments,
                      const std::vector<Eigen::AlignedBox3d>& true_boxes, Counts& counts) {
+  Accounting& accounting = result_.accounting;
   for (const Segment& found : segments) {
-    account(found);
+    ++accounting.detections;
+    accounting.points += static_cast<std::int64_t>(found.points.size());
+    if (const auto skipped = Accounting::of(found.skipped)) ++(accounting.*skipped);
     const bool right = found.class_id == sights_->table().class_of(found.instance);
     counts[found.class_id].boxes.add(
         right ? found.box : Eigen::AlignedBox3d(),
@@ -113,18 +99,15 @@ Observation TrialRun::observe_truth(const Frame& frame) const {
   return observation;
 }
 
-void TrialRun::account(const Segment& segment) {
-  Accounting& accounting = result_.accounting;
-  ++accounting.detections;
-  accounting.points += static_cast<std::int64_t>(segment.points.size());
-  if (const auto count = Accounting::of(segment.skipped)) ++(accounting.*count);
-}
-
-void TrialRun::look_up_truth_of(int depth_image) {
-  const TruthOptions options = truth_options(task_.config);
-  truth_ = truths_.of_frame(map_frame_, options, depth_image);
-  if (score_options_.asked.instances)
-    instance_truth_ = truths_.of_frame_instances(map_frame_, options, depth_image);
+void TrialRun::look_up_truth(std::optional<int> depth_image) {
+  const ScoreSettings& settings = task_.config.score;
+  const TruthOptions options{.epsilon_m = settings.epsilon_m,
+                             .min_samples = settings.min_samples,
+                             .at_s = settings.at_s,
+                             .distances = !settings.distances_m.empty(),
+                             .depth_image = depth_image};
+  truth_ = truths_.get(map_frame_, options);
+  if (score_options_.asked.instances) instance_truth_ = truths_.of_instances(map_frame_, options);
 }
 
 void TrialRun::score(Counts& counts) {

@@ -3,25 +3,16 @@
 
 #pragma once
 
-#include "core/classes.hpp"
-#include "core/frame.hpp"
-#include "core/frame_times.hpp"
-#include "core/geometry/camera.hpp"
 #include "core/mapping/mapper.hpp"
-#include "core/mapping/semantic_map.hpp"
-#include "core/placement/observation.hpp"
+#include "core/placement/placement.hpp"
 #include "core/segmentation/segmentation.hpp"
-#include "eval/lab/lattice_truth.hpp"
 #include "eval/lab/pose_sources.hpp"
 #include "eval/lab/sights.hpp"
 #include "eval/lab/truth_cache.hpp"
-#include "eval/recording/recording.hpp"
-#include "eval/results/plan.hpp"
 #include "eval/results/store.hpp"
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -79,11 +70,10 @@ class TrialRun {
              const std::vector<Eigen::AlignedBox3d>& true_boxes, Counts& counts);
   /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
-  void account(const Segment& segment);
   /// Adds the counts of the map as it stands.
   void score(Counts& counts);
-  /// Takes the truth of the frame that is read with that depth image.
-  void look_up_truth_of(int depth_image);
+  /// Takes the truth of the map, or of the frame that is read with a depth image.
+  void look_up_truth(std::optional<int> depth_image);
 
   const Task& task_;
   const ClassTable& table_;
@@ -95,7 +85,6 @@ class TrialRun {
   ScoreOptions score_options_;
   MapFrame map_frame_;
   TruthCache& truths_;
-  FrameBoxes& boxes_;  ///< true ones, shared by all trials
   std::shared_ptr<const LatticeTruth> truth_;
   std::shared_ptr<const LatticeTruth> instance_truth_;  ///< none where instances are not scored
   Mapper mapper_;
@@ -103,8 +92,5 @@ class TrialRun {
   bool keeps_frames_ = false;
   std::vector<FrameResult> frames_;
 };
-
-/// How a task's truth is made.
-[[nodiscard]] TruthOptions truth_options(const Study& config);
 
 }  // namespace mapscore::eval

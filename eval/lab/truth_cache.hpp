@@ -3,19 +3,16 @@
 
 #pragma once
 
-#include "core/classes.hpp"
-#include "eval/lab/frame_boxes.hpp"
 #include "eval/lab/lattice_truth.hpp"
-#include "eval/lab/map_frame.hpp"
-#include "eval/lab/recorded_surfaces.hpp"
+#include "eval/lab/shared_cache.hpp"
 #include "eval/recording/frame_cache.hpp"
-#include "eval/recording/recording.hpp"
 
+#include <Eigen/Geometry>
 #include <cstddef>
-#include <future>
-#include <list>
 #include <memory>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 namespace mapscore::eval {
 
@@ -32,58 +29,45 @@ class TruthCache {
   TruthCache(const Recording& recording, const ClassTable& table, FrameCache& frames,
              std::size_t capacity);
 
-  /// The truth of a map of the selected frames.
+  /// The truth of a map of the selected frames; or of one frame by itself, where the options name
+  /// the depth image that it is read with, at the stamp of that image.
   [[nodiscard]] std::shared_ptr<const LatticeTruth> get(const MapFrame& map_frame,
                                                         const TruthOptions& options);
   /// As get, with every instance a class of its own (see instance_table) and without distances.
   [[nodiscard]] std::shared_ptr<const LatticeTruth> of_instances(const MapFrame& map_frame,
                                                                  TruthOptions options);
-  /// The truth of a frame by itself, at the stamp of the depth image that it is read with.
-  [[nodiscard]] std::shared_ptr<const LatticeTruth> of_frame(const MapFrame& map_frame,
-                                                             TruthOptions options, int depth_image);
-  /// As of_frame, with every instance a class of its own and without distances.
-  [[nodiscard]] std::shared_ptr<const LatticeTruth> of_frame_instances(const MapFrame& map_frame,
-                                                                       TruthOptions options,
-                                                                       int depth_image);
-  /// What every trial compares its detections' boxes with; on no lattice.
-  [[nodiscard]] FrameBoxes& boxes() { return boxes_; }
+  /// True boxes of the instances in a frame's depth image, by instance id, as truth_boxes gives
+  /// them; on no lattice. They depend on no trial, so they are made by the first that asks; valid
+  /// as long as this. Throws Error when the frame lacks depth or depth_label.
+  [[nodiscard]] const std::vector<Eigen::AlignedBox3d>& boxes_of(const Frame& frame);
 
  private:
   using Truth = std::shared_ptr<const LatticeTruth>;
   using Surfaces = std::shared_ptr<const RecordedSurfaces>;
-  /// What is made of a table's classes: surfaces by lattice, truths of maps and of single frames;
-  /// each list with the most recently made first.
+  /// What is made of a table's classes: surfaces by lattice and epsilon, truths of maps and of
+  /// single frames.
   struct Shelf {
-    struct OfLattice {
-      MapFrame map_frame;
-      double epsilon_m;
-      std::shared_future<Surfaces> surfaces;
-    };
-    struct OfView {
-      MapFrame map_frame;
-      TruthOptions options;
-      std::shared_future<Truth> truth;
-    };
+    Shelf(const ClassTable& classes, std::size_t capacity);
+
     const ClassTable& table;
-    std::list<OfLattice> surfaces{};
-    std::list<OfView> maps{}, frames{};
+    SharedCache<std::pair<MapFrame, double>, Surfaces> surfaces;
+    SharedCache<std::pair<MapFrame, TruthOptions>, Truth> maps, frames;
+  };
+  struct FrameBoxes {
+    std::once_flag made;
+    std::vector<Eigen::AlignedBox3d> boxes;
   };
 
-  [[nodiscard]] Truth get(Shelf& shelf, std::list<Shelf::OfView>& truths, std::size_t capacity,
-                          const MapFrame& map_frame, const TruthOptions& options);
+  [[nodiscard]] Truth get(Shelf& shelf, const MapFrame& map_frame, TruthOptions options);
   [[nodiscard]] Surfaces surfaces(Shelf& shelf, const MapFrame& map_frame, double epsilon_m);
-  [[nodiscard]] TruthOptions at_image(TruthOptions options, int depth_image) const;
-  [[nodiscard]] const RecordedShapes& shapes();
 
   const Recording& recording_;
   ClassTable instance_table_;
   FrameCache& frames_;
-  std::size_t capacity_;
   std::once_flag shapes_read_;
   RecordedShapes shapes_;
-  std::mutex mutex_;  // guards the shelves' lists
   Shelf classes_, instances_;
-  FrameBoxes boxes_;
+  std::vector<FrameBoxes> boxes_;  ///< by depth image
 };
 
 }  // namespace mapscore::eval

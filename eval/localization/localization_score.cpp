@@ -3,7 +3,6 @@
 
 #include "eval/localization/localization_score.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -60,7 +59,6 @@ LocalizationScore score_localization(const BelievedTrajectory& believed,
     ++with_nees;
     if (*error.nees >= kNeesBand.low && *error.nees <= kNeesBand.high) ++in_band;
   }
-  score.converged_frames = static_cast<int>(positions_m.size());
   if (with_nees > 0) score.nees_share = static_cast<double>(in_band) / with_nees;
   score.position_m = summary_of(std::move(positions_m));
   score.heading_deg = summary_of(std::move(headings_deg));

@@ -30,8 +30,7 @@ struct ErrorSummary {
 
 struct LocalizationScore {
   std::vector<FrameError> frames;
-  std::optional<double> converged_s;  ///< stamp of the first frame that is; nothing: never
-  int converged_frames = 0;
+  std::optional<double> converged_s;     ///< stamp of the first frame that is; nothing: never
   ErrorSummary position_m, heading_deg;  ///< of the converged frames
   /// Of the converged frames that have a NEES, the share that lies in kNeesBand; nothing where none
   /// has.

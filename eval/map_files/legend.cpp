@@ -4,19 +4,71 @@
 #include "eval/map_files/legend.hpp"
 
 #include "core/error.hpp"
-#include "eval/map_files/refusal.hpp"
+#include "files/text.hpp"
+#include "files/text_rows.hpp"
+#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
 
 std::uint32_t packed(const Colour& colour) {
-  return static_cast<std::uint32_t>(colour.r) << 16 | static_cast<std::uint32_t>(colour.g) << 8 |
-         colour.b;
+  return static_cast<std::uint32_t>(colour.r << 16 | colour.g << 8 | colour.b);
+}
+
+std::uint32_t colour_of(const YamlValue& label) {
+  return packed(label.colour());
+}
+
+std::uint32_t id_of(const YamlValue& label) {
+  const auto id = parse_id(label.text());
+  if (!id) label.ask_for("a whole number of 32 bits");
+  return *id;
+}
+
+std::string name_of(const YamlValue& label) {
+  if (label.text().empty()) label.ask_for("a name");
+  return label.text();
+}
+
+std::string names_of(const ClassTable& table) {
+  std::vector<std::string> names;
+  for (const SemanticClass& c : table.classes) names.push_back(c.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::optional<ClassId> class_of_name(const std::string& name, const ClassTable& table) {
+  const auto found = std::ranges::find(table.classes, name, &SemanticClass::name);
+  return found == table.classes.end() ? std::nullopt : std::optional(found->id);
+}
+
+ClassId class_of(const YamlValue& value, const ClassTable& table) {
+  const std::string name = value.scalar("a class of the truth");
+  const auto found = class_of_name(name, table);
+  if (!found)
+    value.fail(fmt::format("the truth has no class {}; its classes are {}", excerpt(name),
+                           names_of(table)));
+  return *found;
+}
+
+/// Entries `label: class` of one section; `label_of` reads a label. Returns whether one names a
+/// class.
+template <class Map>
+bool take(const YamlValue& root, const std::string& section, const ClassTable& table,
+          typename Map::key_type (*label_of)(const YamlValue&), Map& classes) {
+  if (!root.has(section)) return false;
+  for (const auto& [text, value] : root.at(section).entries()) {
+    const YamlValue label{YAML::Node(text), value.source, value.line, value.path};
+    if (!classes.emplace(label_of(label), class_of(value, table)).second)
+      label.fail(fmt::format("{} stands twice; keep one", excerpt(text)));
+  }
+  return std::ranges::any_of(classes,
+                             [](const auto& entry) { return entry.second != kBackground; });
 }
 
 /// The label as a legend spells it.
@@ -39,11 +91,6 @@ std::optional<ClassId> class_of_colour(std::uint32_t colour, const ClassTable& t
     found = &c;
   }
   return found == nullptr ? std::nullopt : std::optional(found->id);
-}
-
-std::optional<ClassId> class_of_name(const std::string& name, const ClassTable& table) {
-  const auto found = std::ranges::find(table.classes, name, &SemanticClass::name);
-  return found == table.classes.end() ? std::nullopt : std::optional(found->id);
 }
 
 template <class Map, class Key>
@@ -71,30 +118,11 @@ std::optional<ClassId> meaning_of(const MapFile& map, std::uint32_t label,
   return std::nullopt;
 }
 
-const char* section_of(LabelKind kind) {
-  switch (kind) {
-    case LabelKind::colour:
-      return "colours";
-    case LabelKind::id:
-      return "ids";
-    default:
-      return "names";
-  }
-}
-
-std::size_t entries_of(const Legend& legend, LabelKind kind) {
-  switch (kind) {
-    case LabelKind::colour:
-      return legend.colours.size();
-    case LabelKind::id:
-      return legend.ids.size();
-    default:
-      return legend.names.size();
-  }
-}
-
-bool occupied(const MapFile& map, std::size_t n) {
-  return map.occupied.empty() || map.occupied[n] != 0;
+/// The legend's section for labels of this kind, and how many entries it has.
+std::pair<const char*, std::size_t> section_of(LabelKind kind, const Legend& legend) {
+  if (kind == LabelKind::colour) return {"colours", legend.colours.size()};
+  if (kind == LabelKind::id) return {"ids", legend.ids.size()};
+  return {"names", legend.names.size()};
 }
 
 void sort_by_count(std::vector<Leftover>& labels) {
@@ -108,13 +136,13 @@ void sort_by_count(std::vector<Leftover>& labels) {
   constexpr std::size_t kShown = 5;
   std::string listed;
   for (std::size_t n = 0; n < std::min(kShown, labels.size()); ++n)
-    listed +=
-        fmt::format("{}{} ({} times)", n == 0 ? "" : ", ", shown(labels[n].label), labels[n].count);
+    listed += fmt::format("{}{} ({} times)", n == 0 ? "" : ", ", excerpt(labels[n].label),
+                          labels[n].count);
   if (labels.size() > kShown) listed += fmt::format(" and {} more", labels.size() - kShown);
   if (listed.empty()) listed = "all are background";
-  const char* section = section_of(map.label_kind);
+  const auto [section, entries] = section_of(map.label_kind, legend.value_or(Legend{}));
   const std::string what =
-      legend && entries_of(*legend, map.label_kind) == 0
+      legend && entries == 0
           ? fmt::format("the map's labels are {}, and the legend has none", section)
           : "no label of the map means a class";
   throw Error(
@@ -125,10 +153,21 @@ void sort_by_count(std::vector<Leftover>& labels) {
 
 }  // namespace
 
+Legend read_legend(const std::filesystem::path& file, const ClassTable& table) {
+  const YamlValue root = load_yaml(file);
+  root.only({"colours", "ids", "names"});
+  Legend legend;
+  bool names_a_class = take(root, "colours", table, colour_of, legend.colours);
+  names_a_class |= take(root, "ids", table, id_of, legend.ids);
+  names_a_class |= take(root, "names", table, name_of, legend.names);
+  if (!names_a_class) root.fail("the legend names no class; give one of " + names_of(table));
+  return legend;
+}
+
 std::vector<Leftover> labels_of(const MapFile& map) {
   std::unordered_map<std::uint32_t, std::size_t> counts;
   for (std::size_t n = 0; n < map.labels.size(); ++n)
-    if (occupied(map, n)) ++counts[map.labels[n]];
+    if (map.is_occupied(n)) ++counts[map.labels[n]];
   std::vector<Leftover> labels;
   labels.reserve(counts.size());
   for (const auto& [label, count] : counts) labels.push_back({spelt(map, label), count});
@@ -151,9 +190,9 @@ Labelling apply_legend(const MapFile& map, const std::optional<Legend>& legend,
   for (std::size_t n = 0; n < map.size(); ++n) {
     const auto [entry, is_new] = known.try_emplace(map.labels[n]);
     if (is_new) entry->second.meaning = meaning_of(map, map.labels[n], legend, table);
-    if (occupied(map, n)) ++entry->second.count;
+    if (map.is_occupied(n)) ++entry->second.count;
     labelling.classes[n] = entry->second.meaning.value_or(kBackground);
-    some = some || (occupied(map, n) && labelling.classes[n] != kBackground);
+    some = some || (map.is_occupied(n) && labelling.classes[n] != kBackground);
   }
   for (const auto& [label, of_label] : known)
     if (!of_label.meaning && of_label.count > 0)

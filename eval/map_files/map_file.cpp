@@ -3,12 +3,8 @@
 
 #include "eval/map_files/map_file.hpp"
 
-#include "eval/map_files/clouds/pcd_file.hpp"
-#include "eval/map_files/clouds/ply_file.hpp"
-#include "eval/map_files/octrees/octree_file.hpp"
-#include "eval/map_files/refusal.hpp"
-#include "eval/map_files/voxel_csv.hpp"
-#include "files/lower_case.hpp"
+#include "files/refusal.hpp"
+#include "files/text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -54,7 +50,7 @@ bool has_ending_of_a_map(const std::filesystem::path& file) {
 
 MapFile read_map_file(const std::filesystem::path& file, NotFinite not_finite) {
   if (const Reader* reader = reader_of(file)) return reader->read(file, not_finite);
-  refuse(file, "maps are read from " + map_endings() + "; convert it to one of these");
+  refuse(file, "maps are read from {}; convert it to one of these", map_endings());
 }
 
 }  // namespace mapscore::eval

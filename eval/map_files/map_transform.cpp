@@ -3,13 +3,11 @@
 
 #include "eval/map_files/map_transform.hpp"
 
-#include "core/error.hpp"
-#include "eval/map_files/refusal.hpp"
 #include "eval/recording/pose_text.hpp"
 #include "files/file_bytes.hpp"
+#include "files/refusal.hpp"
+#include "files/text.hpp"
 #include "files/text_rows.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
@@ -20,10 +18,6 @@ namespace {
 constexpr double kOrthonormal = 1e-6;
 /// Below this a matrix is taken as it stands, so that turns by right angles stay exact.
 constexpr double kRounding = 1e-12;
-
-[[noreturn]] void fail(const std::string& where, const std::string& what) {
-  throw Error(fmt::format("{}: {}", where, what));
-}
 
 std::vector<double> numbers_in(std::string_view text, const std::string& where) {
   std::vector<double> numbers;
@@ -37,8 +31,8 @@ std::vector<double> numbers_in(std::string_view text, const std::string& where) 
     for (const std::string_view word : words) {
       const auto number = parse_number(word);
       if (!number)
-        fail(one_line ? where : fmt::format("{}:{}", where, lines.number()),
-             fmt::format("{} is no finite number; mend the transform", shown(word)));
+        refuse(one_line ? where : fmt::format("{}:{}", where, lines.number()),
+               "{} is no finite number; mend the transform", excerpt(word));
       numbers.push_back(*number);
     }
   }
@@ -49,16 +43,16 @@ Pose pose_of_matrix(const std::vector<double>& numbers, const std::string& where
   using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
   const Eigen::Matrix4d matrix = Eigen::Map<const RowMajor>(numbers.data());
   if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
-    fail(where, "the last row of the matrix is not 0 0 0 1; write it row by row");
+    refuse(where, "the last row of the matrix is not 0 0 0 1; write it row by row");
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   const double off =
       (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(off <= kOrthonormal))
-    fail(where, fmt::format("the rotation is off orthonormal by {:.2g}; scale and shear are no "
-                            "rigid transform",
-                            off));
+    refuse(where,
+           "the rotation is off orthonormal by {:.2g}; scale and shear are no rigid transform",
+           off);
   if (rotation.determinant() < 0.0)
-    fail(where, "the rotation is a reflection; mirror the map first");
+    refuse(where, "the rotation is a reflection; mirror the map first");
   Pose pose = Pose::Identity();
   pose.linear() =
       off <= kRounding ? rotation : Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
@@ -72,14 +66,14 @@ Pose parse_transform(std::string_view text, const std::string& where) {
   const std::vector<double> numbers = numbers_in(text, where);
   if (numbers.size() == 16) return pose_of_matrix(numbers, where);
   if (numbers.size() != 7 && numbers.size() != 8)
-    fail(where,
-         fmt::format("a transform has 7 numbers (tx ty tz qx qy qz qw), 8 with a stamp ahead, "
-                     "or 16 of a matrix; these are {}",
-                     numbers.size()));
+    refuse(where,
+           "a transform has 7 numbers (tx ty tz qx qy qz qw), 8 with a stamp ahead, or 16 of a "
+           "matrix; these are {}",
+           numbers.size());
   PoseNumbers of_pose{};
   std::copy(numbers.end() - 7, numbers.end(), of_pose.begin());
   const auto pose = pose_of(of_pose);
-  if (!pose) fail(where, "quaternion qx qy qz qw is not of length 1; normalise it");
+  if (!pose) refuse(where, "quaternion qx qy qz qw is not of length 1; normalise it");
   return *pose;
 }
 

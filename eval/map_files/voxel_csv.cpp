@@ -1,15 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/map_files/voxel_csv.hpp"
-
-#include "eval/map_files/refusal.hpp"
+#include "eval/map_files/map_file.hpp"
 #include "files/csv.hpp"
 #include "files/file_bytes.hpp"
-#include "files/lower_case.hpp"
+#include "files/refusal.hpp"
+#include "files/text.hpp"
 #include "files/text_rows.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -57,8 +54,8 @@ class CsvReader {
       const auto cells = csv_cells(*line, kColumns.size());
       if (!cells) refuse_row("a quote is not closed, or text follows it");
       if (cells->size() > kColumns.size())
-        refuse_row(fmt::format("more than {} cells; the columns of a map are {}", kColumns.size(),
-                               fmt::join(kColumns, ", ")));
+        refuse_row("more than {} cells; the columns of a map are {}", kColumns.size(),
+                   fmt::join(kColumns, ", "));
       if (cells->size() == 1 && cells->front().empty()) continue;
       if (!has_columns_ && take_columns(*cells)) continue;
       take_row(*cells);
@@ -70,7 +67,10 @@ class CsvReader {
   }
 
  private:
-  [[noreturn]] void refuse_row(const std::string& what) const { refuse(file_, line_, what); }
+  template <class... Args>
+  [[noreturn]] void refuse_row(fmt::format_string<Args...> what, Args&&... args) const {
+    refuse(file_, line_, what, std::forward<Args>(args)...);
+  }
   [[nodiscard]] bool has(Column column) const { return column_[column] >= 0; }
   [[nodiscard]] const std::string& cell(const Cells& cells, Column column) const {
     return cells[static_cast<std::size_t>(column_[column])];
@@ -99,16 +99,15 @@ class CsvReader {
   void take_column(const std::string& name, int n) {
     const auto found = std::ranges::find(kColumns, lower_case(name));
     if (found == kColumns.end())
-      refuse_row(
-          fmt::format("unknown column {}; known are {}", shown(name), fmt::join(kColumns, ", ")));
+      refuse_row("unknown column {}; known are {}", excerpt(name), fmt::join(kColumns, ", "));
     int& column = column_[static_cast<std::size_t>(found - kColumns.begin())];
-    if (column >= 0) refuse_row(fmt::format("column {} stands twice", shown(name)));
+    if (column >= 0) refuse_row("column {} stands twice", excerpt(name));
     column = n;
   }
 
   void take_row(const Cells& cells) {
     if (cells.size() != column_count_)
-      refuse_row(fmt::format("{} cells, the first line has {}", cells.size(), column_count_));
+      refuse_row("{} cells, the first line has {}", cells.size(), column_count_);
     Row row;
     row.line = line_;
     if (has(kI))
@@ -125,28 +124,26 @@ class CsvReader {
 
   [[nodiscard]] double number(const Cells& cells, Column column) const {
     const auto value = parse_real(cell(cells, column));
-    if (!value)
-      refuse_row(fmt::format("{} {} is no number", kColumns[column], shown(cell(cells, column))));
+    if (!value) refuse_row("{} {} is no number", kColumns[column], excerpt(cell(cells, column)));
     return *value;
   }
   [[nodiscard]] std::int32_t index(const Cells& cells, Column column) const {
     const auto value = parse_whole(cell(cells, column));
     if (!value || *value < -kFarthestIndex || *value > kFarthestIndex)
-      refuse_row(fmt::format("{} {} is no whole number within +-{}", kColumns[column],
-                             shown(cell(cells, column)), kFarthestIndex));
+      refuse_row("{} {} is no whole number within +-{}", kColumns[column],
+                 excerpt(cell(cells, column)), kFarthestIndex);
     return static_cast<std::int32_t>(*value);
   }
   [[nodiscard]] std::uint32_t whole(const Cells& cells, Column column) const {
     const auto value = parse_count(cell(cells, column));
     if (!value || *value > std::numeric_limits<std::uint32_t>::max())
-      refuse_row(fmt::format("{} {} is no whole number from 0 up", kColumns[column],
-                             shown(cell(cells, column))));
+      refuse_row("{} {} is no whole number from 0 up", kColumns[column],
+                 excerpt(cell(cells, column)));
     return static_cast<std::uint32_t>(*value);
   }
   [[nodiscard]] double probability(const Cells& cells) const {
     const double value = number(cells, kProbability);
-    if (!(value >= 0.0 && value <= 1.0))
-      refuse_row(fmt::format("probability {} is not in [0, 1]", value));
+    if (!(value >= 0.0 && value <= 1.0)) refuse_row("probability {} is not in [0, 1]", value);
     return value;
   }
   [[nodiscard]] std::uint32_t name(const std::string& text) {
@@ -155,8 +152,8 @@ class CsvReader {
     const auto [entry, is_new] = index_of_name_.try_emplace(text, next);
     if (is_new) names_.push_back(text);
     if (names_.size() > kMostNames)
-      refuse_row(fmt::format(
-          "more than {} different classes; is the column `class` one of classes?", kMostNames));
+      refuse_row("more than {} different classes; is the column `class` one of classes?",
+                 kMostNames);
     return entry->second;
   }
 
@@ -184,9 +181,8 @@ class CsvReader {
   [[nodiscard]] bool owner_is_later(const Row& kept, const Row& later) const {
     if (!has(kSamples) || kept.name == later.name || (kept.sampled && later.sampled)) {
       const VoxelKey& v = later.voxel;
-      refuse(file_, later.line,
-             fmt::format("voxel {},{},{} stands at {}:{} already; keep one", v.i, v.j, v.k,
-                         file_.string(), kept.line));
+      refuse(file_, later.line, "voxel {},{},{} stands at {}:{} already; keep one", v.i, v.j, v.k,
+             file_.string(), kept.line);
     }
     return later.sampled;
   }
@@ -196,10 +192,8 @@ class CsvReader {
     std::erase_if(rows_, [](const Row& row) { return !row.point.allFinite(); });
     const std::size_t dropped = all - rows_.size();
     if (dropped > 0 && not_finite == NotFinite::refuse)
-      refuse(file_, fmt::format("{} of {} points are not finite; leave them out with --skip_nan",
-                                dropped, all));
-    if (rows_.empty())
-      refuse(file_, fmt::format("the map is empty: none of its {} points is finite", all));
+      refuse(file_, "{} of {} points are not finite; leave them out with --skip_nan", dropped, all);
+    if (rows_.empty()) refuse(file_, "the map is empty: none of its {} points is finite", all);
   }
 
   [[nodiscard]] MapFile map() {
@@ -219,11 +213,9 @@ class CsvReader {
   void give_labels_their_kind(MapFile& map) {
     std::vector<std::uint32_t> ids;
     for (const std::string& text : names_) {
-      const auto id = parse_whole(text);
-      if (!id || *id < std::numeric_limits<std::int32_t>::min() ||
-          *id > std::numeric_limits<std::uint32_t>::max())
-        break;
-      ids.push_back(static_cast<std::uint32_t>(*id));
+      const auto id = parse_id(text);
+      if (!id) break;
+      ids.push_back(*id);
     }
     if (ids.size() == names_.size()) {
       map.label_kind = LabelKind::id;

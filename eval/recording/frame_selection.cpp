@@ -24,7 +24,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   return parts;
 }
 
-[[noreturn]] void refuse(std::string_view text) {
+[[noreturn]] void refuse_slice(std::string_view text) {
   throw Error(fmt::format(
       "frames: '{}' is neither a frame nor a slice first:end:step of whole numbers from "
       "0, the step from 1; write e.g. 3,7,9 or 0:50:2",
@@ -36,7 +36,7 @@ int number_of(std::string_view part, std::string_view slice) {
   int number = -1;
   const char* end = part.data() + part.size();
   const auto [stop, failure] = std::from_chars(part.data(), end, number);
-  if (failure != std::errc() || stop != end || number < 0) refuse(slice);
+  if (failure != std::errc() || stop != end || number < 0) refuse_slice(slice);
   return number;
 }
 
@@ -50,7 +50,7 @@ FrameSelection::Slice FrameSelection::slice_of(std::string_view text) {
   const std::vector<std::string_view> parts = split(text, ':');
   Slice slice;
   slice.text = text;
-  if (parts.size() > 3) refuse(text);
+  if (parts.size() > 3) refuse_slice(text);
   if (parts.size() == 1 || !parts[0].empty()) slice.first = number_of(parts[0], text);
   if (parts.size() == 1) {
     slice.end = slice.first + 1;
@@ -58,7 +58,7 @@ FrameSelection::Slice FrameSelection::slice_of(std::string_view text) {
   }
   if (!parts[1].empty()) slice.end = number_of(parts[1], text);
   if (parts.size() == 3 && !parts[2].empty()) slice.step = number_of(parts[2], text);
-  if (slice.step < 1) refuse(text);
+  if (slice.step < 1) refuse_slice(text);
   return slice;
 }
 

@@ -3,11 +3,9 @@
 
 #include "eval/recording/image_files.hpp"
 
-#include "core/error.hpp"
 #include "files/file_bytes.hpp"
+#include "files/refusal.hpp"
 #include "files/text.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
@@ -30,18 +28,9 @@ std::vector<HashedFile> read_hash_list(const std::filesystem::path& file,
     listed.push_back(path);
   }
   if (listed != images)
-    throw Error(
-        fmt::format("{}: does not list the images of color.txt and depth.txt; remove it to "
-                    "have the images hashed anew",
-                    file.string()));
-  return hashes;
-}
-
-std::vector<HashedFile> hash_images(const std::filesystem::path& folder,
-                                    const std::vector<std::string>& images) {
-  std::vector<HashedFile> hashes;
-  for (const std::string& path : images)
-    hashes.push_back({path, hash_of(read_file(folder / path))});
+    refuse(file,
+           "does not list the images of color.txt and depth.txt; remove it to have the images "
+           "hashed anew");
   return hashes;
 }
 
@@ -75,7 +64,11 @@ std::string hash_list_text(const std::vector<HashedFile>& files) {
 std::vector<HashedFile> image_hashes(const std::filesystem::path& folder,
                                      const std::vector<std::string>& images) {
   const std::filesystem::path list = folder / "hashes.txt";
-  return std::filesystem::exists(list) ? read_hash_list(list, images) : hash_images(folder, images);
+  if (std::filesystem::exists(list)) return read_hash_list(list, images);
+  std::vector<HashedFile> hashes;
+  for (const std::string& path : images)
+    hashes.push_back({path, hash_of(read_file(folder / path))});
+  return hashes;
 }
 
 std::string content_hash(const std::filesystem::path& folder, const std::vector<HashedFile>& images,
@@ -103,8 +96,7 @@ void check_inside(const std::filesystem::path& folder, const std::string& path, 
   const bool climbs = std::ranges::find(relative, "..") != relative.end() ||
                       (!unreadable && !no_folder && (below.empty() || *below.begin() == ".."));
   if (relative.is_absolute() || climbs)
-    throw Error(fmt::format("{}: image '{}' leads out of the folder; {}", folder.string(),
-                            shown(path), mend));
+    refuse(folder, "image '{}' leads out of the folder; {}", shown(path), mend);
 }
 
 }  // namespace mapscore::eval

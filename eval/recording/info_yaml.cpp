@@ -4,7 +4,7 @@
 #include "eval/recording/info_yaml.hpp"
 
 #include "eval/recording/pose_text.hpp"
-#include "files/png_size.hpp"
+#include "files/png.hpp"
 #include "files/text.hpp"
 #include "files/text_rows.hpp"
 #include "files/yaml_value.hpp"
@@ -25,16 +25,6 @@ std::string camera_text(const CameraModel& camera, double rate_hz) {
       "width_px: {}, height_px: {}, fx_px: {}, fy_px: {}, cx_px: {}, cy_px: {}, rate_hz: {}",
       camera.width_px, camera.height_px, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px,
       rate_hz);
-}
-
-std::string class_text(const SemanticClass& c) {
-  return fmt::format("  - {{id: {}, name: {}, colour: \"{:02X}{:02X}{:02X}\", detect: {}}}\n", c.id,
-                     yaml_quoted(c.name), c.colour.r, c.colour.g, c.colour.b, c.detect);
-}
-
-std::string instance_text(const Instance& instance) {
-  return fmt::format("  - {{id: {}, name: {}, class: {}}}\n", instance.id,
-                     yaml_quoted(instance.name), instance.class_id);
 }
 
 CameraModel camera_of(const YamlValue& value) {
@@ -149,9 +139,13 @@ std::string info_text(const RecordingInfo& info) {
                       join_numbers(numbers_of(calibration.T_color_depth), ", "),
                       join_numbers(numbers_of(calibration.T_base_depth), ", "));
   text += "classes:\n";
-  for (const SemanticClass& c : info.table.classes) text += class_text(c);
+  for (const SemanticClass& c : info.table.classes)
+    text += fmt::format("  - {{id: {}, name: {}, colour: \"{:02X}{:02X}{:02X}\", detect: {}}}\n",
+                        c.id, yaml_quoted(c.name), c.colour.r, c.colour.g, c.colour.b, c.detect);
   text += "instances:\n";
-  for (const Instance& instance : info.table.instances) text += instance_text(instance);
+  for (const Instance& instance : info.table.instances)
+    text += fmt::format("  - {{id: {}, name: {}, class: {}}}\n", instance.id,
+                        yaml_quoted(instance.name), instance.class_id);
   return text;
 }
 

@@ -3,16 +3,12 @@
 
 #include "eval/recording/recording.hpp"
 
-#include "core/error.hpp"
 #include "eval/recording/image_files.hpp"
 #include "eval/recording/info_yaml.hpp"
-#include "eval/recording/shape_table.hpp"
-#include "eval/recording/stamp_list.hpp"
-#include "eval/recording/triangle_ply.hpp"
+#include "eval/recording/shape_files.hpp"
 #include "files/file_bytes.hpp"
 #include "files/png.hpp"
-
-#include <fmt/format.h>
+#include "files/refusal.hpp"
 
 #include <system_error>
 
@@ -33,19 +29,14 @@ std::vector<std::string> log_paths(const RecordingInfo& info) {
 }
 
 void check_is_recording(const fs::path& folder) {
-  if (!fs::is_directory(folder))
-    throw Error(fmt::format("{}: no such folder; give the folder of a recording", folder.string()));
+  if (!fs::is_directory(folder)) refuse(folder, "no such folder; give the folder of a recording");
   if (!fs::is_regular_file(folder / "recording.yaml"))
-    throw Error(
-        fmt::format("{}: not a recording (no recording.yaml in it); make one with 'mapscore "
-                    "record'",
-                    folder.string()));
+    refuse(folder, "not a recording (no recording.yaml in it); make one with 'mapscore record'");
 }
 
 void check_count(const fs::path& list, std::size_t lines, const char* key, int count) {
   if (lines != static_cast<std::size_t>(count))
-    throw Error(fmt::format("{}: {} lines, recording.yaml says {} {}; record again", list.string(),
-                            lines, key, count));
+    refuse(list, "{} lines, recording.yaml says {} {}; record again", lines, key, count);
 }
 
 /// The pose of a depth image; the trajectory has a line at its stamp.
@@ -53,9 +44,8 @@ const Pose& pose_at(const fs::path& file, const std::vector<TrajectoryPose>& tra
                     const StampedImage& image) {
   const auto line = first_from(trajectory, image.stamp_s);
   if (line == trajectory.end() || line->stamp_s != image.stamp_s)
-    throw Error(
-        fmt::format("{}: no pose at stamp {} of {}; give one line for each line of depth.txt",
-                    file.string(), image.stamp_s, image.path));
+    refuse(file, "no pose at stamp {} of {}; give one line for each line of depth.txt",
+           image.stamp_s, image.path);
   return line->T_world_base;
 }
 
@@ -64,31 +54,24 @@ void check_files(const fs::path& folder, const std::vector<std::string>& images,
   for (const std::string& image : images) {
     check_inside(folder, image, "a recording holds its own images: copy it there");
     if (!fs::is_regular_file(folder / image, no_such_name))
-      throw Error(fmt::format("{}: image is missing; copy the recording anew or record again",
-                              (folder / image).string()));
+      refuse(folder / image, "image is missing; copy the recording anew or record again");
   }
   if (has_truth && !fs::is_regular_file(folder / "truth/shapes.csv"))
-    throw Error(
-        fmt::format("{}: file is missing; record again, or set has_truth: false to map "
-                    "without scores",
-                    (folder / "truth/shapes.csv").string()));
+    refuse(folder / "truth/shapes.csv",
+           "file is missing; record again, or set has_truth: false to map without scores");
 }
 
 void check_logs(const fs::path& folder, const std::vector<std::string>& logs) {
   for (const std::string& log : logs)
     if (!fs::is_regular_file(folder / log))
-      throw Error(
-          fmt::format("{}: file is missing, which recording.yaml announces; copy the recording "
-                      "anew or record again",
-                      (folder / log).string()));
+      refuse(folder / log,
+             "file is missing, which recording.yaml announces; copy the recording anew or record "
+             "again");
 }
 
 void check_has(const fs::path& folder, bool has, const char* what) {
   if (!has)
-    throw Error(
-        fmt::format("{}: the recording has no {}; record a drive with trajectory.drive: "
-                    "wheels",
-                    folder.string(), what));
+    refuse(folder, "the recording has no {}; record a drive with trajectory.drive: wheels", what);
 }
 
 cv::Size size_of(const CameraModel& camera) {
@@ -131,23 +114,21 @@ Pose Recording::T_world_base_of_color(int index) const {
   check_frame(index);
   const StampedImage& image = color_[static_cast<std::size_t>(index)];
   if (const auto pose = interpolated(trajectory_, image.stamp_s)) return *pose;
-  throw Error(fmt::format("{}: does not reach stamp {} of {}; lengthen the trajectory",
-                          (folder_ / "groundtruth.txt").string(), image.stamp_s, image.path));
+  refuse(folder_ / "groundtruth.txt", "does not reach stamp {} of {}; lengthen the trajectory",
+         image.stamp_s, image.path);
 }
 
 void Recording::check_frame(int index) const {
   if (index < 0 || index >= frame_count())
-    throw Error(fmt::format("{}: no frame {}; the recording has frames 0 to {}", folder_.string(),
-                            index, frame_count() - 1));
+    refuse(folder_, "no frame {}; the recording has frames 0 to {}", index, frame_count() - 1);
 }
 
 std::string Recording::read_image(const std::string& path) const {
   std::string bytes = read_file(folder_ / path);
   if (hash_of(bytes) != image_hashes_.at(path))
-    throw Error(
-        fmt::format("{}: is not the image of this recording (its hash differs); copy the recording "
-                    "anew, or remove hashes.txt to take the images as they are",
-                    (folder_ / path).string()));
+    refuse(folder_ / path,
+           "is not the image of this recording (its hash differs); copy the recording anew, or "
+           "remove hashes.txt to take the images as they are");
   return bytes;
 }
 
@@ -174,11 +155,9 @@ void Recording::read_color(int index, Channels channels, Frame& frame) const {
 
 void Recording::read_depth(int depth_index, Channels channels, Frame& frame) const {
   if (depth_index < 0 || depth_index >= depth_count())
-    throw Error(fmt::format("{}: no depth image {}; the recording has 0 to {}", folder_.string(),
-                            depth_index, depth_count() - 1));
+    refuse(folder_, "no depth image {}; the recording has 0 to {}", depth_index, depth_count() - 1);
   if (channels.depth_label && !info_.has_truth)
-    throw Error(
-        fmt::format("{}: made without truth; it can be mapped, not scored", folder_.string()));
+    refuse(folder_, "made without truth; it can be mapped, not scored");
   const DepthImage& image = depth_[static_cast<std::size_t>(depth_index)];
   const CameraModel& camera = info_.calibration.depth;
   frame.depth_index = depth_index;
@@ -204,9 +183,7 @@ ScanLog Recording::read_scans() const {
 }
 
 std::vector<Shape> Recording::read_shapes() const {
-  if (!info_.has_truth)
-    throw Error(
-        fmt::format("{}: made without truth; it can be mapped, not scored", folder_.string()));
+  if (!info_.has_truth) refuse(folder_, "made without truth; it can be mapped, not scored");
   const std::size_t instances = info_.table.instances.size();
   std::vector<Shape> shapes = read_shape_table(folder_ / "truth/shapes.csv", instances);
   const fs::path meshes = folder_ / "truth/triangles.ply";

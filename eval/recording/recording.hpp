@@ -7,7 +7,6 @@
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/shape.hpp"
-#include "eval/recording/odometry_file.hpp"
 #include "eval/recording/scan_file.hpp"
 #include "eval/recording/shape_poses.hpp"
 #include "eval/recording/stamp_list.hpp"

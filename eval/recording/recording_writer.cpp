@@ -3,18 +3,14 @@
 
 #include "eval/recording/recording_writer.hpp"
 
-#include "core/error.hpp"
 #include "eval/recording/image_files.hpp"
 #include "eval/recording/info_yaml.hpp"
 #include "eval/recording/recording.hpp"
-#include "eval/recording/shape_table.hpp"
-#include "eval/recording/stamp_list.hpp"
-#include "eval/recording/triangle_ply.hpp"
+#include "eval/recording/shape_files.hpp"
 #include "files/file_bytes.hpp"
 #include "files/folder_lock.hpp"
 #include "files/png.hpp"
-
-#include <fmt/format.h>
+#include "files/refusal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,15 +29,10 @@ fs::path normal(const fs::path& folder) {
   return path.has_filename() ? path : path.parent_path();
 }
 
-[[noreturn]] void refuse(const fs::path& folder, const std::string& what) {
-  throw Error(fmt::format("{}: {}", folder.string(), what));
-}
-
 void create(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error)
-    refuse(folder, fmt::format("cannot create the folder ({}); give another", error.message()));
+  if (error) refuse(folder, "cannot create the folder ({}); give another", error.message());
 }
 
 /// Removes what a crash left, but for the folder itself, which is locked.
@@ -102,10 +93,10 @@ struct RecordingWriter::State {
   /// Takes a number of a side before its images are written.
   void claim(Side& side, const char* name, int index, const Frame& frame) {
     if (!std::isfinite(frame.stamp_s) || !frame.T_world_base.matrix().allFinite())
-      refuse(folder, fmt::format("{} image {}: stamp or pose is not finite", name, index));
+      refuse(folder, "{} image {}: stamp or pose is not finite", name, index);
     const std::lock_guard lock(mutex);
     if (!side.emplace(index, Written{frame.stamp_s, frame.T_world_base, {}}).second)
-      refuse(folder, fmt::format("{} image {} was written twice; number them from 0", name, index));
+      refuse(folder, "{} image {} was written twice; number them from 0", name, index);
   }
 
   void note(Side& side, int index, std::vector<HashedFile> images) {
@@ -117,17 +108,16 @@ struct RecordingWriter::State {
     if (side.empty()) refuse(folder, "no frames were written; give the drive more than none");
     const auto count = static_cast<int>(side.size());
     if (side.begin()->first != 0 || side.rbegin()->first != count - 1)
-      refuse(folder,
-             fmt::format("{} images 0 to {} are not all there, {} were written; record again", name,
-                         side.rbegin()->first, count));
+      refuse(folder, "{} images 0 to {} are not all there, {} were written; record again", name,
+             side.rbegin()->first, count);
     for (const auto& [index, image] : side)
       if (image.images.empty())
-        refuse(folder, fmt::format("writing {} image {} failed; record again", name, index));
+        refuse(folder, "writing {} image {} failed; record again", name, index);
     for (auto image = std::next(side.begin()); image != side.end(); ++image)
       if (image->second.stamp_s <= std::prev(image)->second.stamp_s)
-        refuse(folder, fmt::format("stamp of {} image {} does not come after the one before; mend "
-                                   "the trajectory",
-                                   name, image->first));
+        refuse(folder,
+               "stamp of {} image {} does not come after the one before; mend the trajectory", name,
+               image->first);
   }
 
   void check_frames() const {
@@ -135,8 +125,8 @@ struct RecordingWriter::State {
     check_side(depth, "depth");
     const auto count = static_cast<int>(color.size());
     if (info.frame_count != 0 && info.frame_count != count)
-      refuse(folder, fmt::format("{} frames were written, {} were announced; record again", count,
-                                 info.frame_count));
+      refuse(folder, "{} frames were written, {} were announced; record again", count,
+             info.frame_count);
     if (info.has_truth && !has_shapes)
       refuse(folder, "surfaces were not written; write them or record without truth");
   }
@@ -215,20 +205,13 @@ void RecordingWriter::write_depth(const Frame& frame) {
   state_->note(state_->depth, index, std::move(images));
 }
 
-void RecordingWriter::write(const Frame& frame) {
-  Frame numbered = frame;
-  numbered.depth_index = frame.index;
-  write_color(numbered);
-  write_depth(numbered);
-}
-
 void RecordingWriter::write_shapes(const std::vector<Shape>& shapes, const ShapePoses& poses) {
   if (!state_->info.has_truth)
     refuse(state_->folder, "a recording without truth holds no surfaces");
   for (const Shape& shape : shapes)
     if (shape.instance >= state_->info.table.instances.size())
-      refuse(state_->folder, fmt::format("geom '{}': instance {} is not in the class table",
-                                         shape.name, shape.instance));
+      refuse(state_->folder, "geom '{}': instance {} is not in the class table", shape.name,
+             shape.instance);
   write_file(state_->partial / "truth/shapes.csv", shape_table_text(shapes));
   const std::string meshes = triangle_ply_bytes(shapes);
   if (!meshes.empty()) write_file(state_->partial / "truth/triangles.ply", meshes);
@@ -263,8 +246,8 @@ void RecordingWriter::finish() {
   std::error_code error;
   fs::rename(state_->partial, state_->folder, error);
   if (error)
-    refuse(state_->folder, fmt::format("cannot be renamed from {} ({}); give another folder",
-                                       state_->partial.string(), error.message()));
+    refuse(state_->folder, "cannot be renamed from {} ({}); give another folder",
+           state_->partial.string(), error.message());
   state_->finished = true;
 }
 

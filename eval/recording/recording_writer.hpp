@@ -29,8 +29,6 @@ class RecordingWriter {
   /// several threads, in any order.
   void write_color(const Frame& frame);
   void write_depth(const Frame& frame);
-  /// Both sides of a frame, at one stamp, both numbered `frame.index`.
-  void write(const Frame& frame);
   /// `poses`: where those of `shapes` that move were at each depth image; written, even if nothing
   /// moved, where the recording has a motion.
   void write_shapes(const std::vector<Shape>& shapes, const ShapePoses& poses = {});

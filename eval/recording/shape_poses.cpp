@@ -3,12 +3,10 @@
 
 #include "eval/recording/shape_poses.hpp"
 
-#include "core/error.hpp"
 #include "eval/recording/pose_text.hpp"
 #include "files/file_bytes.hpp"
+#include "files/refusal.hpp"
 #include "files/text_rows.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -18,21 +16,8 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr const char* kHeader = "stamp_s,shape,px,py,pz,qx,qy,qz,qw";
-constexpr std::size_t kColumns = 9;
-
-/// The numbers of a line, or its first kColumns + 1; fewer than kColumns where it holds other
-/// things.
-std::vector<double> numbers_in(const std::string& line) {
-  std::vector<double> numbers;
-  std::istringstream cells(line);
-  for (std::string cell; numbers.size() <= kColumns && std::getline(cells, cell, ',');) {
-    const auto number = parse_number(cell);
-    if (!number) return {};
-    numbers.push_back(*number);
-  }
-  return numbers;
-}
+constexpr const char* kShapePoseHeader = "stamp_s,shape,px,py,pz,qx,qy,qz,qw";
+constexpr std::size_t kShapePoseColumns = 9;
 
 /// Takes the lines of a file one by one.
 class PoseLines {
@@ -43,12 +28,13 @@ class PoseLines {
 
   void take(const std::string& line) {
     ++number_;
-    const std::vector<double> numbers = numbers_in(line);
-    if (numbers.size() != kColumns || std::count(line.begin(), line.end(), ',') + 1 != kColumns)
-      refuse(fmt::format("expected {} finite numbers", kColumns));
-    take_shape(numbers[0], numbers[1]);
-    const auto pose = pose_of(
-        {numbers[2], numbers[3], numbers[4], numbers[5], numbers[6], numbers[7], numbers[8]});
+    const auto numbers = parse_numbers(line, kShapePoseColumns + 1);
+    if (!numbers || numbers->size() != kShapePoseColumns || line.ends_with(','))
+      refuse(fmt::format("expected {} finite numbers", kShapePoseColumns));
+    take_shape((*numbers)[0], (*numbers)[1]);
+    PoseNumbers of_pose{};
+    std::copy(numbers->begin() + 2, numbers->end(), of_pose.begin());
+    const auto pose = pose_of(of_pose);
     if (!pose) refuse("quaternion is not of length 1");
     poses_.T_world_shape.push_back(*pose);
   }
@@ -64,8 +50,7 @@ class PoseLines {
 
  private:
   [[noreturn]] void refuse(const std::string& what) const {
-    throw Error(
-        fmt::format("{}:{}: {}; mend the line or record again", file_.string(), number_, what));
+    mapscore::refuse(file_, number_, "{}; mend the line or record again", what);
   }
 
   /// The first stamp's lines say which shapes move, those of the others must repeat them.
@@ -91,7 +76,7 @@ class PoseLines {
   const std::filesystem::path& file_;
   std::size_t shape_count_;
   const std::vector<double>& stamps_s_;
-  int number_ = 1;
+  std::size_t number_ = 1;
   ShapePoses poses_;
 };
 
@@ -168,7 +153,7 @@ ShapePoses as_filed(const ShapePoses& poses, const std::vector<Shape>& all) {
 }
 
 std::string shape_poses_text(const ShapePoses& poses) {
-  std::string text = std::string(kHeader) + "\n";
+  std::string text = fmt::format("{}\n", kShapePoseHeader);
   for (std::size_t at = 0; at < poses.stamps_s.size(); ++at)
     for (std::size_t i = 0; i < poses.shapes.size(); ++i) {
       const PoseNumbers pose = numbers_of(poses.T_world_shape[at * poses.shapes.size() + i]);
@@ -185,9 +170,8 @@ ShapePoses read_shape_poses(const std::filesystem::path& file, std::size_t shape
                             const std::vector<double>& depth_stamps_s) {
   std::istringstream text(read_file(file));
   std::string line;
-  if (!std::getline(text, line) || line != kHeader)
-    throw Error(
-        fmt::format("{}:1: the first line is not '{}'; record again", file.string(), kHeader));
+  if (!std::getline(text, line) || line != kShapePoseHeader)
+    refuse(file, 1, "the first line is not '{}'; record again", kShapePoseHeader);
   PoseLines lines(file, shape_count, depth_stamps_s);
   while (std::getline(text, line)) lines.take(line);
   return lines.finish();

@@ -8,12 +8,46 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mapscore::eval {
+
+/// Words of `stamp_s tx ty tz qx qy qz qw`.
+inline constexpr std::size_t kPoseColumns = 8;
+
+/// One line of a file whose lines begin with a stamp, cut into words.
+struct StampedLine {
+  std::string file;
+  std::size_t number = 0;  ///< in the file, from 1
+  double stamp_s = 0.0;
+  std::vector<std::string_view> words;  ///< the stamp first
+
+  /// Throws Error "FILE:NUMBER: what".
+  [[noreturn]] void refuse(const std::string& what) const;
+  /// The word as a finite number; the line must have it. Throws Error.
+  [[nodiscard]] double number_at(std::size_t word) const;
+  /// Words 1 to 7, tx ty tz qx qy qz qw; the line must have them. Throws Error.
+  [[nodiscard]] Pose pose() const;
+};
+
+/// What a file of such lines is to hold.
+struct LineFormat {
+  std::vector<std::size_t> words;  ///< how many a line may have
+  std::string text;                ///< the same for people: "expected TEXT"
+  std::string mend_empty;          ///< what to do about a file without lines
+};
+
+/// Calls `take` with each line but empty ones and those that start with `#`, in the order of the
+/// file. One line is cut at a time; its words live as long as the call. Throws Error with file and
+/// line when the file is missing, a line has another number of words, a stamp is none or does not
+/// come after the one before, or there is no line.
+void read_stamped_lines(const std::filesystem::path& file, const LineFormat& format,
+                        const std::function<void(const StampedLine&)>& take);
 
 /// One line of color.txt or depth.txt: when, and which file below the recording's folder.
 struct StampedImage {
@@ -27,13 +61,21 @@ struct TrajectoryPose {
   Pose T_world_base = Pose::Identity();
 };
 
-/// Both readers throw Error with file and line when the file is missing or empty, a line is not of
-/// the format, or stamps do not ascend. Lines that start with `#` and empty lines are skipped.
+/// One line of odometry.txt. The odom frame is base_footprint at the start of the drive.
+struct OdometryPose {
+  double stamp_s = 0.0;
+  Pose T_odom_base = Pose::Identity();
+};
+
+/// All readers throw Error as read_stamped_lines.
 [[nodiscard]] std::vector<StampedImage> read_stamp_list(const std::filesystem::path& file);
 [[nodiscard]] std::vector<TrajectoryPose> read_trajectory(const std::filesystem::path& file);
+[[nodiscard]] std::vector<OdometryPose> read_odometry(const std::filesystem::path& file);
 
+/// Stamps and poses are the shortest texts that read back the same.
 [[nodiscard]] std::string stamp_list_text(const std::vector<StampedImage>& images);
 [[nodiscard]] std::string trajectory_text(const std::vector<TrajectoryPose>& poses);
+[[nodiscard]] std::string odometry_text(const std::vector<OdometryPose>& poses);
 
 /// First element of an ascending list whose stamp is not before `stamp_s`.
 template <class Stamped>

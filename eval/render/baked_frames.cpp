@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "eval/results/study_store.hpp"
+#include "eval/study/grid.hpp"
 #include "eval/study/leaf_yaml.hpp"
-#include "eval/study/trial_seed.hpp"
 #include "sim/faults/depth_noise.hpp"
 #include "sim/faults/label_noise.hpp"
 

@@ -6,8 +6,7 @@
 #include "core/frame.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/study/study.hpp"
-#include "sim/faults/depth_dose.hpp"
-#include "sim/faults/label_dose.hpp"
+#include "sim/faults/image_doses.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -9,16 +9,14 @@
 #include "eval/study/grid.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace mapscore::eval {
 namespace {
 
-void check_matrix(const Overrides<sim::LabelDose>& labels, const Study& study,
-                  const ClassTable& table) {
+void check_matrix(const Overrides<sim::LabelDose>& labels, const ClassTable& detected) {
   if (!labels.given.contains("confusion_matrix")) return;
   std::vector<std::string> names;
-  for (const SemanticClass& c : detected_table(study, table).classes)
+  for (const SemanticClass& c : detected.classes)
     if (c.detect) names.push_back(c.name);
   if (labels.values.confusion_matrix.size() != names.size())
     throw Error(fmt::format(
@@ -28,8 +26,7 @@ void check_matrix(const Overrides<sim::LabelDose>& labels, const Study& study,
 }
 
 /// By the very functions of a trial.
-void check_fusion(const Study& study, const ClassTable& table) {
-  const ClassTable detected = detected_table(study, table);
+void check_fusion(const Study& study, const ClassTable& detected) {
   static_cast<void>(for_classes(study.fusion, detected));
   for (const MethodSettings& method : study.methods) try {
       static_cast<void>(for_classes(fusion_of(study.fusion, method.fusion), detected));
@@ -57,8 +54,9 @@ void check_baked(const Study& study, const RecordingInfo& info) {
 void check_classes(const Study& study, const ClassTable& table) {
   for (const Cell& cell : cells(study)) {
     const Study point = resolve(study, cell);
-    check_matrix(point.faults.labels.own, point, table);
-    check_fusion(point, table);
+    const ClassTable detected = detected_table(point, table);
+    check_matrix(point.faults.labels.own, detected);
+    check_fusion(point, detected);
   }
 }
 

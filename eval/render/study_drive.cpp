@@ -5,7 +5,6 @@
 
 #include "eval/render/study_drive.hpp"
 
-#include "sim/recorder/recorded_drive.hpp"
 #include "sim/robot/drive_simulation.hpp"
 #include "sim/sensors/lidar.hpp"
 #include "sim/world/motion.hpp"
@@ -108,11 +107,7 @@ StudyDrive drive_of(const Study& study, const sim::World& world,
   const auto* wheels = std::get_if<WheelDrive>(&study.trajectory.drive);
   if (!wheels) return drive_by_poses(study, way);
   const sim::DriveLog log =
-      sim::simulate_drive(world, robot_path(study), way, settings_of(*wheels),
-                          [&](std::size_t reached, std::size_t waypoints) {
-                            if (progress)
-                              progress(static_cast<int>(reached), static_cast<int>(waypoints));
-                          });
+      sim::simulate_drive(world, robot_path(study), way, settings_of(*wheels), progress);
   return drive_on_wheels(study, log, way.until_s);
 }
 

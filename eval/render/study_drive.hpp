@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include "eval/recording/odometry_file.hpp"
 #include "eval/recording/scan_file.hpp"
 #include "eval/recording/stamp_list.hpp"
 #include "eval/study/study.hpp"

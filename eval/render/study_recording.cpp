@@ -7,17 +7,17 @@
 #include "eval/recording/recording_writer.hpp"
 #include "eval/recording/stamp_list.hpp"
 #include "eval/render/baked_frames.hpp"
-#include "eval/render/bundled_robot.hpp"
 #include "eval/render/replay_check.hpp"
 #include "eval/results/plan.hpp"
 #include "files/folder_lock.hpp"
+#include "files/text.hpp"
+
+#include <fstream>
+#include <iterator>
 
 #ifdef MAPSCORE_SIMULATOR
 #include "eval/render/study_drive.hpp"
-#include "files/text.hpp"
-#include "sim/recorder/recorder.hpp"
 #include "sim/world/motion.hpp"
-#include "sim/world/moving_scene.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -26,7 +26,32 @@
 #endif
 
 namespace mapscore::eval {
+
+namespace fs = std::filesystem;
+
+std::optional<fs::path> own_robot_of(const fs::path& folder) {
+  for (const char* way : {"../share/mapscore/scenes/robot.xml", "../../scenes/robot.xml"}) {
+    fs::path file = (folder / way).lexically_normal();
+    if (fs::is_regular_file(file)) return file;
+  }
+  return std::nullopt;
+}
+
+bool names_base_footprint(const fs::path& robot) {
+  std::ifstream stream(robot, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  return text.find("\"base_footprint\"") != std::string::npos ||
+         text.find("'base_footprint'") != std::string::npos;
+}
+
 namespace {
+
+/// The robot that comes with the program, found from where its file lies.
+std::optional<fs::path> own_robot() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  return error ? std::nullopt : own_robot_of(program.parent_path());
+}
 
 /// The recording that a study names.
 Recording replayed(const Study& study) {
@@ -50,7 +75,7 @@ sim::CameraOverrides overrides_of(const CameraSettings& cameras) {
 }
 
 /// Base poses that put the colour camera at the poses of a file.
-std::vector<sim::StampedPose> poses_from(const std::filesystem::path& trajectory,
+std::vector<sim::StampedPose> poses_from(const fs::path& trajectory,
                                          const Calibration& calibration) {
   const Pose T_color_base = calibration.T_color_depth * calibration.T_base_depth.inverse();
   std::vector<sim::StampedPose> poses;
@@ -70,7 +95,7 @@ RecordingInfo info_of(const Study& study, const sim::World& world, const sim::St
   info.color_rate_hz = rate_of(streams.color);
   info.depth_rate_hz = rate_of(streams.depth);
   info.table = world.classes();
-  info.scene = std::filesystem::path(study.scene.value()).filename().string();
+  info.scene = fs::path(study.scene.value()).filename().string();
   info.scene_hash = world.hash();
   info.mujoco_version = sim::mujoco_version();
   if (const sim::Motion* motion = world.motion()) {
@@ -105,7 +130,7 @@ void write_logs(const Study& study, const sim::World& world, const StudyDrive& d
 }
 
 void record_world(const Study& study, const sim::World& world, const StudyDrive& drive,
-                  const std::filesystem::path& folder, int jobs, const FrameProgress& progress,
+                  const fs::path& folder, int jobs, const FrameProgress& progress,
                   const BakedFrames* baked = nullptr) {
   const sim::Streams& streams = drive.streams;
   RecordingInfo info = info_of(study, world, streams);
@@ -134,13 +159,13 @@ std::string recording_name(const Study& study, const sim::World& world) {
   std::string text = world.hash() + '\n' + sim::mujoco_version() + '\n' + to_key_yaml(rendered);
   if (world.motion()) text += world.motion()->hash;
   const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
-  return fmt::format("{}-{:012x}", std::filesystem::path(study.scene.value()).stem().string(),
+  return fmt::format("{}-{:012x}", fs::path(study.scene.value()).stem().string(),
                      hash.high64 >> 16);
 }
 
 }  // namespace
 
-sim::World world_of_scene(const std::filesystem::path& scene) {
+sim::World world_of_scene(const fs::path& scene) {
   return sim::World::load({scene, std::nullopt, {}}, {});
 }
 
@@ -153,9 +178,8 @@ sim::World world_of(const Study& study) {
   return study.motion ? world.moving(sim::read_motion(resolve_path(study, *study.motion))) : world;
 }
 
-void record_study(const Study& study, const std::filesystem::path& folder, int jobs,
-                  const RecordingProgress& progress, const std::filesystem::path& trajectory,
-                  bool bake) {
+void record_study(const Study& study, const fs::path& folder, int jobs,
+                  const RecordingProgress& progress, const fs::path& trajectory, bool bake) {
   if (!study.scene) throw Error("scene: nothing to record; name an MJCF file");
   const sim::World world = world_of(study);
   StudyDrive drive;
@@ -168,21 +192,21 @@ void record_study(const Study& study, const std::filesystem::path& folder, int j
   record_world(study, world, drive, folder, jobs, progress.images, baked ? &*baked : nullptr);
 }
 
-Recording recording_of(const Study& study, const std::filesystem::path& results, int jobs,
+Recording recording_of(const Study& study, const fs::path& results, int jobs,
                        const RecordingProgress& progress) {
   check_pose_files(study);
   if (study.recording) return replayed(study);
   const sim::World world = world_of(study);
   check_classes(study, world.classes());
-  const std::filesystem::path folder = results / "recordings" / recording_name(study, world);
+  const fs::path folder = results / "recordings" / recording_name(study, world);
   const FolderLock lock(folder.parent_path());  // of several shards one records, the others wait
-  if (!std::filesystem::exists(folder))
+  if (!fs::exists(folder))
     record_world(study, world, drive_of(study, world, progress.waypoints), folder, jobs,
                  progress.images);
   return Recording::open(folder);
 }
 
-SceneSurfaces surfaces_of_scene(const std::filesystem::path& scene) {
+SceneSurfaces surfaces_of_scene(const fs::path& scene) {
   const sim::World world = world_of_scene(scene);
   return {world.classes(), world.shapes(), world.unmatched_bodies()};
 }
@@ -199,7 +223,7 @@ namespace {
 
 }  // namespace
 
-sim::World world_of_scene(const std::filesystem::path&) {
+sim::World world_of_scene(const fs::path&) {
   refuse();
 }
 
@@ -207,25 +231,23 @@ sim::World world_of(const Study&) {
   refuse();
 }
 
-void record_study(const Study&, const std::filesystem::path&, int, const RecordingProgress&,
-                  const std::filesystem::path&, bool) {
+void record_study(const Study&, const fs::path&, int, const RecordingProgress&, const fs::path&,
+                  bool) {
   refuse();
 }
 
-Recording recording_of(const Study& study, const std::filesystem::path&, int,
-                       const RecordingProgress&) {
+Recording recording_of(const Study& study, const fs::path&, int, const RecordingProgress&) {
   if (!study.recording) refuse();
   return replayed(study);
 }
 
-SceneSurfaces surfaces_of_scene(const std::filesystem::path&) {
+SceneSurfaces surfaces_of_scene(const fs::path&) {
   refuse();
 }
 
 #endif
 
-Study study_of_scene(const std::filesystem::path& scene,
-                     const std::vector<std::string>& overrides) {
+Study study_of_scene(const fs::path& scene, const std::vector<std::string>& overrides) {
   Study study;
   study.name = shown(scene.stem());
   study.scene = scene.filename().string();

@@ -3,10 +3,11 @@
 
 #include "eval/report/axes.hpp"
 
+#include "files/text_rows.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <string_view>
 #include <tuple>
@@ -26,13 +27,6 @@ std::pair<std::string, std::string> name_and_unit(std::string_view title) {
 /// Of a key in metres that a figure shows in millimetres; else 1.
 double scale_of(std::string_view key, std::string_view unit) {
   return unit == "mm" && key.ends_with("_m") ? 1000.0 : 1.0;
-}
-
-std::optional<double> number_of(const std::string& text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = error == std::errc{} && end == text.data() + text.size();
-  return whole ? std::optional(number) : std::nullopt;
 }
 
 /// "particle_filter" as people write it.
@@ -62,7 +56,7 @@ FigureAxis figure_axis(const Field& field, const std::vector<std::string>& value
   figure.key = field.key;
   const double scale = scale_of(field.key, figure.unit);
   for (const std::string& value : values) {
-    const std::optional<double> number = number_of(value);
+    const std::optional<double> number = parse_real(value);
     figure.numeric = figure.numeric && number;
     figure.at.push_back(number.value_or(0.0) * scale);
     figure.values.push_back(number ? fmt::format("{:.6g}", *number * scale) : spaced(value));

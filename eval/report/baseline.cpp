@@ -6,13 +6,12 @@
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
 #include "files/csv.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <map>
 #include <tuple>
@@ -29,17 +28,14 @@ std::string description_of(const ResultLine& line) {
   return text;
 }
 
-std::string text_of(const std::optional<double>& value) {
-  return value ? fmt::format("{:.6f}", *value) : "-";
+std::string six_decimals(const std::optional<double>& value) {
+  return cell_text(value, "{:.6f}");
 }
 
 std::optional<double> parse_value(const std::string& text, const std::string& where) {
   if (text == "-") return std::nullopt;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    throw Error(where + ": '" + text + "' is no number; write the baseline again with --write");
-  return value;
+  if (const auto value = parse_number(text)) return value;
+  throw Error(where + ": '" + text + "' is no number; write the baseline again with --write");
 }
 
 }  // namespace
@@ -51,7 +47,7 @@ std::vector<BaselineRow> baseline_of(const StudySummary& summary) {
     for (const ResultLine& line : *lines)
       for (const std::string& group : summary.groups())
         for (const Metric& metric : metrics_of_group(line.pooled, summary.table, group))
-          if (std::find(kKept.begin(), kKept.end(), metric.name) != kKept.end())
+          if (std::ranges::count(kKept, metric.name) > 0)
             rows.push_back({description_of(line), group, metric.name, metric.value});
   return rows;
 }
@@ -59,7 +55,7 @@ std::vector<BaselineRow> baseline_of(const StudySummary& summary) {
 void write_baseline(const std::vector<BaselineRow>& rows, const std::filesystem::path& file) {
   std::string text = std::string(kHeader) + '\n';
   for (const BaselineRow& row : rows)
-    text += csv_line({row.what, row.group, row.metric, text_of(row.value)});
+    text += csv_line({row.what, row.group, row.metric, six_decimals(row.value)});
   write_whole_file(file, text);
 }
 
@@ -105,7 +101,7 @@ Table fall_table(const std::vector<Fall>& fallen) {
   for (const Fall& fall : fallen)
     table.rows.push_back(
         {fall.baseline.what, fall.baseline.group, fall.baseline.metric,
-         text_of(fall.baseline.value), text_of(fall.now),
+         six_decimals(fall.baseline.value), six_decimals(fall.now),
          fall.now ? fmt::format("{:+.6f}", *fall.now - *fall.baseline.value) : "missing"});
   return table;
 }

@@ -3,10 +3,6 @@
 
 #include "eval/report/best_threshold.hpp"
 
-#include "core/error.hpp"
-
-#include <fmt/format.h>
-
 #include <cstddef>
 
 namespace mapscore::eval {
@@ -27,53 +23,35 @@ std::vector<ClassCurve> pooled_others(std::span<const ClassCurve> seeds) {
   return others;
 }
 
-/// Mean of the figures that are defined.
-class DefinedMean {
- public:
-  void add(const std::optional<double>& value) {
-    if (!value) return;
-    sum_ += *value;
-    ++count_;
+/// Mean of one figure over the scores that define it.
+std::optional<double> mean_of(const std::vector<ChosenScore>& scores,
+                              std::optional<double> ChosenScore::*figure) {
+  double sum = 0.0;
+  int count = 0;
+  for (const ChosenScore& score : scores) {
+    sum += (score.*figure).value_or(0.0);
+    count += score.*figure ? 1 : 0;
   }
-  [[nodiscard]] std::optional<double> value() const {
-    return count_ == 0 ? std::nullopt : std::optional(sum_ / count_);
-  }
+  return count == 0 ? std::nullopt : std::optional(sum / count);
+}
 
- private:
-  double sum_ = 0.0;
-  int count_ = 0;
-};
-
-struct MeanScore {
-  DefinedMean f1, threshold;
-
-  void add(const ChosenScore& score) {
-    f1.add(score.f1);
-    threshold.add(score.threshold);
-  }
-  [[nodiscard]] ChosenScore value() const { return {f1.value(), threshold.value()}; }
-};
-
-/// A class's curve at each seed.
-std::vector<ClassCurve> curves_of_class(const ResultLine& line, ClassId class_id) {
-  std::vector<ClassCurve> curves;
-  for (const TrialResult& result : line.results) curves.push_back(result.counts.at(class_id).curve);
-  return curves;
+ChosenScore mean_of(const std::vector<ChosenScore>& scores) {
+  return {mean_of(scores, &ChosenScore::f1), mean_of(scores, &ChosenScore::threshold)};
 }
 
 BestThreshold macro_best_threshold(const ResultLine& line, const ClassTable& table) {
-  std::vector<MeanScore> by_seed(line.results.size());
-  MeanScore pooled;
+  std::vector<std::vector<ChosenScore>> by_seed(line.results.size());
+  std::vector<ChosenScore> pooled;
   for (const SemanticClass& semantic : table.classes) {
     if (!semantic.detect) continue;
-    const BestThreshold of_class = best_threshold(curves_of_class(line, semantic.id));
+    const BestThreshold of_class = best_threshold(line, table, semantic.name);
     for (std::size_t s = 0; s < by_seed.size(); ++s)
-      if (line.results[s].counts.at(semantic.id).visible > 0) by_seed[s].add(of_class.by_seed[s]);
-    if (line.pooled.at(semantic.id).visible > 0) pooled.add(of_class.pooled);
+      if (line.results[s].counts.at(semantic.id).visible > 0)
+        by_seed[s].push_back(of_class.by_seed[s]);
+    if (line.pooled.at(semantic.id).visible > 0) pooled.push_back(of_class.pooled);
   }
-  BestThreshold macro;
-  for (const MeanScore& mean : by_seed) macro.by_seed.push_back(mean.value());
-  macro.pooled = pooled.value();
+  BestThreshold macro{{}, mean_of(pooled)};
+  for (const std::vector<ChosenScore>& scores : by_seed) macro.by_seed.push_back(mean_of(scores));
   return macro;
 }
 
@@ -103,15 +81,10 @@ BestThreshold best_threshold(std::span<const ClassCurve> seeds) {
 BestThreshold best_threshold(const ResultLine& line, const ClassTable& table,
                              std::string_view group) {
   if (group == kMacro) return macro_best_threshold(line, table);
-  if (group == kPooled) {
-    std::vector<ClassCurve> curves;
-    for (const TrialResult& result : line.results)
-      curves.push_back(pool_detected(result.counts, table).curve);
-    return best_threshold(curves);
-  }
-  for (const SemanticClass& semantic : table.classes)
-    if (semantic.name == group) return best_threshold(curves_of_class(line, semantic.id));
-  throw Error(fmt::format("class '{}': not in the class table", group));
+  std::vector<ClassCurve> curves;
+  for (const TrialResult& result : line.results)
+    curves.push_back(counts_of_group(result.counts, table, group).curve);
+  return best_threshold(curves);
 }
 
 }  // namespace mapscore::eval

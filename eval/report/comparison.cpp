@@ -17,7 +17,7 @@ namespace mapscore::eval {
 namespace {
 
 void require(const char* what, const std::string& name, const std::vector<std::string>& known) {
-  if (std::find(known.begin(), known.end(), name) == known.end())
+  if (std::ranges::find(known, name) == known.end())
     throw Error(fmt::format("compare: no {} '{}' in this study; there are: {}", what, name,
                             fmt::join(known, ", ")));
 }
@@ -36,8 +36,7 @@ std::vector<std::string> metric_names(const StudySummary& summary, const std::st
   std::vector<Metric> metrics = metrics_of_group(counts, summary.table, group);
   if (metrics.empty()) metrics = metrics_of_group(counts, summary.table, kPooled);
   for (const Metric& metric : metrics) names.push_back(metric.name);
-  for (const char* chosen : {kBestF1, kBestThreshold})
-    if (std::find(names.begin(), names.end(), chosen) == names.end()) names.emplace_back(chosen);
+  names.insert(names.end(), {kBestF1, kBestThreshold});
   return names;
 }
 
@@ -51,16 +50,16 @@ void check(const StudySummary& summary, const ComparisonQuestion& question) {
   if (question.metrics.empty()) throw Error("compare: no metric; f1 is one");
   for (const std::string& metric : question.metrics) {
     require("metric", metric, metric_names(summary, question.group));
-    if (std::count(question.metrics.begin(), question.metrics.end(), metric) > 1)
+    if (std::ranges::count(question.metrics, metric) > 1)
       throw Error(fmt::format("compare: metric '{}' is given twice; once is enough", metric));
   }
 }
 
 const ResultLine& line_of(const StudySummary& summary, const Cell& cell,
                           const std::string& method) {
-  const auto line = std::find_if(
-      summary.trials.begin(), summary.trials.end(),
-      [&](const ResultLine& of) { return of.cell.index == cell.index && of.method == method; });
+  const auto line = std::ranges::find_if(summary.trials, [&](const ResultLine& of) {
+    return of.cell.index == cell.index && of.method == method;
+  });
   if (line == summary.trials.end())
     throw Error(fmt::format("compare: method '{}' has no trials at cell {}; sweep the study again",
                             method, cell.index));
@@ -97,12 +96,12 @@ PairedComparison compare_lines(const ResultLine& a, const ResultLine& b,
 }
 
 std::string figure(const std::optional<double>& value) {
-  return value ? fmt::format("{:.4f}", *value) : "-";
+  return cell_text(value, "{:.4f}");
 }
 
 std::string signed_figure(const std::optional<double>& value) {
   if (value && std::abs(*value) < 0.00005) return "0.0000";
-  return value ? fmt::format("{:+.4f}", *value) : "-";
+  return cell_text(value, "{:+.4f}");
 }
 
 std::string probability(const std::optional<double>& p) {
@@ -123,13 +122,10 @@ std::string spread_note(int seeds) {
 std::vector<std::string> caption_of(const StudySummary& summary, const ComparisonQuestion& question,
                                     std::size_t rows) {
   const Study& study = summary.study;
-  std::vector<std::string> detected;
-  for (const SemanticClass& c : summary.table.classes)
-    if (c.detect) detected.push_back(c.name);
   const double least = least_sign_flip_p(study.seeds);
   return {
       fmt::format("{}: {} - {}, {} classes; detected: {}", study.name, question.a, question.b,
-                  question.group, fmt::join(detected, ", ")),
+                  question.group, fmt::join(detected_names(summary.table), ", ")),
       fmt::format("voxels of {} m; {} seed{}, paired seed by seed; each {} scored; figures: means "
                   "of one value a seed (`mapscore table` pools counts)",
                   study.voxel_m, study.seeds, study.seeds == 1 ? "" : "s",

@@ -9,32 +9,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
 namespace mapscore::eval {
 namespace {
 
-/// Adds one seed's result to the line it belongs to.
-class LineCollector {
- public:
-  LineCollector(Role role, std::vector<ResultLine>& lines) : role_(role), lines_(lines) {}
-
-  void add(const TrialSpec& spec, const TrialResult& result) {
-    const auto [entry, is_new] =
-        positions_.try_emplace({spec.cell.index, spec.method}, lines_.size());
-    if (is_new) lines_.push_back({role_, spec.method, spec.cell, {}, {}, {}});
-    ResultLine& line = lines_[entry->second];
-    line.seeds.push_back(spec.seed_index);
-    line.results.push_back(result);
-    pool_into(line.pooled, result.counts);
-  }
-
- private:
-  Role role_;
-  std::vector<ResultLine>& lines_;
-  std::map<std::pair<int, std::string>, std::size_t> positions_;
-};
+/// Adds one seed's result to the line at `place`, which may be the first behind the last.
+void add(Role role, const TrialSpec& spec, const TrialResult& result, std::size_t place,
+         std::vector<ResultLine>& lines) {
+  if (place == lines.size()) lines.push_back({role, spec.method, spec.cell, {}, {}, {}});
+  ResultLine& line = lines[place];
+  line.seeds.push_back(spec.seed_index);
+  line.results.push_back(result);
+  pool_into(line.pooled, result.counts);
+}
 
 /// Throws Error when the store lacks trials of the plan.
 void check_all_there(const ResultStore& store, const TaskList& tasks,
@@ -61,23 +51,45 @@ Estimate estimate(const BestThreshold& best, std::optional<double> ChosenScore::
 
 }  // namespace
 
-const char* name_of(Role role) {
-  switch (role) {
-    case Role::trial:
-      return "trial";
-    case Role::registration_ceiling:
-      return "registration_ceiling";
-    case Role::lattice_ceiling:
-      return "lattice_ceiling";
-  }
-  return "?";
+std::vector<std::string> StudySummary::groups() const {
+  std::vector<std::string> groups = detected_names(table);
+  groups.insert(groups.begin(), {std::string(kPooled), std::string(kMacro)});
+  return groups;
 }
 
-std::vector<std::string> StudySummary::groups() const {
-  std::vector<std::string> groups{std::string(kPooled), std::string(kMacro)};
-  for (const SemanticClass& semantic_class : table.classes)
-    if (semantic_class.detect) groups.push_back(semantic_class.name);
-  return groups;
+bool StudySummary::has_metric(std::string_view metric) const {
+  return !trials.empty() &&
+         std::ranges::count(metrics_of_group(trials.front().pooled, table, kPooled), metric,
+                            &Metric::name) > 0;
+}
+
+std::string StudySummary::lattice_note() const {
+  LatticeCheck check(table);
+  for (const ResultLine& line : lattice_ceilings)
+    for (const TrialResult& result : line.results) check.add(result.counts);
+  return check.note();
+}
+
+void LatticeCheck::add(const Counts& ceiling) {
+  const ClassCounts pooled = pool_detected(ceiling, table_);
+  least_precision_ = std::min(least_precision_, precision(pooled).value_or(1.0));
+  least_recall_ = std::min(least_recall_, recall(pooled).value_or(1.0));
+}
+
+std::string LatticeCheck::note() const {
+  if (std::min(least_precision_, least_recall_) >= kLeast) return "";
+  return fmt::format(
+      "the lattice ceiling falls to a precision of {:.3f} and a recall of {:.3f}, so images, poses "
+      "and truth of the recording do not fit each other, or the voxels are too fine for its depth; "
+      "no score means much before that is mended (docs/ceilings.md)",
+      least_precision_, least_recall_);
+}
+
+std::vector<std::string> detected_names(const ClassTable& table) {
+  std::vector<std::string> names;
+  for (const SemanticClass& c : table.classes)
+    if (c.detect) names.push_back(c.name);
+  return names;
 }
 
 std::filesystem::path store_file(const std::filesystem::path& results) {
@@ -100,24 +112,31 @@ StudySummary summarise_store(const std::filesystem::path& results) {
   const std::vector<TrialResult> found = read_results(store, plan.tasks);
 
   StudySummary summary{record.study, record.table, {}, {}, {}};
-  LineCollector trials(Role::trial, summary.trials);
-  LineCollector registration(Role::registration_ceiling, summary.registration_ceilings);
-  LineCollector lattice(Role::lattice_ceiling, summary.lattice_ceilings);
+  std::map<std::pair<int, std::string>, std::size_t> places;  // by cell and method
   for (const PlannedTrial trial : plan.trials) {
-    trials.add(trial.spec, found[trial.task]);
-    registration.add(trial.spec, found[trial.registration_ceiling]);
-    lattice.add(trial.spec, found[trial.lattice_ceiling]);
+    const TrialSpec& spec = trial.spec;
+    const std::size_t place =
+        places.try_emplace({spec.cell.index, spec.method}, places.size()).first->second;
+    add(Role::trial, spec, found[trial.task], place, summary.trials);
+    add(Role::registration_ceiling, spec, found[trial.registration_ceiling], place,
+        summary.registration_ceilings);
+    add(Role::lattice_ceiling, spec, found[trial.lattice_ceiling], place, summary.lattice_ceilings);
   }
   return summary;
 }
 
+ClassCounts counts_of_group(const Counts& counts, const ClassTable& table, std::string_view group) {
+  if (group == kPooled) return pool_detected(counts, table);
+  const auto named = std::ranges::find(table.classes, group, &SemanticClass::name);
+  if (named == table.classes.end())
+    throw Error(fmt::format("class '{}': not in the class table", group));
+  return counts.at(named->id);
+}
+
 std::vector<Metric> metrics_of_group(const Counts& counts, const ClassTable& table,
                                      std::string_view group) {
-  if (group == kPooled) return metrics_of(pool_detected(counts, table));
-  if (group == kMacro) return macro_metrics(counts, table);
-  for (const SemanticClass& semantic_class : table.classes)
-    if (semantic_class.name == group) return metrics_of(counts.at(semantic_class.id));
-  throw Error(fmt::format("class '{}': not in the class table", group));
+  return group == kMacro ? macro_metrics(counts, table)
+                         : metrics_of(counts_of_group(counts, table, group));
 }
 
 Estimate estimate(const ResultLine& line, const ClassTable& table, std::string_view group,

@@ -11,6 +11,8 @@
 #include "eval/study/grid.hpp"
 #include "eval/study/study.hpp"
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -29,7 +31,10 @@ inline constexpr const char* kBestThreshold = "threshold_best";
 
 /// What a line of results stands for.
 enum class Role { trial, registration_ceiling, lattice_ceiling };
-[[nodiscard]] const char* name_of(Role role);
+[[nodiscard]] constexpr const char* name_of(Role role) {
+  return std::array{"trial", "registration_ceiling", "lattice_ceiling"}.at(
+      static_cast<std::size_t>(role));
+}
 
 /// All seeds of one method at one cell of the grid, or of its ceiling.
 struct ResultLine {
@@ -58,7 +63,33 @@ struct StudySummary {
 
   /// "pooled", "macro", then the detected classes.
   [[nodiscard]] std::vector<std::string> groups() const;
+  /// Whether the pooled counts of its trials have this metric.
+  [[nodiscard]] bool has_metric(std::string_view metric) const;
+  /// The note of a LatticeCheck of all lattice ceilings.
+  [[nodiscard]] std::string lattice_note() const;
 };
+
+/// Checks by a study's lattice ceilings that its recording and truth belong together: true labels
+/// at the true pose must then give an almost perfect map (docs/ceilings.md).
+class LatticeCheck {
+ public:
+  /// Neither precision nor recall of a sound recording is below this.
+  static constexpr double kLeast = 0.98;
+
+  /// The table is kept by reference.
+  explicit LatticeCheck(const ClassTable& table) : table_(table) {}
+
+  void add(const Counts& ceiling);
+  /// What to tell the reader of the scores; empty where all is well.
+  [[nodiscard]] std::string note() const;
+
+ private:
+  const ClassTable& table_;
+  double least_precision_ = 1.0, least_recall_ = 1.0;
+};
+
+/// Names of the detected classes, in the table's order.
+[[nodiscard]] std::vector<std::string> detected_names(const ClassTable& table);
 
 /// How many tasks of a plan the store holds.
 [[nodiscard]] std::size_t held_tasks(const ResultStore& store, const TaskList& tasks);
@@ -68,7 +99,11 @@ struct StudySummary {
 /// command that goes on).
 [[nodiscard]] StudySummary summarise_store(const std::filesystem::path& results);
 
-/// Metrics of a line's counts for one group of groups().
+/// Counts of one group of groups() that is not macro. Throws Error when there is no such class.
+[[nodiscard]] ClassCounts counts_of_group(const Counts& counts, const ClassTable& table,
+                                          std::string_view group);
+
+/// Metrics of a line's counts for one group of groups(). Throws Error as above.
 [[nodiscard]] std::vector<Metric> metrics_of_group(const Counts& counts, const ClassTable& table,
                                                    std::string_view group);
 

@@ -3,9 +3,13 @@
 
 #pragma once
 
+#include "core/classes.hpp"
+#include "eval/objects/true_objects.hpp"
 #include "eval/report/summary.hpp"
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mapscore::eval {
@@ -18,9 +22,17 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
+/// A figure as the text of a cell; `format` is one of fmt.
+[[nodiscard]] std::string cell_text(const std::optional<double>& value,
+                                    std::string_view format = "{:.3f}");
+
 /// Scores of every method at every cell for one group of classes ("pooled", "macro" or a class), at
 /// tolerance 0 and, where scored, 1, by distance and of instances, with both ceilings.
 [[nodiscard]] Table score_table(const StudySummary& summary, const std::string& group);
+
+/// Scores of an object map: a row for each detected class that has an object in the truth or the
+/// map, and one for all. `counts`: by class id.
+[[nodiscard]] Table object_table(const std::vector<ObjectCounts>& counts, const ClassTable& table);
 
 /// Column of a swept path: its last part, or all of it where two end alike.
 [[nodiscard]] std::string column_of(const SweepAxis& axis, const std::vector<SweepAxis>& sweep);

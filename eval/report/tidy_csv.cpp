@@ -4,6 +4,7 @@
 #include "eval/report/tidy_csv.hpp"
 
 #include "eval/report/best_threshold.hpp"
+#include "eval/report/table.hpp"
 #include "files/csv.hpp"
 
 #include <fmt/format.h>
@@ -31,8 +32,8 @@ std::vector<Metric> counts_as_metrics(const ClassCounts& counts) {
   return metrics;
 }
 
-std::string text_of(const std::optional<double>& value) {
-  return value ? fmt::format("{:.9g}", *value) : "-";
+std::string nine_digits(const std::optional<double>& value) {
+  return cell_text(value, "{:.9g}");
 }
 
 /// `best`: of each of the summary's groups.
@@ -50,9 +51,9 @@ void write_result(const ResultLine& line, std::size_t seed, const StudySummary& 
   const std::vector<std::string> groups = summary.groups();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (const Metric& metric : tidy_metrics(result.counts, summary.table, groups[g]))
-      write(groups[g], metric.name, text_of(metric.value));
-    write(groups[g], kBestF1, text_of(best[g].by_seed[seed].f1));
-    write(groups[g], kBestThreshold, text_of(best[g].by_seed[seed].threshold));
+      write(groups[g], metric.name, nine_digits(metric.value));
+    write(groups[g], kBestF1, nine_digits(best[g].by_seed[seed].f1));
+    write(groups[g], kBestThreshold, nine_digits(best[g].by_seed[seed].threshold));
   }
   for (const CountField<Accounting>& field : Accounting::counts())
     write("all", std::string(field.name), std::to_string(result.accounting.*field.member));
@@ -71,9 +72,7 @@ void write_line(const ResultLine& line, const StudySummary& summary, std::ostrea
 std::vector<Metric> tidy_metrics(const Counts& counts, const ClassTable& table,
                                  std::string_view group) {
   std::vector<Metric> metrics;
-  if (group == kPooled) metrics = counts_as_metrics(pool_detected(counts, table));
-  for (const SemanticClass& c : table.classes)
-    if (c.name == group) metrics = counts_as_metrics(counts.at(c.id));
+  if (group != kMacro) metrics = counts_as_metrics(counts_of_group(counts, table, group));
   for (Metric& metric : metrics_of_group(counts, table, group))
     metrics.push_back(std::move(metric));
   return metrics;
@@ -91,16 +90,14 @@ void write_tidy_csv(const StudySummary& summary, std::ostream& out) {
 
 void write_frames_csv(std::span<const FrameResult> frames, const ClassTable& table,
                       std::ostream& out) {
-  std::vector<std::string> groups;
-  for (const SemanticClass& c : table.classes)
-    if (c.detect) groups.push_back(c.name);
+  std::vector<std::string> groups = detected_names(table);
   groups.emplace_back(kPooled);
   out << csv_line({"frame", "stamp_s", "class", "metric", "value"});
   for (const FrameResult& frame : frames) {
     const std::string index = std::to_string(frame.frame), stamp = fmt::format("{}", frame.stamp_s);
     for (const std::string& group : groups)
       for (const Metric& metric : tidy_metrics(frame.counts, table, group))
-        out << csv_line({index, stamp, group, metric.name, text_of(metric.value)});
+        out << csv_line({index, stamp, group, metric.name, nine_digits(metric.value)});
   }
 }
 

@@ -4,14 +4,13 @@
 #include "eval/results/plan.hpp"
 
 #include "core/error.hpp"
-#include "eval/localization/believed_file.hpp"
+#include "eval/localization/believed_trajectory.hpp"
 #include "eval/recording/grid_file.hpp"
 #include "eval/score/counts.hpp"
 #include "files/file_bytes.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <unordered_map>

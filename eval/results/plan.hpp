@@ -5,7 +5,6 @@
 
 #include "eval/results/task_list.hpp"
 #include "eval/study/grid.hpp"
-#include "eval/study/study.hpp"
 
 #include <cstddef>
 #include <string>

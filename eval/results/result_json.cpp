@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/results/result_json.hpp"
-
 #include "core/error.hpp"
+#include "eval/results/store.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 template <class Owner>
-json fields_to_json(const Owner& owner) {
+json counts_to_json(const Owner& owner) {
   json object;
   for (const CountField<Owner>& field : Owner::counts()) object[field.name] = owner.*field.member;
   return object;
@@ -50,7 +49,7 @@ int thousandth_of(const json& value) {
 }
 
 template <class Owner>
-void fields_from_json(const json& object, Owner& owner) {
+void counts_from_json(const json& object, Owner& owner) {
   for (const CountField<Owner>& field : Owner::counts())
     owner.*field.member = count_of(object.at(field.name));
 }
@@ -88,14 +87,9 @@ ClassCurve curve_from_json(const json& object) {
   return curve;
 }
 
-template <class Part>
-json part_to_json(const Part& part) {
-  return fields_to_json(part);
-}
-
 /// Steps as [score, predicted, true_predicted...], a true_predicted for each least IoU.
-json part_to_json(const InstanceCounts& instances) {
-  json object = fields_to_json(instances);
+json counts_to_json(const InstanceCounts& instances) {
+  json object = counts_to_json<InstanceCounts>(instances);
   object["steps"] = json::array();
   for (const InstanceStep& step : instances.steps) {
     json row{step.score, step.predicted};
@@ -105,13 +99,8 @@ json part_to_json(const InstanceCounts& instances) {
   return object;
 }
 
-template <class Part>
-void part_from_json(const json& object, Part& part) {
-  fields_from_json(object, part);
-}
-
-void part_from_json(const json& object, InstanceCounts& instances) {
-  fields_from_json(object, instances);
+void counts_from_json(const json& object, InstanceCounts& instances) {
+  counts_from_json<InstanceCounts>(object, instances);
   for (const json& row : object.at("steps")) {
     InstanceStep step;
     step.score = thousandth_of(row.at(0));
@@ -124,15 +113,15 @@ void part_from_json(const json& object, InstanceCounts& instances) {
 
 template <class Part>
 void take_part(const json& object, const char* name, Part& part) {
-  part_from_json(object.at(name), part);
+  counts_from_json(object.at(name), part);
 }
 template <class Part>
 void take_part(const json& object, const char* name, std::optional<Part>& part) {
-  if (object.contains(name)) part_from_json(object.at(name), part.emplace());
+  if (object.contains(name)) counts_from_json(object.at(name), part.emplace());
 }
 
 json counts_to_json(const ClassCounts& counts) {
-  json object = fields_to_json(counts);
+  json object = counts_to_json<ClassCounts>(counts);
   object["at_tolerance"] = json::array();
   for (const ToleranceCounts& at : counts.at_tolerance)
     object["at_tolerance"].push_back({at.voxels, at.true_predicted, at.found});
@@ -140,13 +129,12 @@ json counts_to_json(const ClassCounts& counts) {
   object["completeness"] = tally_to_json(counts.completeness);
   object["curve"] = curve_to_json(counts.curve);
   for_each_part(counts,
-                [&](const char* name, const auto& part) { object[name] = part_to_json(part); });
+                [&](const char* name, const auto& part) { object[name] = counts_to_json(part); });
   return object;
 }
 
-ClassCounts counts_from_json(const json& object) {
-  ClassCounts counts;
-  fields_from_json(object, counts);
+void counts_from_json(const json& object, ClassCounts& counts) {
+  counts_from_json<ClassCounts>(object, counts);
   for (const json& at : object.at("at_tolerance"))
     counts.at_tolerance.push_back(
         {static_cast<int>(count_of(at.at(0))), count_of(at.at(1)), count_of(at.at(2))});
@@ -156,14 +144,13 @@ ClassCounts counts_from_json(const json& object) {
   std::apply(
       [&](const auto&... part) { (take_part(object, part.first, counts.*part.second), ...); },
       ClassCounts::parts());
-  return counts;
 }
 
 }  // namespace
 
 std::string to_json(const TrialResult& result) {
   json object;
-  object["accounting"] = fields_to_json(result.accounting);
+  object["accounting"] = counts_to_json(result.accounting);
   object["classes"] = json::array();
   for (const ClassCounts& counts : result.counts)
     object["classes"].push_back(counts_to_json(counts));
@@ -173,8 +160,9 @@ std::string to_json(const TrialResult& result) {
 TrialResult result_from_json(const std::string& text) try {
   const json object = json::parse(text);
   TrialResult result;
-  fields_from_json(object.at("accounting"), result.accounting);
-  for (const json& counts : object.at("classes")) result.counts.push_back(counts_from_json(counts));
+  counts_from_json(object.at("accounting"), result.accounting);
+  for (const json& counts : object.at("classes"))
+    counts_from_json(counts, result.counts.emplace_back());
   return result;
 } catch (const json::exception& error) {
   throw Error(std::string("stored result: not readable (") + error.what() +

@@ -4,7 +4,6 @@
 #include "eval/results/store.hpp"
 
 #include "core/error.hpp"
-#include "eval/results/result_json.hpp"
 #include "eval/results/store_trouble.hpp"
 #include "files/text.hpp"
 
@@ -12,7 +11,6 @@
 #include <sqlite3.h>
 
 #include <system_error>
-#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -22,17 +20,19 @@ constexpr int kStoreFormat = 1;
 constexpr const char* kTexts = "texts (name TEXT PRIMARY KEY, value TEXT NOT NULL)";
 constexpr const char* kTrials =
     "trials (key TEXT PRIMARY KEY, description TEXT NOT NULL, result TEXT NOT NULL)";
+constexpr const char* kAddTrial = "INSERT OR IGNORE INTO trials VALUES (?, ?, ?)";
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
   throw Error(file.string() + ": " + reason);
 }
 
-/// One prepared statement; positions of parameters and columns as SQLite counts them. A database
+/// One prepared statement with the texts of its parameters; columns count from 0. A database
 /// has one at a time. It ends in an Error after many more steps than its file can ask for: pages
 /// that name one another have no end.
 class Statement {
  public:
-  Statement(sqlite3* database, const std::filesystem::path& file, const char* sql)
+  Statement(sqlite3* database, const std::filesystem::path& file, const std::string& sql,
+            const std::vector<std::string>& texts = {})
       : database_(database), file_(file) {
     std::error_code no_file;
     const std::uintmax_t bytes = std::filesystem::file_size(file, no_file);
@@ -40,26 +40,20 @@ class Statement {
     sqlite3_progress_handler(
         database, kRestEvery,
         [](void* self) { return --static_cast<Statement*>(self)->rests_left_ < 0 ? 1 : 0; }, this);
-    if (sqlite3_prepare_v2(database, sql, -1, &statement_, nullptr) != SQLITE_OK) refuse();
+    if (sqlite3_prepare_v2(database, sql.c_str(), -1, &statement_, nullptr) != SQLITE_OK) refuse();
+    for (int parameter = 1; const std::string& text : texts)
+      sqlite3_bind_text(statement_, parameter++, text.data(), static_cast<int>(text.size()),
+                        SQLITE_TRANSIENT);
   }
   ~Statement() { close(); }
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
 
-  Statement& bind(int parameter, const std::string& text) {
-    sqlite3_bind_text(statement_, parameter, text.data(), static_cast<int>(text.size()),
-                      SQLITE_TRANSIENT);
-    return *this;
-  }
   /// True while there is a row.
   [[nodiscard]] bool step() {
     const int outcome = sqlite3_step(statement_);
     if (outcome != SQLITE_ROW && outcome != SQLITE_DONE) refuse();
     return outcome == SQLITE_ROW;
-  }
-  void run() {
-    while (step()) {
-    }
   }
   [[nodiscard]] std::string text(int column) const {
     const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
@@ -102,8 +96,13 @@ void ResultStore::Close::operator()(sqlite3* database) const {
   sqlite3_close(database);
 }
 
-ResultStore::ResultStore(std::unique_ptr<sqlite3, Close> database, std::filesystem::path file)
-    : database_(std::move(database)), file_(std::move(file)) {
+ResultStore::ResultStore(const std::filesystem::path& file, int flags, const char* refusal)
+    : file_(file) {
+  refuse_super_journal(file);
+  sqlite3* raw = nullptr;
+  const int outcome = sqlite3_open_v2(file.c_str(), &raw, flags, nullptr);
+  database_.reset(raw);
+  if (outcome != SQLITE_OK) fail(file, refusal);
   sqlite3_busy_timeout(database_.get(), 10000);
   // What a stranger's store could do: functions with side effects in its schema, triggers, views,
   // pages that SQLite takes for its own.
@@ -112,6 +111,7 @@ ResultStore::ResultStore(std::unique_ptr<sqlite3, Close> database, std::filesyst
     sqlite3_db_config(database_.get(), off, 0, nullptr);
   sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_limit(database_.get(), SQLITE_LIMIT_ATTACHED, 0);
+  refuse_foreign_schema();
 }
 
 void ResultStore::refuse_foreign_schema() const {
@@ -133,12 +133,8 @@ void ResultStore::refuse_foreign_schema() const {
 ResultStore ResultStore::open(const std::filesystem::path& file) {
   std::error_code error;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
-  refuse_super_journal(file);
-  sqlite3* raw = nullptr;
-  const int outcome = sqlite3_open(file.c_str(), &raw);
-  ResultStore store(std::unique_ptr<sqlite3, Close>(raw), file);
-  if (outcome != SQLITE_OK) fail(file, "cannot be written; check the folder and its permissions");
-  store.refuse_foreign_schema();
+  ResultStore store(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
+                    "cannot be written; check the folder and its permissions");
   store.execute(std::string("CREATE TABLE IF NOT EXISTS ") + kTexts);
   store.execute(std::string("CREATE TABLE IF NOT EXISTS ") + kTrials);
   const std::string format = store.text("format_version");
@@ -153,29 +149,23 @@ ResultStore ResultStore::open(const std::filesystem::path& file) {
 ResultStore ResultStore::open_existing(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file))
     fail(file, "no result store there; run `mapscore sweep` first");
-  refuse_super_journal(file);
-  sqlite3* raw = nullptr;
   // Read-write, so that SQLite can roll back what a killed sweep left half-written; a store on a
   // read-only disk is opened for reading all the same.
-  const int outcome = sqlite3_open_v2(file.c_str(), &raw, SQLITE_OPEN_READWRITE, nullptr);
-  ResultStore store(std::unique_ptr<sqlite3, Close>(raw), file);
-  if (outcome != SQLITE_OK) fail(file, "cannot be opened; check its permissions");
-  store.refuse_foreign_schema();
+  ResultStore store(file, SQLITE_OPEN_READWRITE, "cannot be opened; check its permissions");
   if (store.text("format_version") != std::to_string(kStoreFormat))
     fail(file, "result store of another format; sweep again into another folder");
   return store;
 }
 
-void ResultStore::execute(const std::string& sql) {
-  Statement(database_.get(), file_, sql.c_str()).run();
+void ResultStore::execute(const std::string& sql, const std::vector<std::string>& texts) {
+  Statement statement(database_.get(), file_, sql, texts);
+  while (statement.step()) {
+  }
 }
 
 void ResultStore::set_text(const std::string& name, const std::string& value) {
   if (text(name) == value) return;
-  Statement(database_.get(), file_, "INSERT OR REPLACE INTO texts VALUES (?, ?)")
-      .bind(1, name)
-      .bind(2, value)
-      .run();
+  execute("INSERT OR REPLACE INTO texts VALUES (?, ?)", {name, value});
 }
 
 void ResultStore::set_texts(const std::vector<std::pair<std::string, std::string>>& texts) {
@@ -185,15 +175,8 @@ void ResultStore::set_texts(const std::vector<std::pair<std::string, std::string
 }
 
 std::string ResultStore::text(const std::string& name) const {
-  Statement query(database_.get(), file_, "SELECT value FROM texts WHERE name = ?");
-  query.bind(1, name);
+  Statement query(database_.get(), file_, "SELECT value FROM texts WHERE name = ?", {name});
   return query.step() ? query.text(0) : std::string();
-}
-
-bool ResultStore::contains(const std::string& key) const {
-  Statement query(database_.get(), file_, "SELECT 1 FROM trials WHERE key = ?");
-  query.bind(1, key);
-  return query.step();
 }
 
 std::unordered_set<std::string> ResultStore::keys() const {
@@ -205,16 +188,11 @@ std::unordered_set<std::string> ResultStore::keys() const {
 
 void ResultStore::add(const std::string& key, const std::string& description,
                       const TrialResult& result) {
-  Statement(database_.get(), file_, "INSERT OR IGNORE INTO trials VALUES (?, ?, ?)")
-      .bind(1, key)
-      .bind(2, description)
-      .bind(3, to_json(result))
-      .run();
+  execute(kAddTrial, {key, description, to_json(result)});
 }
 
 std::optional<TrialResult> ResultStore::find(const std::string& key) const {
-  Statement query(database_.get(), file_, "SELECT result FROM trials WHERE key = ?");
-  query.bind(1, key);
+  Statement query(database_.get(), file_, "SELECT result FROM trials WHERE key = ?", {key});
   if (!query.step()) return std::nullopt;
   return result_of(query.text(0), file_);
 }
@@ -226,11 +204,7 @@ int ResultStore::merge(const ResultStore& other) {
   execute("BEGIN");
   while (query.step()) {
     (void)result_of(query.text(2), other.file_);  // so that none comes in which cannot be read
-    Statement(database_.get(), file_, "INSERT OR IGNORE INTO trials VALUES (?, ?, ?)")
-        .bind(1, query.text(0))
-        .bind(2, query.text(1))
-        .bind(3, query.text(2))
-        .run();
+    execute(kAddTrial, {query.text(0), query.text(1), query.text(2)});
   }
   execute("COMMIT");
   return sqlite3_total_changes(database_.get()) - before;

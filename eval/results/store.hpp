@@ -46,19 +46,11 @@ struct Accounting {
   }
   /// The count of the detections that were skipped for a reason; nullptr for none.
   static std::int64_t Accounting::*of(SkipReason reason) {
-    switch (reason) {
-      case SkipReason::none:
-        break;
-      case SkipReason::no_points:
-        return &Accounting::skipped_no_points;
-      case SkipReason::eroded_away:
-        return &Accounting::skipped_eroded_away;
-      case SkipReason::no_seed_point:
-        return &Accounting::skipped_no_seed_point;
-      case SkipReason::seed_off_object:
-        return &Accounting::skipped_seed_off_object;
-    }
-    return nullptr;
+    constexpr auto kSkipped = std::to_array<std::int64_t Accounting::*>(
+        {nullptr, &Accounting::skipped_no_points, &Accounting::skipped_eroded_away,
+         &Accounting::skipped_no_seed_point, &Accounting::skipped_seed_off_object});
+    static_assert(kSkipped.size() == names_of(SkipReason{}).size());
+    return kSkipped[static_cast<std::size_t>(reason)];
   }
   bool operator==(const Accounting&) const = default;
 };
@@ -68,6 +60,11 @@ struct TrialResult {
   Counts counts;  ///< by class id
   Accounting accounting;
 };
+
+/// A trial's result as one line of JSON: raw counts only, exact, same result same bytes.
+[[nodiscard]] std::string to_json(const TrialResult& result);
+/// Throws Error when the text is not what to_json writes.
+[[nodiscard]] TrialResult result_from_json(const std::string& text);
 
 /// Results of a study: one row a trial, keyed by the content hash of everything that determines it.
 /// One transaction a trial, so that a killed sweep loses nothing that was done. Members may be
@@ -86,7 +83,6 @@ class ResultStore {
   void set_texts(const std::vector<std::pair<std::string, std::string>>& texts);
   [[nodiscard]] std::string text(const std::string& name) const;
 
-  [[nodiscard]] bool contains(const std::string& key) const;
   [[nodiscard]] std::unordered_set<std::string> keys() const;
   /// A trial that is already there stays as it is. `description` is the YAML of what the key was
   /// made from.
@@ -99,8 +95,9 @@ class ResultStore {
   struct Close {
     void operator()(sqlite3* database) const;
   };
-  ResultStore(std::unique_ptr<sqlite3, Close> database, std::filesystem::path file);
-  void execute(const std::string& sql);
+  /// `refusal`: what to say of a file that SQLite does not open with these flags.
+  ResultStore(const std::filesystem::path& file, int flags, const char* refusal);
+  void execute(const std::string& sql, const std::vector<std::string>& texts = {});
   void refuse_foreign_schema() const;
 
   std::unique_ptr<sqlite3, Close> database_;

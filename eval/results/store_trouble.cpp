@@ -37,12 +37,6 @@ int open_descriptor_of(const fs::path& file) {
   return -1;
 }
 
-std::string removed_words(const fs::path& file) {
-  std::error_code ignored;
-  const char* what = fs::exists(file.parent_path(), ignored) ? "it" : "its folder";
-  return fmt::format("result store: {} was removed or replaced while in use; start again", what);
-}
-
 }  // namespace
 
 std::string lock_holder(const fs::path& file) {
@@ -71,7 +65,9 @@ std::string store_trouble(int code, const std::string& words, const fs::path& fi
     return "result store: it would take endless steps to read, so it is damaged; sweep again into "
            "another folder";
   std::error_code ignored;
-  if (code == SQLITE_READONLY_DBMOVED || !fs::exists(file, ignored)) return removed_words(file);
+  if (code == SQLITE_READONLY_DBMOVED || !fs::exists(file, ignored))
+    return fmt::format("result store: {} was removed or replaced while in use; start again",
+                       fs::exists(file.parent_path(), ignored) ? "it" : "its folder");
   return "result store: " + words + "; check free space, permissions and that it is a store";
 }
 

@@ -66,6 +66,30 @@ ClassTable table_from_json(const std::string& text) {
   return table;
 }
 
+/// Names that stand for all classes in tables and CSV.
+void refuse_reserved_names(const ClassTable& table) {
+  for (const SemanticClass& c : table.classes)
+    if (c.name == "pooled" || c.name == "macro" || c.name == "all")
+      throw Error("class '" + c.name +
+                  "': the name stands for all classes in tables; rename it in the class file");
+}
+
+ClassTable with_detected_set(const Study& study, ClassTable table) {
+  if (!study.detect) return table;
+  std::string names;
+  for (const SemanticClass& c : table.classes)
+    if (c.id != kBackground) names += ' ' + c.name;
+  for (const std::string& name : study.detect->classes)
+    if (std::ranges::find(table.classes.begin() + 1, table.classes.end(), name,
+                          &SemanticClass::name) == table.classes.end())
+      throw Error(fmt::format("detect: there is no class '{}'; there are:{}", name, names));
+  for (SemanticClass& c : table.classes)
+    c.detect = c.id != kBackground &&
+               (study.detect->all ||
+                std::ranges::find(study.detect->classes, c.name) != study.detect->classes.end());
+  return table;
+}
+
 }  // namespace
 
 void write_study(ResultStore& store, const StudyRecord& record,
@@ -94,41 +118,10 @@ StudyRecord read_study(const ResultStore& store, const std::filesystem::path& fo
               "); sweep again into another folder");
 }
 
-namespace {
-
-/// Names that stand for all classes in tables and CSV.
-void refuse_reserved_names(const ClassTable& table) {
-  for (const SemanticClass& c : table.classes)
-    if (c.name == "pooled" || c.name == "macro" || c.name == "all")
-      throw Error("class '" + c.name +
-                  "': the name stands for all classes in tables; rename it in the class file");
-}
-
-ClassTable with_detected_set(const Study& study, ClassTable table) {
-  if (!study.detect) return table;
-  std::string names;
-  for (const SemanticClass& c : table.classes)
-    if (c.id != kBackground) names += ' ' + c.name;
-  for (const std::string& name : study.detect->classes) {
-    const auto named = [&](const SemanticClass& c) { return c.name == name; };
-    if (std::none_of(table.classes.begin() + 1, table.classes.end(), named))
-      throw Error(fmt::format("detect: there is no class '{}'; there are:{}", name, names));
-  }
-  for (SemanticClass& c : table.classes)
-    c.detect =
-        c.id != kBackground &&
-        (study.detect->all || std::find(study.detect->classes.begin(), study.detect->classes.end(),
-                                        c.name) != study.detect->classes.end());
-  return table;
-}
-
-}  // namespace
-
 ClassTable detected_table(const Study& study, ClassTable table) {
   refuse_reserved_names(table);
   table = with_detected_set(study, std::move(table));
-  if (std::none_of(table.classes.begin(), table.classes.end(),
-                   [](const SemanticClass& c) { return c.detect; }))
+  if (std::ranges::none_of(table.classes, &SemanticClass::detect))
     throw Error(
         "detect: no class of the scene is detected, so there is nothing to map; set `detect: true` "
         "in the "
@@ -138,8 +131,8 @@ ClassTable detected_table(const Study& study, ClassTable table) {
 
 ClassTable detected_table(const std::vector<std::string>& classes, ClassTable table) {
   Study study;
-  study.detect = DetectedSet{classes == std::vector<std::string>{"all"}, classes};
-  if (study.detect->all) study.detect->classes.clear();
+  study.detect = classes == std::vector<std::string>{"all"} ? DetectedSet{true, {}}
+                                                            : DetectedSet{false, classes};
   return detected_table(study, std::move(table));
 }
 

@@ -3,12 +3,11 @@
 
 #include "eval/results/task_list.hpp"
 
-#include "eval/study/trial_seed.hpp"
+#include "eval/study/grid.hpp"
 #include "files/file_bytes.hpp"
 
 #include <fmt/format.h>
 
-#include <stdexcept>
 #include <utility>
 
 namespace mapscore::eval {
@@ -56,26 +55,9 @@ Task TaskList::operator[](std::size_t position) const {
   return shared.task(seed_index);
 }
 
-Task TaskList::at(std::size_t position) const {
-  if (position >= size()) throw std::out_of_range("TaskList");
-  return (*this)[position];
-}
-
 std::string TaskList::key(std::size_t position) const {
   const auto [shared, seed_index] = member_at(position);
   return shared.key(seed_index);
-}
-
-const Study& TaskList::config(std::size_t position) const {
-  return member_at(position).shared.config;
-}
-
-int TaskList::seed_index(std::size_t position) const {
-  return member_at(position).seed_index;
-}
-
-Labels TaskList::labels(std::size_t position) const {
-  return member_at(position).shared.labels;
 }
 
 }  // namespace mapscore::eval

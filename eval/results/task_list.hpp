@@ -58,12 +58,16 @@ class TaskList {
 
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] Task operator[](std::size_t position) const;
-  /// Throws std::out_of_range beyond the end.
-  [[nodiscard]] Task at(std::size_t position) const;
   [[nodiscard]] std::string key(std::size_t position) const;
-  [[nodiscard]] const Study& config(std::size_t position) const;
-  [[nodiscard]] int seed_index(std::size_t position) const;
-  [[nodiscard]] Labels labels(std::size_t position) const;
+  [[nodiscard]] const Study& config(std::size_t position) const {
+    return member_at(position).shared.config;
+  }
+  [[nodiscard]] int seed_index(std::size_t position) const {
+    return member_at(position).seed_index;
+  }
+  [[nodiscard]] Labels labels(std::size_t position) const {
+    return member_at(position).shared.labels;
+  }
   /// Where the task of a configuration and a seed stands.
   [[nodiscard]] std::size_t position_of(std::size_t configuration, int seed_index) const;
 

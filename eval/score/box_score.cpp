@@ -3,50 +3,28 @@
 
 #include "eval/score/box_score.hpp"
 
-#include "core/error.hpp"
 #include "core/geometry/depth_rays.hpp"
-
-#include <fmt/format.h>
+#include "eval/truth/sample_counter.hpp"
+#include "eval/truth/shapes/shape_tests.hpp"
 
 #include <cmath>
 
 namespace mapscore::eval {
-namespace {
-
-constexpr std::int64_t kNano = 1'000'000'000;
-
-double volume(const Eigen::AlignedBox3d& box) {
-  return box.isEmpty() ? 0.0 : box.volume();
-}
-
-Eigen::AlignedBox3d widened(const Eigen::AlignedBox3d& box, double widen_m) {
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(widen_m);
-  return {box.min() - margin, box.max() + margin};
-}
-
-void check(const Frame& frame, const CameraModel& camera) {
-  const cv::Size size(camera.width_px, camera.height_px);
-  if (frame.depth.size() == size && frame.depth_label.size() == size) return;
-  throw Error(
-      fmt::format("frame {}: depth and depth_label must have the depth camera's size, {} x {}; "
-                  "check recording.yaml and that both images were read",
-                  frame.index, size.width, size.height));
-}
-
-}  // namespace
+namespace {}  // namespace
 
 double box_iou(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double widen_m) {
   if (a.isEmpty() || b.isEmpty()) return 0.0;
   const Eigen::AlignedBox3d wide_a = widened(a, widen_m), wide_b = widened(b, widen_m);
-  const double common = volume(wide_a.intersection(wide_b));
-  const double both = volume(wide_a) + volume(wide_b) - common;
+  const Eigen::AlignedBox3d overlap = wide_a.intersection(wide_b);
+  const double common = overlap.isEmpty() ? 0.0 : overlap.volume();
+  const double both = wide_a.volume() + wide_b.volume() - common;
   return both > 0.0 ? common / both : 0.0;
 }
 
 std::vector<Eigen::AlignedBox3d> truth_boxes(const Frame& frame,
                                              const Calibration& true_calibration,
                                              std::size_t instance_count) {
-  check(frame, true_calibration.depth);
+  check_depth_images(frame, true_calibration.depth);
   const DepthRays rays(true_calibration.depth);
   std::vector<Eigen::AlignedBox3d> boxes(instance_count);
   for (int v = 0; v < frame.depth.rows; ++v) {
@@ -68,16 +46,17 @@ void BoxCounts::add(const Eigen::AlignedBox3d& box, const Eigen::AlignedBox3d& t
     ++unseen;
     return;
   }
-  const std::int64_t iou = std::llround(box_iou(box, truth, widen_m) * static_cast<double>(kNano));
+  const std::int64_t iou =
+      std::llround(box_iou(box, truth, widen_m) * static_cast<double>(kBillion));
   ++detections;
   iou_sum_nano += iou;
-  at_25 += 4 * iou >= kNano;
-  at_50 += 2 * iou >= kNano;
-  at_75 += 4 * iou >= 3 * kNano;
+  at_25 += 4 * iou >= kBillion;
+  at_50 += 2 * iou >= kBillion;
+  at_75 += 4 * iou >= 3 * kBillion;
 }
 
 std::vector<Metric> BoxCounts::metrics() const {
-  return {{"box_iou", ratio(iou_sum_nano, detections * kNano)},
+  return {{"box_iou", ratio(iou_sum_nano, detections * kBillion)},
           {"box_25", ratio(at_25, detections)},
           {"box_50", ratio(at_50, detections)},
           {"box_75", ratio(at_75, detections)}};

@@ -5,7 +5,7 @@
 
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
-#include "eval/score/box_counts.hpp"
+#include "eval/score/part_counts.hpp"
 
 #include <Eigen/Geometry>
 #include <cstddef>

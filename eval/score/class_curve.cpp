@@ -3,84 +3,67 @@
 
 #include "eval/score/class_curve.hpp"
 
-#include "eval/score/metrics.hpp"
+#include "eval/score/metric.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 namespace mapscore::eval {
 
 namespace {
 
-constexpr double kBillion = 1e9;
 /// F1 that differ by less are equal, so that rounding chooses no threshold.
 constexpr double kF1Slack = 1e-12;
 
-/// Puts a step under those above it.
-void lower(CurvePoint& point, const CurveStep& step) {
-  point.predicted += step.predicted;
-  point.true_predicted += step.true_predicted;
-  point.found += step.found;
-}
-
-void form_ratios(CurvePoint& point, std::int64_t visible) {
-  point.precision = ratio(point.true_predicted, point.predicted);
-  point.recall = ratio(point.found, visible);
-  point.f1 = f1(point.true_predicted, point.predicted, point.found, visible);
-}
-
-void add(const CurveStep& step, CurveStep& to) {
-  to.predicted += step.predicted;
-  to.true_predicted += step.true_predicted;
-  to.found += step.found;
-  to.probability_sum_billionth += step.probability_sum_billionth;
+/// `sum`: of the steps at the threshold and above.
+CurvePoint point_of(double threshold, const CurveStep& sum, std::int64_t visible) {
+  return {threshold,
+          sum.predicted,
+          sum.true_predicted,
+          sum.found,
+          ratio(sum.true_predicted, sum.predicted),
+          ratio(sum.found, visible),
+          f1(sum.true_predicted, sum.predicted, sum.found, visible)};
 }
 
 }  // namespace
 
+CurveStep& CurveStep::operator+=(const CurveStep& other) {
+  predicted += other.predicted;
+  true_predicted += other.true_predicted;
+  found += other.found;
+  probability_sum_billionth += other.probability_sum_billionth;
+  return *this;
+}
+
 ClassCurve& ClassCurve::operator+=(const ClassCurve& other) {
   visible += other.visible;
   squared_error_billionth += other.squared_error_billionth;
-  std::vector<CurveStep> merged;
-  merged.reserve(steps.size() + other.steps.size());
-  std::merge(steps.begin(), steps.end(), other.steps.begin(), other.steps.end(),
-             std::back_inserter(merged),
-             [](const CurveStep& a, const CurveStep& b) { return a.thousandth > b.thousandth; });
-  steps.clear();
-  for (const CurveStep& step : merged) {
-    if (steps.empty() || steps.back().thousandth != step.thousandth)
-      steps.push_back(step);
-    else
-      add(step, steps.back());
-  }
+  pool_steps(steps, other.steps, &CurveStep::thousandth);
   return *this;
 }
 
 std::vector<CurvePoint> points_of(const ClassCurve& curve) {
   std::vector<CurvePoint> points;
   points.reserve(curve.steps.size());
-  CurvePoint point;
+  CurveStep sum;
   for (const CurveStep& step : curve.steps) {
-    point.threshold = static_cast<double>(step.thousandth) / kCurveSteps;
-    lower(point, step);
-    form_ratios(point, curve.visible);
-    points.push_back(point);
+    sum += step;
+    const double threshold = static_cast<double>(step.thousandth) / kCurveSteps;
+    points.push_back(point_of(threshold, sum, curve.visible));
   }
   return points;
 }
 
 CurvePoint point_at(const ClassCurve& curve, std::optional<double> threshold) {
-  CurvePoint at;
-  at.threshold = threshold.value_or(std::numeric_limits<double>::infinity());
+  CurveStep sum;
   const int least = threshold ? thousandth_of(*threshold) : kCurveSteps + 1;
   for (const CurveStep& step : curve.steps) {
     if (step.thousandth < least) break;
-    lower(at, step);
+    sum += step;
   }
-  form_ratios(at, curve.visible);
-  return at;
+  return point_of(threshold.value_or(std::numeric_limits<double>::infinity()), sum, curve.visible);
 }
 
 std::optional<double> average_precision(const ClassCurve& curve) {
@@ -118,20 +101,17 @@ std::vector<ReliabilityBin> reliability(const ClassCurve& curve) {
   for (const CurveStep& step : curve.steps) {
     const int bin =
         std::min(step.thousandth * kReliabilityBins / kCurveSteps, kReliabilityBins - 1);
-    add(step, sums[static_cast<std::size_t>(bin)]);
+    sums[static_cast<std::size_t>(bin)] += step;
   }
   std::vector<ReliabilityBin> bins;
   for (int b = 0; b < kReliabilityBins; ++b) {
     const CurveStep& sum = sums[static_cast<std::size_t>(b)];
-    ReliabilityBin bin;
-    bin.low = static_cast<double>(b) / kReliabilityBins;
-    bin.high = static_cast<double>(b + 1) / kReliabilityBins;
-    bin.voxels = sum.predicted;
-    bin.share_true = ratio(sum.true_predicted, sum.predicted);
+    bins.push_back({static_cast<double>(b) / kReliabilityBins,
+                    static_cast<double>(b + 1) / kReliabilityBins, sum.predicted, std::nullopt,
+                    ratio(sum.true_predicted, sum.predicted)});
     if (sum.predicted > 0)
-      bin.mean_probability = static_cast<double>(sum.probability_sum_billionth) / kBillion /
-                             static_cast<double>(sum.predicted);
-    bins.push_back(bin);
+      bins.back().mean_probability = static_cast<double>(sum.probability_sum_billionth) / kBillion /
+                                     static_cast<double>(sum.predicted);
   }
   return bins;
 }

@@ -28,6 +28,8 @@ struct CurveStep {
   std::int64_t found = 0;                      ///< of them in V
   std::int64_t probability_sum_billionth = 0;  ///< of their p, each rounded to 1e-9
 
+  /// Adds the voxels of another step.
+  CurveStep& operator+=(const CurveStep& other);
   bool operator==(const CurveStep&) const = default;
 };
 

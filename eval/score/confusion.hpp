@@ -3,14 +3,12 @@
 
 #pragma once
 
-#include "core/classes.hpp"
-#include "eval/score/map_snapshot.hpp"
-#include "eval/truth/surface_truth.hpp"
-#include "eval/truth/visible_truth.hpp"
+#include "core/error.hpp"
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <string>
 
 namespace mapscore::eval {
 
@@ -21,48 +19,53 @@ class ConfusionMatrix {
   /// Empty: takes the size of what is pooled into it.
   ConfusionMatrix() = default;
   /// Zeros; `further_columns` answers beside the classes.
-  explicit ConfusionMatrix(std::size_t class_count, std::size_t further_columns = 0);
+  explicit ConfusionMatrix(std::size_t class_count, std::size_t further_columns = 0)
+      : cells_(Cells::Zero(static_cast<Eigen::Index>(class_count),
+                           static_cast<Eigen::Index>(class_count + further_columns))) {}
 
   /// Rows, and columns that are classes.
-  [[nodiscard]] std::size_t class_count() const { return rows_; }
-  [[nodiscard]] std::size_t columns() const { return columns_; }
+  [[nodiscard]] std::size_t class_count() const { return static_cast<std::size_t>(cells_.rows()); }
+  [[nodiscard]] std::size_t columns() const { return static_cast<std::size_t>(cells_.cols()); }
 
   /// Row below class_count(), column below columns().
   [[nodiscard]] std::int64_t at(std::size_t row, std::size_t column) const {
-    return cells_[row * columns_ + column];
+    return cells_(row, column);
   }
   void count(std::size_t row, std::size_t column, std::int64_t times = 1) {
-    cells_[row * columns_ + column] += times;
+    cells_(row, column) += times;
   }
 
-  [[nodiscard]] std::int64_t row_sum(std::size_t row) const;
-  [[nodiscard]] std::int64_t column_sum(std::size_t column) const;
+  [[nodiscard]] std::int64_t row_sum(std::size_t row) const { return cells_.row(row).sum(); }
+  [[nodiscard]] std::int64_t column_sum(std::size_t column) const {
+    return cells_.col(column).sum();
+  }
   /// Sum of the diagonal.
-  [[nodiscard]] std::int64_t trace() const;
-  [[nodiscard]] std::int64_t total() const;
+  [[nodiscard]] std::int64_t trace() const { return cells_.diagonal().sum(); }
+  [[nodiscard]] std::int64_t total() const { return cells_.sum(); }
 
   /// Pools. Throws Error when sizes differ.
-  ConfusionMatrix& operator+=(const ConfusionMatrix& other);
-  bool operator==(const ConfusionMatrix&) const = default;
+  ConfusionMatrix& operator+=(const ConfusionMatrix& other) {
+    if (columns() == 0) return *this = other;
+    if (other.columns() == 0) return *this;
+    if (size() != other.size()) {
+      throw Error("score: confusion matrices of " + size() + " and " + other.size() +
+                  " do not add; pool those of one class table");
+    }
+    cells_ += other.cells_;
+    return *this;
+  }
+  bool operator==(const ConfusionMatrix& other) const {
+    return size() == other.size() && cells_ == other.cells_;
+  }
 
  private:
-  std::size_t rows_ = 0, columns_ = 0;
-  std::vector<std::int64_t> cells_;  ///< row-major
+  using Cells = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic>;
+
+  [[nodiscard]] std::string size() const {
+    return std::to_string(class_count()) + " x " + std::to_string(columns());
+  }
+
+  Cells cells_;
 };
-
-/// Columns of a voxel confusion matrix behind the classes: class_count + kUnlabelled, ...
-inline constexpr std::size_t kUnlabelled = 0;  ///< in the map, nothing predicted
-inline constexpr std::size_t kUnmapped = 1;    ///< not in the map
-inline constexpr std::size_t kVoxelAnswers = 2;
-
-/// Where the voxels of V went, and what was predicted where nothing is: every voxel of V_t counts
-/// in row t, at the class predicted there or at kUnlabelled or kUnmapped; a predicted voxel of
-/// class p outside S_p and in no V counts in row background, column p. Column background stays
-/// empty, since it is never predicted. Time is linear in the voxels of map and V. Throws Error when
-/// the lattices of S and V differ, or map or V have a class that is not below `class_count`.
-/// Thread-safe.
-[[nodiscard]] ConfusionMatrix confusion_of(const MapSnapshot& map, double threshold,
-                                           const SurfaceTruth& surface, const VisibleTruth& visible,
-                                           std::size_t class_count);
 
 }  // namespace mapscore::eval

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace mapscore::eval {
 
@@ -18,16 +19,13 @@ constexpr int kToleranceMax = 5;
 
 template <typename T>
 bool strictly_ascending(const std::vector<T>& values) {
-  return std::adjacent_find(values.begin(), values.end(), [](T a, T b) { return !(a < b); }) ==
-         values.end();
+  return std::ranges::adjacent_find(values, std::not_fn(std::less{})) == values.end();
 }
 
 void pool_tolerances(std::vector<ToleranceCounts>& total,
                      const std::vector<ToleranceCounts>& other) {
-  const auto same = [](const ToleranceCounts& a, const ToleranceCounts& b) {
-    return a.voxels == b.voxels;
-  };
-  if (!std::equal(total.begin(), total.end(), other.begin(), other.end(), same)) {
+  constexpr auto kVoxels = &ToleranceCounts::voxels;
+  if (!std::ranges::equal(total, other, {}, kVoxels, kVoxels)) {
     throw Error(
         "score: counts with different tolerances cannot be pooled; score both with the same list");
   }
@@ -55,9 +53,9 @@ void pool(const char* name, std::optional<Part>& total, const std::optional<Part
 }  // namespace
 
 void check(const ScoreOptions& options) {
-  if (!strictly_ascending(options.tolerances) ||
-      std::any_of(options.tolerances.begin(), options.tolerances.end(),
-                  [](int t) { return t < 1 || t > kToleranceMax; })) {
+  const std::vector<int>& tolerances = options.tolerances;
+  if (!strictly_ascending(tolerances) ||
+      (!tolerances.empty() && (tolerances.front() < 1 || tolerances.back() > kToleranceMax))) {
     throw Error("score.tolerances: must be ascending whole voxels from 1 to 5");
   }
   if (!strictly_ascending(options.distances_m) ||
@@ -110,16 +108,11 @@ ClassCounts pool_detected(const Counts& counts, const ClassTable& table) {
     throw Error(
         "score: counts and class table differ in size; use the table the map was scored with");
   }
-  std::optional<ClassCounts> pooled;
+  Counts pooled;
   for (const SemanticClass& semantic : table.classes) {
-    if (!semantic.detect) continue;
-    if (pooled) {
-      *pooled += counts[semantic.id];
-    } else {
-      pooled = counts[semantic.id];
-    }
+    if (semantic.detect) pool_into(pooled, {counts[semantic.id]});
   }
-  return pooled.value_or(ClassCounts{});
+  return pooled.empty() ? ClassCounts{} : std::move(pooled.front());
 }
 
 }  // namespace mapscore::eval

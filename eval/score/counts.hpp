@@ -5,12 +5,10 @@
 
 #include "core/classes.hpp"
 #include "core/parameters.hpp"
-#include "eval/score/box_counts.hpp"
 #include "eval/score/class_curve.hpp"
 #include "eval/score/distance_tally.hpp"
-#include "eval/score/instance_counts.hpp"
 #include "eval/score/metric.hpp"
-#include "eval/score/thin_counts.hpp"
+#include "eval/score/part_counts.hpp"
 
 #include <array>
 #include <cstdint>

@@ -24,70 +24,64 @@ std::size_t bin_of(double distance_m) {
 
 }  // namespace
 
-DistanceTally::DistanceTally(std::vector<double> limits_m)
-    : limits_m_(std::move(limits_m)), within_(limits_m_.size(), 0) {}
+DistanceTally::DistanceTally(std::vector<double> limits_m) {
+  parts_.within.resize(limits_m.size());
+  parts_.limits_m = std::move(limits_m);
+}
 
-DistanceTally::DistanceTally(Parts parts)
-    : limits_m_(std::move(parts.limits_m)),
-      within_(std::move(parts.within)),
-      count_(parts.count),
-      unreached_(parts.unreached),
-      sum_nm_(parts.sum_nm),
-      bins_(std::move(parts.bins)) {
-  const std::int64_t finite = std::accumulate(bins_.begin(), bins_.end(), std::int64_t{0});
-  if (within_.size() != limits_m_.size() || finite + unreached_ != count_) {
+DistanceTally::DistanceTally(Parts parts) : parts_(std::move(parts)) {
+  const std::int64_t finite =
+      std::accumulate(parts_.bins.begin(), parts_.bins.end(), std::int64_t{0});
+  if (parts_.within.size() != parts_.limits_m.size() || finite + parts_.unreached != parts_.count) {
     throw Error("score: the stored distance counts do not add up; compute the trial again");
   }
 }
 
-DistanceTally::Parts DistanceTally::parts() const {
-  return {limits_m_, within_, count_, unreached_, sum_nm_, bins_};
-}
-
 void DistanceTally::add(double distance_m, std::int64_t times) {
   if (times == 0) return;
-  count_ += times;
+  parts_.count += times;
   if (distance_m == kUnreached) {
-    unreached_ += times;
+    parts_.unreached += times;
     return;
   }
-  for (std::size_t l = 0; l < limits_m_.size(); ++l) {
-    if (distance_m <= limits_m_[l] + kDistanceSlack_m) within_[l] += times;
+  for (std::size_t l = 0; l < parts_.limits_m.size(); ++l) {
+    if (distance_m <= parts_.limits_m[l] + kDistanceSlack_m) parts_.within[l] += times;
   }
-  sum_nm_ += times * std::llround(distance_m / kNanometre_m);
+  parts_.sum_nm += times * std::llround(distance_m / kNanometre_m);
   const std::size_t bin = bin_of(distance_m);
-  if (bin >= bins_.size()) bins_.resize(bin + 1, 0);
-  bins_[bin] += times;
+  if (bin >= parts_.bins.size()) parts_.bins.resize(bin + 1, 0);
+  parts_.bins[bin] += times;
 }
 
 DistanceTally& DistanceTally::operator+=(const DistanceTally& other) {
-  if (other.count_ == 0 && other.limits_m_.empty()) return *this;
-  if (count_ == 0 && limits_m_.empty()) return *this = other;
-  if (limits_m_ != other.limits_m_) {
+  if (other.parts_.count == 0 && other.parts_.limits_m.empty()) return *this;
+  if (parts_.count == 0 && parts_.limits_m.empty()) return *this = other;
+  if (parts_.limits_m != other.parts_.limits_m) {
     throw Error(
         "score: counts with different distances_m cannot be pooled; score both with the same list");
   }
-  for (std::size_t l = 0; l < within_.size(); ++l) within_[l] += other.within_[l];
-  count_ += other.count_;
-  unreached_ += other.unreached_;
-  sum_nm_ += other.sum_nm_;
-  if (bins_.size() < other.bins_.size()) bins_.resize(other.bins_.size(), 0);
-  for (std::size_t b = 0; b < other.bins_.size(); ++b) bins_[b] += other.bins_[b];
+  for (std::size_t l = 0; l < parts_.within.size(); ++l) parts_.within[l] += other.parts_.within[l];
+  parts_.count += other.parts_.count;
+  parts_.unreached += other.parts_.unreached;
+  parts_.sum_nm += other.parts_.sum_nm;
+  if (parts_.bins.size() < other.parts_.bins.size())
+    parts_.bins.resize(other.parts_.bins.size(), 0);
+  for (std::size_t b = 0; b < other.parts_.bins.size(); ++b) parts_.bins[b] += other.parts_.bins[b];
   return *this;
 }
 
 std::optional<double> DistanceTally::mean_m() const {
-  if (count_ == 0 || unreached_ > 0) return std::nullopt;
-  return static_cast<double>(sum_nm_) / static_cast<double>(count_) * kNanometre_m;
+  if (parts_.count == 0 || parts_.unreached > 0) return std::nullopt;
+  return static_cast<double>(parts_.sum_nm) / static_cast<double>(parts_.count) * kNanometre_m;
 }
 
 std::optional<double> DistanceTally::percentile_m(double share) const {
-  if (count_ == 0) return std::nullopt;
+  if (parts_.count == 0) return std::nullopt;
   const auto rank = std::max<std::int64_t>(
-      1, static_cast<std::int64_t>(std::ceil(share * static_cast<double>(count_))));
+      1, static_cast<std::int64_t>(std::ceil(share * static_cast<double>(parts_.count))));
   std::int64_t below = 0;
-  for (std::size_t b = 0; b < bins_.size(); ++b) {
-    below += bins_[b];
+  for (std::size_t b = 0; b < parts_.bins.size(); ++b) {
+    below += parts_.bins[b];
     if (below >= rank) return static_cast<double>(b) * kBin_m;
   }
   return std::nullopt;

@@ -29,24 +29,25 @@ class DistanceTally {
   struct Parts {
     std::vector<double> limits_m;
     std::vector<std::int64_t> within;
-    std::int64_t count = 0, unreached = 0, sum_nm = 0;
+    std::int64_t count = 0;
+    std::int64_t unreached = 0;  ///< of `count` those with nothing to reach: at infinite distance
+    std::int64_t sum_nm = 0;     ///< of the finite distances, each rounded to a nanometre
     std::vector<std::int64_t> bins;
+    bool operator==(const Parts&) const = default;
   };
   /// Throws Error when the parts do not belong together.
   explicit DistanceTally(Parts parts);
-  [[nodiscard]] Parts parts() const;
+  [[nodiscard]] const Parts& parts() const { return parts_; }
 
   /// Counts `times` distances of `distance_m`; kUnreached when there is nothing to reach.
   void add(double distance_m, std::int64_t times = 1);
   /// Pools; a default-made tally takes the limits of the other. Throws Error when limits differ.
   DistanceTally& operator+=(const DistanceTally& other);
 
-  [[nodiscard]] const std::vector<double>& limits_m() const { return limits_m_; }
+  [[nodiscard]] const std::vector<double>& limits_m() const { return parts_.limits_m; }
   /// How many distances are at most limits_m()[limit].
-  [[nodiscard]] std::int64_t within(std::size_t limit) const { return within_[limit]; }
-  [[nodiscard]] std::int64_t count() const { return count_; }
-  /// How many of `count` had nothing to reach: their distance is infinite.
-  [[nodiscard]] std::int64_t unreached() const { return unreached_; }
+  [[nodiscard]] std::int64_t within(std::size_t limit) const { return parts_.within[limit]; }
+  [[nodiscard]] std::int64_t count() const { return parts_.count; }
 
   /// Mean in metres; nullopt when nothing was counted or the mean is not finite.
   [[nodiscard]] std::optional<double> mean_m() const;
@@ -57,11 +58,7 @@ class DistanceTally {
   bool operator==(const DistanceTally&) const = default;
 
  private:
-  std::vector<double> limits_m_;
-  std::vector<std::int64_t> within_;
-  std::int64_t count_ = 0, unreached_ = 0;
-  std::int64_t sum_nm_ = 0;  ///< of the finite distances, each rounded to a nanometre
-  std::vector<std::int64_t> bins_;
+  Parts parts_;
 };
 
 }  // namespace mapscore::eval

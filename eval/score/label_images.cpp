@@ -12,37 +12,13 @@
 #include <fmt/format.h>
 
 #include <exception>
-#include <limits>
 #include <mutex>
+#include <unordered_map>
 
 namespace mapscore::eval {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Answers of a legend, each asked for once.
-class LegendTable {
- public:
-  LegendTable(const LabelLegend& legend, std::size_t class_count)
-      : legend_(legend), class_count_(class_count), classes_(1 << 16, kUnasked) {}
-
-  /// Nothing when the id means no class of the table.
-  [[nodiscard]] std::optional<ClassId> find(std::uint16_t id) {
-    if (classes_[id] == kUnasked) {
-      const std::optional<ClassId> answer = legend_(id);
-      classes_[id] = answer && *answer < class_count_ ? std::int32_t{*answer} : kNoClass;
-    }
-    if (classes_[id] == kNoClass) return std::nullopt;
-    return static_cast<ClassId>(classes_[id]);
-  }
-
- private:
-  static constexpr std::int32_t kUnasked = -1, kNoClass = -2;
-
-  const LabelLegend& legend_;
-  std::size_t class_count_;
-  std::vector<std::int32_t> classes_;
-};
 
 [[noreturn]] void refuse_id(const std::string& name, std::uint16_t id, int u, int v) {
   throw Error(
@@ -60,61 +36,15 @@ cv::Mat1w read_labels(const fs::path& file, const CameraModel& camera) {
   return decode_id_png(read_file(file), {camera.width_px, camera.height_px}, file.string());
 }
 
-/// The labelled images of a recording's frames.
-class LabelFolder {
- public:
-  LabelFolder(const Recording& recording, const fs::path& folder, const LabelLegend& legend)
-      : recording_(recording),
-        folder_(folder),
-        legend_(legend),
-        color_(read_stamp_list(recording.folder() / "color.txt")) {}
-
-  [[nodiscard]] ConfusionMatrix confusion(int frame) const {
-    constexpr Channels kLabel{.color = false, .label = true, .depth = false, .depth_label = false};
-    const RecordingInfo& info = recording_.info();
-    const cv::Mat1w truth = recording_.read(frame, kLabel).label;  // throws when there is no frame
-    const fs::path name = fs::path(color_[static_cast<std::size_t>(frame)].path).filename();
-    const fs::path file = folder_ / name;
-    const cv::Mat1w labels = read_labels(file, info.calibration.color);
-    return label_confusion(truth, labels, info.table, legend_, file.string());
-  }
-
- private:
-  const Recording& recording_;
-  const fs::path& folder_;
-  const LabelLegend& legend_;
-  std::vector<StampedImage> color_;
-};
-
-/// The error of the lowest place, whichever thread met one first.
-class FirstError {
- public:
-  void note(std::size_t place, std::exception_ptr error) {
-    const std::scoped_lock lock(mutex_);
-    if (place >= place_) return;
-    place_ = place;
-    error_ = std::move(error);
-  }
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
-
- private:
-  std::mutex mutex_;
-  std::size_t place_ = std::numeric_limits<std::size_t>::max();
-  std::exception_ptr error_;
-};
-
-/// Mean of a figure over the classes with pixels in the truth.
-std::optional<double> mean_over_present(const ConfusionMatrix& matrix, std::size_t figure) {
-  double sum = 0.0;
-  int present = 0;
-  for (std::size_t c = 0; c < matrix.class_count(); ++c) {
-    if (matrix.row_sum(c) == 0) continue;
-    sum += label_class_metrics(matrix, static_cast<ClassId>(c))[figure].value.value();
-    ++present;
-  }
-  return present == 0 ? std::nullopt : std::optional(sum / present);
+/// One frame's labelled image, named in `color` as the frame's colour image, against its truth.
+ConfusionMatrix frame_confusion(const Recording& recording, int frame, const fs::path& folder,
+                                const std::vector<StampedImage>& color, const LabelLegend& legend) {
+  constexpr Channels kLabel{.color = false, .label = true, .depth = false, .depth_label = false};
+  const RecordingInfo& info = recording.info();
+  const cv::Mat1w truth = recording.read(frame, kLabel).label;  // throws when there is no frame
+  const fs::path file = folder / fs::path(color[static_cast<std::size_t>(frame)].path).filename();
+  const cv::Mat1w labels = read_labels(file, info.calibration.color);
+  return label_confusion(truth, labels, info.table, legend, file.string());
 }
 
 }  // namespace
@@ -136,14 +66,19 @@ ConfusionMatrix label_confusion(const cv::Mat1w& instances, const cv::Mat1w& lab
                     name, labels.cols, labels.rows, instances.cols, instances.rows));
   }
   ConfusionMatrix matrix(table.classes.size());
-  LegendTable classes(legend, table.classes.size());
+  std::unordered_map<std::uint16_t, std::optional<ClassId>> answers;  // of the legend
+  const auto class_of = [&](std::uint16_t id) {
+    const auto [answer, is_new] = answers.try_emplace(id);
+    if (is_new) answer->second = legend(id);
+    return answer->second;
+  };
   for (int v = 0; v < labels.rows; ++v) {
     const std::uint16_t *truth = instances[v], *label = labels[v];
     for (int u = 0; u < labels.cols;) {
       const int first = u++;
       while (u < labels.cols && truth[u] == truth[first] && label[u] == label[first]) ++u;
-      const std::optional<ClassId> labelled = classes.find(label[first]);
-      if (!labelled) refuse_id(name, label[first], first, v);
+      const std::optional<ClassId> labelled = class_of(label[first]);
+      if (!labelled || *labelled >= matrix.class_count()) refuse_id(name, label[first], first, v);
       matrix.count(table.class_of(truth[first]), *labelled, u - first);
     }
   }
@@ -157,32 +92,39 @@ ConfusionMatrix label_folder_confusion(const Recording& recording, const fs::pat
     throw Error(
         fmt::format("{}: no such folder; give the folder of the labelled images", folder.string()));
   }
-  const LabelFolder labels(recording, folder, legend);
+  const std::vector<StampedImage> color = read_stamp_list(recording.folder() / "color.txt");
   ConfusionMatrix total(recording.info().table.classes.size());
   std::mutex pooling;
-  FirstError error;
+  std::vector<std::exception_ptr> errors(frames.size());
   Runs places(frames.size(), 1);
   run_jobs(jobs, [&](int) {
     for (Runs::Run place; places.next(place);) {
       try {
-        const ConfusionMatrix one = labels.confusion(frames[place.first]);
+        const ConfusionMatrix one =
+            frame_confusion(recording, frames[place.first], folder, color, legend);
         const std::scoped_lock lock(pooling);
         total += one;
       } catch (...) {  // frames before this one are all in work, so the first error is found
-        error.note(place.first, std::current_exception());
+        errors[place.first] = std::current_exception();
         return;
       }
     }
   });
-  error.rethrow();
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
   return total;
 }
 
 std::vector<Metric> label_metrics(const ConfusionMatrix& matrix) {
-  constexpr std::size_t kAccuracy = 0, kIoU = 1;
+  std::vector<std::vector<Metric>> present;
+  for (std::size_t c = 0; c < matrix.class_count(); ++c) {
+    if (matrix.row_sum(c) > 0)
+      present.push_back(label_class_metrics(matrix, static_cast<ClassId>(c)));
+  }
+  const auto mean = present.empty() ? std::vector<Metric>(2) : mean_over_classes(present);
   return {{"pa", ratio(matrix.trace(), matrix.total())},
-          {"mpa", mean_over_present(matrix, kAccuracy)},
-          {"miou", mean_over_present(matrix, kIoU)}};
+          {"mpa", mean[0].value},
+          {"miou", mean[1].value}};
 }
 
 std::vector<Metric> label_class_metrics(const ConfusionMatrix& matrix, ClassId class_id) {

@@ -23,13 +23,9 @@ std::string name_of(const VoxelKey& key) {
   return fmt::format("map voxel {},{},{}", key.i, key.j, key.k);
 }
 
-bool in_range(const VoxelKey& key) {
-  return std::abs(std::int64_t{key.i}) <= kIndexMax && std::abs(std::int64_t{key.j}) <= kIndexMax &&
-         std::abs(std::int64_t{key.k}) <= kIndexMax;
-}
-
 void check_voxel(const MapVoxel& voxel) {
-  if (!in_range(voxel.key)) {
+  const auto beyond = [](std::int64_t index) { return std::abs(index) > kIndexMax; };
+  if (beyond(voxel.key.i) || beyond(voxel.key.j) || beyond(voxel.key.k)) {
     throw Error(name_of(voxel.key) +
                 ": lies beyond 1000000 voxels from the origin; check the voxel size");
   }
@@ -40,33 +36,23 @@ void check_voxel(const MapVoxel& voxel) {
   }
 }
 
-bool key_before(const MapVoxel& a, const MapVoxel& b) {
-  return a.key < b.key;
-}
-
 }  // namespace
 
 MapSnapshot::MapSnapshot(std::vector<MapVoxel> voxels) : voxels_(std::move(voxels)) {
   std::for_each(voxels_.begin(), voxels_.end(), check_voxel);
-  if (!std::is_sorted(voxels_.begin(), voxels_.end(), key_before)) {
-    std::sort(voxels_.begin(), voxels_.end(), key_before);
+  if (!std::ranges::is_sorted(voxels_, {}, &MapVoxel::key)) {
+    std::ranges::sort(voxels_, {}, &MapVoxel::key);
   }
-  const auto twin =
-      std::adjacent_find(voxels_.begin(), voxels_.end(),
-                         [](const MapVoxel& a, const MapVoxel& b) { return a.key == b.key; });
+  const auto twin = std::ranges::adjacent_find(voxels_, {}, &MapVoxel::key);
   if (twin != voxels_.end()) {
     throw Error(name_of(twin->key) +
                 ": appears twice; give every voxel once, with its most probable class");
   }
-  index_ = KeyIndex(voxels_.size());
-  for (std::size_t row = 0; row < voxels_.size(); ++row) {
-    index_.insert(pack(voxels_[row].key), static_cast<std::uint32_t>(row));
-  }
 }
 
 const MapVoxel* MapSnapshot::find(const VoxelKey& key) const {
-  const std::uint32_t row = index_.find(pack(key));
-  return row == KeyIndex::kNone ? nullptr : &voxels_[row];
+  const auto voxel = std::ranges::lower_bound(voxels_, key, {}, &MapVoxel::key);
+  return voxel == voxels_.end() || voxel->key != key ? nullptr : &*voxel;
 }
 
 std::vector<PredictedVoxel> prediction_of(const MapSnapshot& map, double threshold) {

@@ -6,7 +6,6 @@
 #include "core/classes.hpp"
 #include "core/geometry/voxel.hpp"
 #include "core/mapping/semantic_map.hpp"
-#include "eval/truth/key_index.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -37,12 +36,11 @@ class MapSnapshot {
   explicit MapSnapshot(std::vector<MapVoxel> voxels);
 
   [[nodiscard]] const std::vector<MapVoxel>& voxels() const { return voxels_; }
-  /// The voxel, or nullptr when it is not in the map.
+  /// The voxel, or nullptr when it is not in the map; in logarithmic time.
   [[nodiscard]] const MapVoxel* find(const VoxelKey& key) const;
 
  private:
   std::vector<MapVoxel> voxels_;
-  KeyIndex index_;
 };
 
 /// Throws Error naming the voxel and what to do about its class, which the table has not.

@@ -38,8 +38,7 @@ std::vector<Metric> mean_over_classes(const std::vector<std::vector<Metric>>& cl
 }
 
 std::optional<double> value_of(const std::vector<Metric>& metrics, const std::string& name) {
-  const auto metric = std::find_if(metrics.begin(), metrics.end(),
-                                   [&name](const Metric& m) { return m.name == name; });
+  const auto metric = std::ranges::find(metrics, name, &Metric::name);
   if (metric == metrics.end()) {
     throw Error("metric '" + name +
                 "': there is none of that name; score with the tolerance or distance it needs");

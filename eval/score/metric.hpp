@@ -3,13 +3,20 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace mapscore::eval {
+
+/// Sums of numbers are kept in billionths, as whole numbers, so that their order does not matter.
+inline constexpr std::int64_t kBillion = 1'000'000'000;
 
 /// A named figure; nullopt is undefined (0/0, or not finite) and printed `-`.
 struct Metric {
@@ -49,6 +56,33 @@ struct CountField {
 template <class Owner>
 void add_counts(Owner& total, const Owner& other) {
   for (const CountField<Owner>& field : Owner::counts()) total.*field.member += other.*field.member;
+}
+
+/// Structs that hold nothing but their plain counts.
+template <class Owner>
+concept PlainCounts = sizeof(Owner) == std::tuple_size_v<decltype(Owner::counts())> *
+                                           sizeof(std::int64_t);
+
+/// Pools.
+template <PlainCounts Owner>
+Owner& operator+=(Owner& total, const Owner& other) {
+  add_counts(total, other);
+  return total;
+}
+
+/// Pools the steps of a curve, both lists by falling `place`: those of one place become one.
+template <class Step>
+void pool_steps(std::vector<Step>& total, const std::vector<Step>& other, int Step::*place) {
+  std::vector<Step> merged;
+  merged.reserve(total.size() + other.size());
+  std::ranges::merge(total, other, std::back_inserter(merged), std::greater{}, place, place);
+  total.clear();
+  for (const Step& step : merged) {
+    if (total.empty() || total.back().*place != step.*place)
+      total.push_back(step);
+    else
+      total.back() += step;
+  }
 }
 
 }  // namespace mapscore::eval

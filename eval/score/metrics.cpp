@@ -61,12 +61,6 @@ void append_distances(const ClassCounts& counts, std::vector<Metric>& metrics) {
   metrics.push_back({"completeness_p95_m", completeness.percentile_m(kPercentile)});
 }
 
-/// The figures of a class as they enter the mean over classes: without those of instances.
-std::vector<Metric> metrics_for_mean(ClassCounts counts) {
-  counts.instances.reset();
-  return metrics_of(counts);
-}
-
 /// Means over the classes with visible instances, all undefined where there is none; nothing where
 /// instances were not scored.
 std::vector<Metric> mean_instance_metrics(const Counts& counts, const ClassTable& table) {
@@ -80,22 +74,6 @@ std::vector<Metric> mean_instance_metrics(const Counts& counts, const ClassTable
 }
 
 }  // namespace
-
-std::optional<double> precision(const ClassCounts& counts) {
-  return ratio(counts.true_predicted, counts.predicted);
-}
-
-std::optional<double> recall(const ClassCounts& counts) {
-  return ratio(counts.found, counts.visible);
-}
-
-std::optional<double> f1(const ClassCounts& counts) {
-  return f1(counts.true_predicted, counts.predicted, counts.found, counts.visible);
-}
-
-std::optional<double> iou(const ClassCounts& counts) {
-  return ratio(counts.found, counts.visible + counts.predicted - counts.true_predicted);
-}
 
 std::vector<Metric> metrics_of(const ClassCounts& counts) {
   std::vector<Metric> metrics{{"precision", precision(counts)},
@@ -122,7 +100,9 @@ std::vector<Metric> macro_metrics(const Counts& counts, const ClassTable& table)
   std::vector<std::vector<Metric>> classes;
   for (const SemanticClass& semantic : table.classes) {
     if (!semantic.detect || counts[semantic.id].visible == 0) continue;
-    classes.push_back(metrics_for_mean(counts[semantic.id]));
+    ClassCounts without_instances = counts[semantic.id];  // which have means of their own
+    without_instances.instances.reset();
+    classes.push_back(metrics_of(without_instances));
   }
   if (classes.empty()) return {};
   std::vector<Metric> macro = mean_over_classes(classes);

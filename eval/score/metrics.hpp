@@ -13,12 +13,20 @@
 namespace mapscore::eval {
 
 /// |P in S| / |P|.
-[[nodiscard]] std::optional<double> precision(const ClassCounts& counts);
+[[nodiscard]] inline std::optional<double> precision(const ClassCounts& counts) {
+  return ratio(counts.true_predicted, counts.predicted);
+}
 /// |V in P| / |V|.
-[[nodiscard]] std::optional<double> recall(const ClassCounts& counts);
-[[nodiscard]] std::optional<double> f1(const ClassCounts& counts);
+[[nodiscard]] inline std::optional<double> recall(const ClassCounts& counts) {
+  return ratio(counts.found, counts.visible);
+}
+[[nodiscard]] inline std::optional<double> f1(const ClassCounts& counts) {
+  return f1(counts.true_predicted, counts.predicted, counts.found, counts.visible);
+}
 /// |V in P| / (|V| + |P outside S|).
-[[nodiscard]] std::optional<double> iou(const ClassCounts& counts);
+[[nodiscard]] inline std::optional<double> iou(const ClassCounts& counts) {
+  return ratio(counts.found, counts.visible + counts.predicted - counts.true_predicted);
+}
 
 /// All figures of one class, or of pooled counts, always in this order: precision, recall, f1, iou;
 /// recall_4, f1_4, iou_4; for each tolerance t precision_tT, recall_tT, f1_tT; where distances were

@@ -27,25 +27,10 @@ Row answers(const MapSnapshot& map, std::span<const VoxelKey> truth) {
   return row;
 }
 
-Row& operator+=(Row& row, const Row& other) {
-  row.occupied += other.occupied;
-  row.free += other.free;
-  row.unmapped += other.unmapped;
-  return row;
-}
-
 }  // namespace
 
-OccupancyCounts& OccupancyCounts::operator+=(const OccupancyCounts& other) {
-  occupied += other.occupied;
-  free += other.free;
-  free_on_surface += other.free_on_surface;
-  return *this;
-}
-
 bool carves(const MapSnapshot& map) {
-  return std::any_of(map.voxels().begin(), map.voxels().end(),
-                     [](const MapVoxel& voxel) { return !voxel.occupied; });
+  return !std::ranges::all_of(map.voxels(), &MapVoxel::occupied);
 }
 
 OccupancyCounts score_occupancy(const MapSnapshot& map, const OccupancyTruth& truth,

@@ -13,7 +13,7 @@
 
 namespace mapscore::eval {
 
-/// What a map says of voxels whose truth is known. Integers that add.
+/// What a map says of voxels whose truth is known. Integers.
 struct OccupancyCounts {
   /// Voxels of one truth by the map's answer.
   struct Row {
@@ -26,8 +26,6 @@ struct OccupancyCounts {
   std::int64_t free_on_surface = 0;  ///< free in the map, neither truly occupied nor truly free, in
                                      ///< some S
 
-  /// Pools.
-  OccupancyCounts& operator+=(const OccupancyCounts& other);
   bool operator==(const OccupancyCounts&) const = default;
 };
 

@@ -3,10 +3,10 @@
 
 #include "eval/score/voxel_score.hpp"
 
-#include "eval/score/map_snapshot.hpp"
 #include "eval/score/voxel_window.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace mapscore::eval {
@@ -16,11 +16,42 @@ namespace {
 /// Neighbours whose surface makes a false voxel `near`.
 constexpr int kNearVoxels = 1;
 
-void count_predicted(const MapVoxel& voxel, VoxelWindow<SurfaceVoxel>& surface,
-                     ClassCounts& counts) {
+using SurfaceWindow = VoxelWindow<SurfaceVoxel>;
+using MapWindow = VoxelWindow<MapVoxel>;
+
+/// Calls act(voxel, window into S) for the predicted voxels of the map.
+template <class Act>
+void for_each_predicted(const MapSnapshot& map, double threshold, SurfaceWindow rows,
+                        std::size_t class_count, const Act& act) {
+  for (const MapVoxel& voxel : map.voxels()) {
+    if (!predicted(voxel, threshold)) continue;
+    check_class(voxel.key, voxel.best_class, class_count);
+    act(voxel, rows);
+  }
+}
+
+/// Calls act(truth, window into the map) for the voxels of V. They come class by class, each sorted
+/// by key: one walk through the map for each class.
+template <class Act>
+void for_each_visible(const VisibleTruth& visible, const MapSnapshot& map, int reach,
+                      std::size_t class_count, const Act& act) {
+  for (auto rest = visible.voxels(); !rest.empty();) {
+    const auto of_class = visible.of(rest.front().owner);
+    check_class(of_class.front().key, of_class.front().owner, class_count);
+    MapWindow rows(map.voxels(), reach);
+    for (const VisibleVoxel& truth : of_class) act(truth, rows);
+    rest = rest.subspan(of_class.size());
+  }
+}
+
+bool holds(std::span<const SurfaceVoxel> rows, ClassId class_id) {
+  return std::ranges::find(rows, class_id, &SurfaceVoxel::class_id) != rows.end();
+}
+
+void count_predicted(const MapVoxel& voxel, SurfaceWindow& surface, ClassCounts& counts) {
   const auto of_class = [&](const SurfaceVoxel& row) { return row.class_id == voxel.best_class; };
   const auto rows = surface.at(voxel.key);
-  const bool is_true = std::any_of(rows.begin(), rows.end(), of_class);
+  const bool is_true = holds(rows, voxel.best_class);
   const int distance = is_true ? 0 : surface.distance(voxel.key, of_class);
   ++counts.predicted;
   for (ToleranceCounts& at : counts.at_tolerance) at.true_predicted += distance <= at.voxels;
@@ -35,7 +66,7 @@ void count_predicted(const MapVoxel& voxel, VoxelWindow<SurfaceVoxel>& surface,
   }
 }
 
-void count_visible(const VisibleVoxel& truth, VoxelWindow<MapVoxel>& map, double threshold,
+void count_visible(const VisibleVoxel& truth, MapWindow& map, double threshold,
                    ClassCounts& counts) {
   const auto predicts_class = [&](const MapVoxel& voxel) {
     return voxel.best_class == truth.owner && predicted(voxel, threshold);
@@ -60,27 +91,29 @@ void count_visible(const VisibleVoxel& truth, VoxelWindow<MapVoxel>& map, double
   }
 }
 
-void count_predictions(const MapSnapshot& map, double threshold, const SurfaceTruth& surface,
-                       int reach, Counts& counts) {
-  VoxelWindow<SurfaceVoxel> rows(surface.voxels(), std::max(reach, kNearVoxels));
-  for (const MapVoxel& voxel : map.voxels()) {
-    if (!predicted(voxel, threshold)) continue;
-    check_class(voxel.key, voxel.best_class, counts.size());
-    count_predicted(voxel, rows, counts[voxel.best_class]);
+/// The step that a probability belongs to, of a curve that has all of them or none yet.
+CurveStep& step_of(ClassCurve& curve, double probability) {
+  if (curve.steps.empty()) {
+    curve.steps.resize(kCurveSteps + 1);
+    for (int k = 0; k <= kCurveSteps; ++k)
+      curve.steps[static_cast<std::size_t>(kCurveSteps - k)].thousandth = k;
   }
+  return curve.steps[static_cast<std::size_t>(kCurveSteps - thousandth_of(probability))];
 }
 
-/// V comes class by class, each sorted by key: one walk through the map for each class.
-void count_visibles(const MapSnapshot& map, double threshold, const VisibleTruth& visible,
-                    int reach, Counts& counts) {
-  for (auto rest = visible.voxels(); !rest.empty();) {
-    const ClassId owner = rest.front().owner;
-    check_class(rest.front().key, owner, counts.size());
-    const auto of_class = visible.of(owner);
-    VoxelWindow<MapVoxel> rows(map.voxels(), reach);
-    for (const VisibleVoxel& truth : of_class) count_visible(truth, rows, threshold, counts[owner]);
-    rest = rest.subspan(of_class.size());
-  }
+void add_prediction(double probability, bool is_true, ClassCurve& curve) {
+  CurveStep& step = step_of(curve, probability);
+  ++step.predicted;
+  step.true_predicted += is_true;
+  step.probability_sum_billionth += std::llround(kBillion * probability);
+  const double error = probability - (is_true ? 1.0 : 0.0);
+  curve.squared_error_billionth += std::llround(kBillion * error * error);
+}
+
+/// Column of what the map says of one voxel; `voxel` holds it, or nothing.
+std::size_t answer_of(std::span<const MapVoxel> voxel, double threshold, std::size_t class_count) {
+  if (voxel.empty()) return class_count + kUnmapped;
+  return predicted(voxel.front(), threshold) ? voxel.front().best_class : class_count + kUnlabelled;
 }
 
 }  // namespace
@@ -92,9 +125,53 @@ Counts score_voxels(const MapSnapshot& map, double threshold, const SurfaceTruth
   check_same_lattice(surface, visible);
   const int reach = options.tolerances.empty() ? 0 : options.tolerances.back();
   Counts counts = zero_counts(class_count, options);
-  count_predictions(map, threshold, surface, reach, counts);
-  count_visibles(map, threshold, visible, reach, counts);
+  for_each_predicted(map, threshold, {surface.voxels(), std::max(reach, kNearVoxels)}, class_count,
+                     [&](const MapVoxel& voxel, SurfaceWindow& rows) {
+                       count_predicted(voxel, rows, counts[voxel.best_class]);
+                     });
+  for_each_visible(visible, map, reach, class_count,
+                   [&](const VisibleVoxel& truth, MapWindow& rows) {
+                     count_visible(truth, rows, threshold, counts[truth.owner]);
+                   });
   return counts;
+}
+
+std::vector<ClassCurve> curves_of(const MapSnapshot& map, const SurfaceTruth& surface,
+                                  const VisibleTruth& visible, std::size_t class_count) {
+  std::vector<ClassCurve> curves(class_count);
+  for_each_predicted(map, 0.0, {surface.voxels(), 0}, class_count,
+                     [&](const MapVoxel& voxel, SurfaceWindow& rows) {
+                       const bool is_true = holds(rows.at(voxel.key), voxel.best_class);
+                       add_prediction(voxel.probability, is_true, curves[voxel.best_class]);
+                     });
+  for_each_visible(visible, map, 0, class_count, [&](const VisibleVoxel& truth, MapWindow& rows) {
+    const auto here = rows.at(truth.key);  // one or none
+    if (here.empty() || here.front().best_class != truth.owner || !predicted(here.front(), 0.0))
+      return;
+    ++step_of(curves[truth.owner], here.front().probability).found;
+  });
+  for (std::size_t c = 0; c < class_count; ++c) {
+    curves[c].visible = static_cast<std::int64_t>(visible.count(static_cast<ClassId>(c)));
+    std::erase_if(curves[c].steps, [](const CurveStep& step) { return step.predicted == 0; });
+    curves[c].steps.shrink_to_fit();
+  }
+  return curves;
+}
+
+ConfusionMatrix confusion_of(const MapSnapshot& map, double threshold, const SurfaceTruth& surface,
+                             const VisibleTruth& visible, std::size_t class_count) {
+  check_same_lattice(surface, visible);
+  ConfusionMatrix matrix(class_count, kVoxelAnswers);
+  for_each_predicted(
+      map, threshold, {surface.voxels(), 0}, class_count,
+      [&](const MapVoxel& voxel, SurfaceWindow& rows) {
+        if (!holds(rows.at(voxel.key), voxel.best_class) && !visible.owner_of(voxel.key))
+          matrix.count(kBackground, voxel.best_class);
+      });
+  for_each_visible(visible, map, 0, class_count, [&](const VisibleVoxel& truth, MapWindow& rows) {
+    matrix.count(truth.owner, answer_of(rows.at(truth.key), threshold, class_count));
+  });
+  return matrix;
 }
 
 }  // namespace mapscore::eval

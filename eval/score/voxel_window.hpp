@@ -56,15 +56,10 @@ class VoxelWindow {
     int least = reach_ + 1;
     for (Column& column : columns_) {
       if (ring(column) >= least) break;
-      const int farthest = least - 1;
-      const VoxelKey low{key.i + column.di, key.j + column.dj, key.k - reach_};
-      advance(column.first, low);
-      for (std::size_t row = column.first; row < rows_.size(); ++row) {
-        const VoxelKey& there = key_of(rows_[row]);
-        if (there.i != low.i || there.j != low.j || there.k > key.k + farthest) break;
-        const int away = std::max(ring(column), std::abs(there.k - key.k));
-        if (away < least && holds(rows_[row])) least = away;
-      }
+      for_each_in_column(column, key, least - 1, [&](const Row& row) {
+        const int away = std::max(ring(column), std::abs(key_of(row).k - key.k));
+        if (away < least && holds(row)) least = away;
+      });
     }
     return least;
   }
@@ -73,15 +68,7 @@ class VoxelWindow {
   /// before the last one asked for.
   template <class Visit>
   void for_each_within_reach(const VoxelKey& key, Visit visit) {
-    for (Column& column : columns_) {
-      const VoxelKey low{key.i + column.di, key.j + column.dj, key.k - reach_};
-      advance(column.first, low);
-      for (std::size_t row = column.first; row < rows_.size(); ++row) {
-        const VoxelKey& there = key_of(rows_[row]);
-        if (there.i != low.i || there.j != low.j || there.k > key.k + reach_) break;
-        visit(rows_[row]);
-      }
-    }
+    for (Column& column : columns_) for_each_in_column(column, key, reach_, visit);
   }
 
  private:
@@ -93,6 +80,18 @@ class VoxelWindow {
     return std::max(std::abs(column.di), std::abs(column.dj));
   }
 
+  /// Calls `visit(row)` for the rows of a column from `reach` below `key` to `above` over it.
+  template <class Visit>
+  void for_each_in_column(Column& column, const VoxelKey& key, int above, const Visit& visit) {
+    const VoxelKey low{key.i + column.di, key.j + column.dj, key.k - reach_};
+    advance(column.first, low);
+    for (std::size_t row = column.first; row < rows_.size(); ++row) {
+      const VoxelKey& there = key_of(rows_[row]);
+      if (there.i != low.i || there.j != low.j || there.k > key.k + above) break;
+      visit(rows_[row]);
+    }
+  }
+
   /// Moves `place` on to the first row that does not lie before `key`, by steps that double.
   void advance(std::size_t& place, const VoxelKey& key) const {
     std::size_t step = 1;
@@ -100,13 +99,10 @@ class VoxelWindow {
       place += step;
       step *= 2;
     }
-    const auto from = rows_.begin() + static_cast<std::ptrdiff_t>(place);
-    const auto to =
-        rows_.begin() + static_cast<std::ptrdiff_t>(std::min(rows_.size(), place + step));
-    place = static_cast<std::size_t>(
-        std::lower_bound(from, to, key,
-                         [](const Row& row, const VoxelKey& k) { return key_of(row) < k; }) -
-        rows_.begin());
+    const auto ahead = rows_.subspan(place, std::min(step, rows_.size() - place));
+    const auto first = std::ranges::lower_bound(
+        ahead, key, {}, [](const Row& row) -> const VoxelKey& { return key_of(row); });
+    place += static_cast<std::size_t>(first - ahead.begin());
   }
 
   std::span<const Row> rows_;

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -21,7 +23,9 @@ enum class SpreadKind {
   interval,  ///< 95 % interval of the mean, by mean_interval
 };
 
-[[nodiscard]] const char* name_of(SpreadKind kind);
+[[nodiscard]] constexpr const char* name_of(SpreadKind kind) {
+  return std::array{"-", "range", "95% interval"}.at(static_cast<std::size_t>(kind));
+}
 
 /// One figure over the seeds of a study.
 struct SeedSummary {
@@ -35,5 +39,28 @@ struct SeedSummary {
 
 /// Summary of one figure, one value a seed; nullopt where it is undefined.
 [[nodiscard]] SeedSummary summarise(std::span<const std::optional<double>> values);
+
+/// What one value a seed says of the mean over all seeds.
+struct MeanInterval {
+  double mean = 0.0;
+  double sd = 0.0;               ///< with n - 1
+  double low = 0.0, high = 0.0;  ///< 95 % interval of the mean; not clipped to what values can be
+};
+
+/// Mean of finite `values` (at least two) and, on each side, the farther of two limits:
+///   Student t              mean +- x s,    x = t(0.975, n - 1) / sqrt(n)
+///   Hall's transformation  mean - s T,     T + g T^2 / 3 + g^2 T^3 / 27 + g / (6 n) = x and -x,
+/// g the skewness of the sample (third central moment by the 1.5th power of the second, both with
+/// 1 / n). The cubic is monotone, so each T is unique. Equal values: all of it is that value, sd 0.
+/// Closed form, no resampling; mirrored values give the mirrored interval. Throws Error for fewer
+/// than two values. Its coverage, with the methods it was chosen from: docs/metrics.md.
+[[nodiscard]] MeanInterval mean_interval(std::span<const double> values);
+
+/// P(T <= t) of Student's distribution with `degrees` >= 1 degrees of freedom, by the finite
+/// trigonometric series for whole degrees (Abramowitz and Stegun 26.7.3 and 26.7.4).
+[[nodiscard]] double student_t_cdf(double t, int degrees);
+
+/// t with student_t_cdf(t, degrees) = p. Throws Error unless 0 < p < 1 and degrees >= 1.
+[[nodiscard]] double student_t_quantile(double p, int degrees);
 
 }  // namespace mapscore::eval

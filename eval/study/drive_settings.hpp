@@ -14,13 +14,10 @@
 namespace mapscore::eval {
 
 /// The base is put at poses interpolated between the waypoints.
-struct PoseDrive {
+struct PoseDrive : NoFields {
   static constexpr std::string_view kKind = "poses";
   static constexpr std::string_view kMeaning =
       "the robot is put at poses between the waypoints; neither odometry nor scans are recorded";
-
-  static void fields(auto&, auto&&) {}
-  bool operator==(const PoseDrive&) const = default;
 };
 
 /// The base is driven by wheels, motors and contacts.
@@ -47,11 +44,12 @@ struct WheelDrive {
           Field{"wheel_radius_error_percent",
                 "error of the wheel radius that the odometry believes, of the true one",
                 {.low = -50, .high = 50}});
-    visit(s.track_error_percent,
-          Field{"track_error_percent",
-                "error of the distance between the wheels that the odometry believes, of the true "
-                "one",
-                {.low = -50, .high = 50}});
+    visit(
+        s.track_error_percent,
+        Field{
+            "track_error_percent",
+            "error of the distance between the wheels that the odometry believes, of the true one",
+            {.low = -50, .high = 50}});
     visit(s.clearance_m, Field{"clearance_m",
                                "kept between the robot and what stands around it",
                                {.low = 0, .high = 1, .open_high = true}});
@@ -80,16 +78,13 @@ struct TrajectorySettings {
                 above(0, 36000)});
     visit(s.frames_per_s,
           Field{"frames_per_s", "frames recorded in a second of the drive", above(0, 1000)});
-    visit(s.depth_frames_per_s,
-          Field{"depth_frames_per_s",
-                "depth images in a second of the drive; default: 30 where faults.time_offset_ms "
-                "is dosed, else frames_per_s",
-                above(0, 1000)});
+    visit(s.depth_frames_per_s, Field{"depth_frames_per_s",
+                                      "depth images in a second of the drive; default: 30 where "
+                                      "faults.time_offset_ms is dosed, else frames_per_s",
+                                      above(0, 1000)});
     visit(s.max_frames,
           Field{"max_frames", "stop after so many frames; 0: at the last waypoint", at_least(0)});
-    visit(s.drive, Field{.key = "drive",
-                         .meaning = "how the robot gets from waypoint to waypoint",
-                         .later = true});
+    visit(s.drive, later({"drive", "how the robot gets from waypoint to waypoint"}));
   }
   bool operator==(const TrajectorySettings&) const = default;
 };
@@ -129,22 +124,12 @@ struct LidarStudySettings {
   double range_min_m = 0.15, range_max_m = 12;
 
   static void fields(auto& s, auto&& visit) {
-    visit(s.scans_per_s, Field{.key = "scans_per_s",
-                               .meaning = "turns in a second of the drive, each at one instant",
-                               .range = above(0, 1000),
-                               .later = true});
-    visit(s.beams, Field{.key = "beams",
-                         .meaning = "beams of a turn, evenly around",
-                         .range = {1, 100000},
-                         .later = true});
-    visit(s.range_min_m, Field{.key = "range_min_m",
-                               .meaning = "anything nearer is not measured",
-                               .range = {0, 1000},
-                               .later = true});
-    visit(s.range_max_m, Field{.key = "range_max_m",
-                               .meaning = "anything farther is not seen",
-                               .range = above(0, 1000),
-                               .later = true});
+    visit(s.scans_per_s,
+          later({"scans_per_s", "turns in a second of the drive, each at one instant",
+                 above(0, 1000)}));
+    visit(s.beams, later({"beams", "beams of a turn, evenly around", {1, 100000}}));
+    visit(s.range_min_m, later({"range_min_m", "anything nearer is not measured", {0, 1000}}));
+    visit(s.range_max_m, later({"range_max_m", "anything farther is not seen", above(0, 1000)}));
   }
   bool operator==(const LidarStudySettings&) const = default;
 };

@@ -3,6 +3,8 @@
 
 #include "eval/study/grid.hpp"
 
+#include "core/random_stream.hpp"
+
 #include <fmt/format.h>
 
 #include <memory>
@@ -37,6 +39,10 @@ LazyList<TrialSpec> trials(const Study& study) {
           }};
 }
 
+std::uint64_t trial_seed(std::uint64_t study_seed, int seed_index) {
+  return RandomStream(study_seed, "trial", {static_cast<std::uint64_t>(seed_index)}).bits();
+}
+
 Study resolve(const Study& study, const Cell& cell) {
   Study resolved = study;
   resolved.sweep.clear();
@@ -46,9 +52,8 @@ Study resolve(const Study& study, const Cell& cell) {
 
 std::string text_of(const Cell& cell) {
   std::string text;
-  for (const auto& [path, value] : cell.doses) {
+  for (const auto& [path, value] : cell.doses)
     text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", path, value);
-  }
   return text;
 }
 

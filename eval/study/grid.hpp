@@ -3,9 +3,11 @@
 
 #pragma once
 
-#include "eval/study/lazy_list.hpp"
 #include "eval/study/study.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +33,41 @@ struct TrialSpec {
   bool operator==(const TrialSpec&) const = default;
 };
 
+/// A list whose elements are made each time they are asked for, so that a million of them take no
+/// memory. Copies share what `make` holds.
+template <class Element>
+class LazyList {
+ public:
+  LazyList() = default;
+  /// `make(position)` for 0 <= position < size.
+  LazyList(std::size_t size, std::function<Element(std::size_t)> make)
+      : size_(size), make_(std::move(make)) {}
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] Element operator[](std::size_t position) const { return make_(position); }
+
+  class Iterator {
+   public:
+    Iterator(const LazyList& list, std::size_t position) : list_(&list), position_(position) {}
+    [[nodiscard]] Element operator*() const { return (*list_)[position_]; }
+    Iterator& operator++() {
+      ++position_;
+      return *this;
+    }
+    [[nodiscard]] bool operator==(const Iterator&) const = default;
+
+   private:
+    const LazyList* list_;
+    std::size_t position_;
+  };
+  [[nodiscard]] Iterator begin() const { return {*this, 0}; }
+  [[nodiscard]] Iterator end() const { return {*this, size_}; }
+
+ private:
+  std::size_t size_ = 0;
+  std::function<Element(std::size_t)> make_;
+};
+
 /// The product of the swept values, paths in the order of the file, the last path fastest. A study
 /// without a sweep has one cell without doses.
 [[nodiscard]] std::vector<Cell> cells(const Study& study);
@@ -38,6 +75,9 @@ struct TrialSpec {
 /// Every method at every cell with every seed. Cells vary slowest, methods fastest, so that
 /// neighbouring trials have the same faults and share the corrupted frames (Sights).
 [[nodiscard]] LazyList<TrialSpec> trials(const Study& study);
+
+/// The seed of everything that one repetition of a study draws; shared by all methods and doses.
+[[nodiscard]] std::uint64_t trial_seed(std::uint64_t study_seed, int seed_index);
 
 /// The study at one cell: its doses set, its sweep empty. Throws Error naming the path when a dose
 /// does not fit; never for a cell of a loaded study.

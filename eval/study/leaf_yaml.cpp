@@ -3,8 +3,6 @@
 
 #include "eval/study/leaf_yaml.hpp"
 
-#include "files/text_rows.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -33,19 +31,6 @@ bool spells_non_finite(std::string_view text) {
   return parse_number(text, number) == std::errc{} && !std::isfinite(number);
 }
 
-template <class Number>
-Number read_whole(const YamlValue& at) {
-  Number number = 0;
-  const std::string text = at.plain_scalar("a whole number");
-  const std::errc error = parse_number(text, number);
-  if (error == std::errc::result_out_of_range) {
-    at.fail(fmt::format("{} is too great; write a whole number up to {}", text,
-                        std::numeric_limits<Number>::max()));
-  }
-  if (error != std::errc{}) at.ask_for("a whole number");
-  return number;
-}
-
 void refuse_outside(const YamlValue& at, double value, const std::string& text,
                     const Range& range) {
   if (range.holds(value)) return;
@@ -59,48 +44,32 @@ double Leaf<double>::read(const YamlValue& at, const Range& range) {
   const std::string text = at.plain_scalar("a number");
   const std::errc error = parse_number(text, number);
   if (spells_non_finite(text)) at.fail(fmt::format("is {}; write a finite number", text));
-  if (error == std::errc::result_out_of_range) {
+  if (error == std::errc::result_out_of_range)
     at.fail(fmt::format("{} is beyond what a double holds; write a finite number", text));
-  }
   if (error != std::errc{}) at.ask_for("a number");
   refuse_outside(at, number, text, range);
   return number == 0 ? 0 : number;  // -0 and 0 are one
 }
 
-std::string Leaf<double>::text(double value) {
-  return fmt::format("{}", value);
-}
-
-int Leaf<int>::read(const YamlValue& at, const Range& range) {
-  const int number = read_whole<int>(at);
-  refuse_outside(at, number, text(number), range);
-  return number;
-}
-
-std::uint64_t Leaf<std::uint64_t>::read(const YamlValue& at, const Range& range) {
-  const auto number = read_whole<std::uint64_t>(at);
+template <WholeNumber Number>
+Number Leaf<Number>::read(const YamlValue& at, const Range& range) {
+  Number number = 0;
+  const std::string written = at.plain_scalar("a whole number");
+  const std::errc error = parse_number(written, number);
+  if (error == std::errc::result_out_of_range)
+    at.fail(fmt::format("{} is too great; write a whole number up to {}", written,
+                        std::numeric_limits<Number>::max()));
+  if (error != std::errc{}) at.ask_for("a whole number");
   refuse_outside(at, static_cast<double>(number), text(number), range);
   return number;
 }
-
-bool Leaf<bool>::read(const YamlValue& at, const Range&) {
-  (void)at.plain_scalar("true or false");
-  return at.boolean();
-}
+template struct Leaf<int>;
+template struct Leaf<std::uint64_t>;
 
 std::string Leaf<std::string>::read(const YamlValue& at, const Range&) {
   std::string text = at.scalar("a text");
   if (text.empty()) at.fail("is empty; write a text, or leave the key out");
   return text;
-}
-
-AutoNumber Leaf<AutoNumber>::read(const YamlValue& at, const Range& range) {
-  if (at.plain_scalar("a number or auto") == "auto") return {};
-  return {Leaf<double>::read(at, range)};
-}
-
-std::string Leaf<AutoNumber>::text(const AutoNumber& number) {
-  return number.value ? Leaf<double>::text(*number.value) : "auto";
 }
 
 DetectedSet Leaf<DetectedSet>::read(const YamlValue& at, const Range& range) {

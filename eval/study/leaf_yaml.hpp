@@ -29,36 +29,34 @@ struct Leaf;
 template <>
 struct Leaf<double> {
   [[nodiscard]] static double read(const YamlValue& at, const Range& range);
-  [[nodiscard]] static std::string text(double value);
+  [[nodiscard]] static std::string text(double value) { return fmt::format("{}", value); }
   [[nodiscard]] static std::string type() { return "number"; }
 };
 
 template <>
-struct Leaf<Degrees> {
+struct Leaf<Degrees> : Leaf<double> {
   [[nodiscard]] static Degrees read(const YamlValue& at, const Range& range) {
     return {Leaf<double>::read(at, range)};
   }
   [[nodiscard]] static std::string text(Degrees value) { return Leaf<double>::text(value.deg); }
-  [[nodiscard]] static std::string type() { return Leaf<double>::type(); }
 };
 
-template <>
-struct Leaf<int> {
-  [[nodiscard]] static int read(const YamlValue& at, const Range& range);
-  [[nodiscard]] static std::string text(int value) { return fmt::format("{}", value); }
-  [[nodiscard]] static std::string type() { return "whole number"; }
-};
+template <class T>
+concept WholeNumber = std::same_as<T, int> || std::same_as<T, std::uint64_t>;
 
-template <>
-struct Leaf<std::uint64_t> {
-  [[nodiscard]] static std::uint64_t read(const YamlValue& at, const Range& range);
-  [[nodiscard]] static std::string text(std::uint64_t value) { return fmt::format("{}", value); }
+template <WholeNumber Number>
+struct Leaf<Number> {
+  [[nodiscard]] static Number read(const YamlValue& at, const Range& range);
+  [[nodiscard]] static std::string text(Number value) { return fmt::format("{}", value); }
   [[nodiscard]] static std::string type() { return "whole number"; }
 };
 
 template <>
 struct Leaf<bool> {
-  [[nodiscard]] static bool read(const YamlValue& at, const Range&);
+  [[nodiscard]] static bool read(const YamlValue& at, const Range&) {
+    (void)at.plain_scalar("true or false");
+    return at.boolean();
+  }
   [[nodiscard]] static std::string text(bool value) { return value ? "true" : "false"; }
   [[nodiscard]] static std::string type() { return "true, false"; }
 };
@@ -73,8 +71,13 @@ struct Leaf<std::string> {
 /// A number, or `auto`.
 template <>
 struct Leaf<AutoNumber> {
-  [[nodiscard]] static AutoNumber read(const YamlValue& at, const Range& range);
-  [[nodiscard]] static std::string text(const AutoNumber& number);
+  [[nodiscard]] static AutoNumber read(const YamlValue& at, const Range& range) {
+    if (at.plain_scalar("a number or auto") == "auto") return {};
+    return {Leaf<double>::read(at, range)};
+  }
+  [[nodiscard]] static std::string text(const AutoNumber& number) {
+    return number.value ? Leaf<double>::text(*number.value) : "auto";
+  }
   [[nodiscard]] static std::string type() { return "number or auto"; }
 };
 
@@ -119,9 +122,8 @@ template <class T, std::size_t N>
 struct Leaf<std::array<T, N>> {
   [[nodiscard]] static std::array<T, N> read(const YamlValue& at, const Range& range) {
     const std::vector<YamlValue> elements = at.elements();
-    if (elements.size() != N) {
+    if (elements.size() != N)
       at.fail(fmt::format("has {} elements; write {}", elements.size(), type()));
-    }
     std::array<T, N> result{};
     for (std::size_t i = 0; i < N; ++i) result[i] = Leaf<T>::read(elements[i], range);
     return result;
@@ -143,33 +145,25 @@ struct Leaf<std::vector<T>> {
 
 /// Absent is "-", which the dumper leaves out of the file.
 template <class T>
-struct Leaf<std::optional<T>> {
-  [[nodiscard]] static std::optional<T> read(const YamlValue& at, const Range& range) {
-    return Leaf<T>::read(at, range);
-  }
+struct Leaf<std::optional<T>> : Leaf<T> {
   [[nodiscard]] static std::string text(const std::optional<T>& value) {
     return value ? Leaf<T>::text(*value) : "-";
   }
-  [[nodiscard]] static std::string type() { return Leaf<T>::type(); }
 };
 
 /// Absent where it is not given, as an optional one.
 template <class T, class Keys>
-struct Leaf<Given<T, Keys>> {
-  using Value = Leaf<std::remove_const_t<T>>;
+struct Leaf<Given<T, Keys>> : Leaf<std::remove_const_t<T>> {
   [[nodiscard]] static std::string text(const Given<T, Keys>& leaf) {
-    return leaf.is_given() ? Value::text(leaf.value) : "-";
+    return leaf.is_given() ? Leaf<std::remove_const_t<T>>::text(leaf.value) : "-";
   }
-  [[nodiscard]] static std::string type() { return Value::type(); }
 };
 
 template <class List>
-struct Leaf<UnlessEmpty<List>> {
-  using Value = Leaf<std::remove_const_t<List>>;
+struct Leaf<UnlessEmpty<List>> : Leaf<std::remove_const_t<List>> {
   [[nodiscard]] static std::string text(const UnlessEmpty<List>& leaf) {
-    return leaf.list.empty() ? "-" : Value::text(leaf.list);
+    return leaf.list.empty() ? "-" : Leaf<std::remove_const_t<List>>::text(leaf.list);
   }
-  [[nodiscard]] static std::string type() { return Value::type(); }
 };
 
 /// Sets a leaf from YAML. Throws Error when the type or the range is wrong.

@@ -6,24 +6,16 @@
 #include "eval/study/study.hpp"
 #include "eval/truth/floor_grid.hpp"
 
+#include <utility>
 #include <variant>
 
 namespace mapscore::eval {
 namespace {
 
-std::variant<LikelihoodFieldParams, BeamModelParams> model_of(
-    const ParticleFilterSettings& settings) {
-  if (settings.scan_model == ScanModelKind::beam) return settings.model.over(BeamModelParams{});
-  return settings.model.values;
-}
-
 /// Every key that the filter looks at.
-LocalizationSettings resolved_filter(const LocalizationSettings& settings) {
+ParticleFilterSettings resolved_filter(const LocalizationSettings& settings) {
   const FilterSettings used = filter_of(settings, {});
-  LocalizationSettings all;
-  all.source = PoseSource::particle_filter;
-  all.odometry_noise = Overrides<OdometryNoise>::everything(used.filter.noise);
-  ParticleFilterSettings& filter = all.filter;
+  ParticleFilterSettings filter;
   filter.start = settings.filter.start;
   filter.scan_model = settings.filter.scan_model;
   filter.kld = Overrides<KldParams>::everything(used.filter.kld);
@@ -35,7 +27,7 @@ LocalizationSettings resolved_filter(const LocalizationSettings& settings) {
       },
       used.model);
   if (!used.global_start) filter.spread = Overrides<StartSpread>::everything(used.start);
-  return all;
+  return filter;
 }
 
 Dosed<sim::LidarNoise> resolved(const Dosed<sim::LidarNoise>& settings) {
@@ -56,7 +48,10 @@ FilterSettings filter_of(const LocalizationSettings& settings,
   filter.filter = settings.filter.filter.values;
   filter.filter.kld = settings.filter.kld.values;
   filter.filter.noise = settings.odometry_noise.values;
-  filter.model = model_of(settings.filter);
+  if (settings.filter.scan_model == ScanModelKind::beam)
+    filter.model = settings.filter.model.over(BeamModelParams{});
+  else
+    filter.model = settings.filter.model.values;
   filter.global_start = settings.filter.start == FilterStart::global;
   filter.start = settings.filter.spread.values;
   filter.lidar_noise = lidar.dose();
@@ -74,27 +69,20 @@ void resolve_localization(LocalizationSettings& localization, FaultSettings& fau
   faults.lidar =
       source == PoseSource::particle_filter ? resolved(faults.lidar) : Dosed<sim::LidarNoise>{};
   const LocalizationSettings given = std::exchange(localization, {});
-  switch (source) {
-    case PoseSource::gaussian:
-    case PoseSource::truth:  // a Gaussian without a dose
-      return;
-    case PoseSource::odometry:
-      localization.source = source;
-      localization.odometry_noise =
-          Overrides<OdometryNoise>::everything(given.odometry_noise.values);
-      return;
-    case PoseSource::particle_filter:
-      localization = resolved_filter(given);
-      if (given.grid)
-        localization.grid = content;
-      else
-        localization.grid_resolution_m = grid_resolution_m(given);
-      return;
-    case PoseSource::trajectory:
-      localization.source = source;
-      localization.trajectory = content;
-      return;
+  if (source == PoseSource::gaussian || source == PoseSource::truth)
+    return;  // the truth is a Gaussian without a dose
+  localization.source = source;
+  if (source == PoseSource::trajectory) {
+    localization.trajectory = content;
+    return;
   }
+  localization.odometry_noise = Overrides<OdometryNoise>::everything(given.odometry_noise.values);
+  if (source == PoseSource::odometry) return;
+  localization.filter = resolved_filter(given);
+  if (given.grid)
+    localization.grid = content;
+  else
+    localization.grid_resolution_m = grid_resolution_m(given);
 }
 
 }  // namespace mapscore::eval

@@ -8,14 +8,13 @@
 #include "core/localization/resampling.hpp"
 #include "core/localization/scan_likelihood.hpp"
 #include "core/parameters.hpp"
-#include "eval/localization/filter_run.hpp"
+#include "eval/localization/localization_run.hpp"
 #include "sim/faults/lidar_noise.hpp"
 
 #include <array>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 namespace mapscore::eval {
 
@@ -53,15 +52,12 @@ struct ParticleFilterSettings {
   Overrides<LikelihoodFieldParams> model;  ///< keys that the beam model has too
 
   static void fields(auto& s, auto&& visit) {
-    visit(s.start, Field{.key = "start",
-                         .meaning = "about the true pose (tracking), or anywhere on the grid "
-                                    "(global)",
-                         .later = true});
+    visit(s.start,
+          later({"start", "about the true pose (tracking), or anywhere on the grid (global)"}));
     Overrides<StartSpread>::fields(s.spread, visit);
     Overrides<KldParams>::fields(s.kld, visit);
     Overrides<ParticleFilterParams>::fields(s.filter, visit);
-    visit(s.scan_model,
-          Field{.key = "scan_model", .meaning = "probability of a scan", .later = true});
+    visit(s.scan_model, later({"scan_model", "probability of a scan"}));
     Overrides<LikelihoodFieldParams>::fields(s.model, visit);
   }
   bool operator==(const ParticleFilterSettings&) const = default;
@@ -77,15 +73,13 @@ struct LocalizationSettings {
   ParticleFilterSettings filter;
 
   static void fields(auto& s, auto&& visit) {
-    visit(s.source, Field{.key = "source",
-                          .meaning = "of the believed poses; gaussian: the true pose under "
-                                     "faults.pose",
-                          .figure = "pose source",
-                          .later = true});
-    visit(s.trajectory,
-          Field{"trajectory",
-                "TUM lines of base_footprint in the scene's world, a 6x6 covariance behind each "
-                "if known; for source trajectory"});
+    visit(s.source, later({"source",
+                           "of the believed poses; gaussian: the true pose under faults.pose",
+                           {},
+                           "pose source"}));
+    visit(s.trajectory, Field{"trajectory",
+                              "TUM lines of base_footprint in the scene's world, a 6x6 covariance "
+                              "behind each if known; for source trajectory"});
     visit(s.grid, Field{"grid",
                         "grid of ROS's map_server (YAML) in the scene's world; default: cut from "
                         "the scene at the lidar's height"});
@@ -93,10 +87,9 @@ struct LocalizationSettings {
                                      "edge of a cell of a grid that is cut; default 0.02",
                                      {0.005, 1}});
     visit(s.odometry_noise,
-          Field{.key = "odometry_noise",
-                .meaning = "of the odometry, as sources odometry and particle_filter believe it",
-                .later = true});
-    visit(s.filter, Field{.key = "filter", .meaning = "the particle filter", .later = true});
+          later({"odometry_noise",
+                 "of the odometry, as sources odometry and particle_filter believe it"}));
+    visit(s.filter, later({"filter", "the particle filter"}));
   }
   bool operator==(const LocalizationSettings&) const = default;
 };

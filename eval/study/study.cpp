@@ -11,13 +11,10 @@
 namespace mapscore::eval {
 
 void check_method_name(const YamlValue& at, const std::string& name) {
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-';
-  };
-  if (name.empty() || !std::ranges::all_of(name, allowed)) {
+  constexpr std::string_view kAllowed =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+  if (name.empty() || name.find_first_not_of(kAllowed) != name.npos)
     at.fail(fmt::format("{} cannot name a method; use letters, digits, _ and -", yaml_text(name)));
-  }
 }
 
 namespace {
@@ -33,7 +30,7 @@ struct Setter {
 }  // namespace
 
 void set_leaf(Study& study, std::string_view path, const YamlValue& at) {
-  at_section_leaf(at, study, path, Setter{at});
+  at_leaf_below(at, study, path, Setter{at});
 }
 
 void set_leaf(Study& study, std::string_view path, const std::string& yaml_value) {
@@ -54,7 +51,7 @@ std::string leaf_text(const Study& study, std::string_view path) {
   const auto get = [&](const Field&, const auto& leaf) {
     text = Leaf<std::remove_cvref_t<decltype(leaf)>>::text(leaf);
   };
-  at_section_leaf(YamlValue{{}, "", 0, std::string(path)}, study, path, get);
+  at_leaf_below(YamlValue{{}, "", 0, std::string(path)}, study, path, get);
   return text;
 }
 
@@ -127,7 +124,7 @@ bool reads_colour(const Study& study) {
 Field field_of(const Study& study, std::string_view path) {
   Field found;
   const auto get = [&](const Field& field, const auto&) { found = field; };
-  at_section_leaf(YamlValue{{}, "", 0, std::string(path)}, study, path, get);
+  at_leaf_below(YamlValue{{}, "", 0, std::string(path)}, study, path, get);
   return found;
 }
 

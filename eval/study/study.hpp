@@ -3,28 +3,22 @@
 
 #pragma once
 
-#include "core/fusion/fusion_rule.hpp"
-#include "core/mapping/mapper.hpp"
-#include "core/parameters.hpp"
 #include "core/space/occupancy.hpp"
 #include "eval/study/drive_settings.hpp"
 #include "eval/study/localization_settings.hpp"
-#include "eval/study/method_settings.hpp"
-#include "eval/study/perception_settings.hpp"
-#include "eval/study/score_settings.hpp"
+#include "eval/study/trial_settings.hpp"
 #include "sim/faults/calibration_faults.hpp"
-#include "sim/faults/depth_dose.hpp"
-#include "sim/faults/label_dose.hpp"
+#include "sim/faults/image_doses.hpp"
 #include "sim/faults/lidar_noise.hpp"
 #include "sim/faults/pose_fault.hpp"
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace mapscore::eval {
@@ -47,21 +41,13 @@ struct FaultSettings {
     visit(s.mount, Field{"mount", "wrong camera-to-base calibration: moves points"});
     visit(s.pose, Field{"pose", "wrong localisation"});
     visit(s.time_offset_ms,
-          Field{.key = "time_offset_ms",
-                .meaning = "pair each colour image with the depth image nearest to its stamp plus "
-                           "this",
-                .range = {-10000, 10000},
-                .figure = "time offset (ms)",
-                .later = true});
-    visit(
-        s.depth,
-        Field{.key = "depth", .meaning = "noise of the depth camera: moves points", .later = true});
-    visit(s.labels, Field{.key = "labels",
-                          .meaning = "errors of the 2D segmentation: moves labels",
-                          .later = true});
-    visit(s.lidar, Field{.key = "lidar",
-                         .meaning = "noise of the lidar: moves the poses of the particle filter",
-                         .later = true});
+          later({"time_offset_ms",
+                 "pair each colour image with the depth image nearest to its stamp plus this",
+                 {-10000, 10000},
+                 "time offset (ms)"}));
+    visit(s.depth, later({"depth", "noise of the depth camera: moves points"}));
+    visit(s.labels, later({"labels", "errors of the 2D segmentation: moves labels"}));
+    visit(s.lidar, later({"lidar", "noise of the lidar: moves the poses of the particle filter"}));
   }
   bool operator==(const FaultSettings&) const = default;
 };
@@ -141,22 +127,20 @@ struct Study {
     visit(s.voxel_m, Field{"voxel_m", "edge of a voxel of the map", above(0, 10), "voxel (mm)"});
     visit(s.place,
           Field{"place", "voxelise moved points, or move the centres of sensor-frame voxels"});
-    visit(s.map_origin_m,
-          Field{"map_origin_m",
-                "origin of the map in the scene's world; default: drawn by the seed, within a "
-                "voxel"});
+    visit(
+        s.map_origin_m,
+        Field{
+            "map_origin_m",
+            "origin of the map in the scene's world; default: drawn by the seed, within a voxel"});
     visit(s.map_yaw_deg,
           Field{"map_yaw_deg", "turn of the map frame in the scene's world", {-360, 360}});
     visit(s.detect,
           Field{"detect", "classes that become detections; default: as the class file says"});
-    visit(s.perception,
-          Field{.key = "perception", .meaning = "where detections come from", .later = true});
+    visit(s.perception, later({"perception", "where detections come from"}));
     visit(s.methods, Field{"methods", "at least one, by name: letters, digits, _ and -"});
     visit(s.fusion, Field{"fusion", "how observations change the map"});
-    visit(s.occupancy,
-          Field{.key = "occupancy", .meaning = "free space in the map", .later = true});
-    visit(s.localization,
-          Field{.key = "localization", .meaning = "where the robot believes it is", .later = true});
+    visit(s.occupancy, later({"occupancy", "free space in the map"}));
+    visit(s.localization, later({"localization", "where the robot believes it is"}));
     visit(s.faults, Field{"faults", "doses of the faults"});
     visit(s.score, Field{"score", "how maps are scored"});
     visit(s.sweep, Field{"sweep", "values of the leaf at a path; several paths make a grid"});
@@ -193,8 +177,12 @@ void set_leaves(Study& study, const std::vector<std::string>& overrides);
 /// Canonical text of the leaf at a dotted path; an unset optional leaf is "-". Throws as set_leaf.
 [[nodiscard]] std::string leaf_text(const Study& study, std::string_view path);
 
-/// Throws Error naming the key when leaves do not fit each other, for the study and each cell of
-/// its sweep.
+/// Throws an Error that states where the value at a dotted path was written, and `problem`.
+using Blame = std::function<void(std::string_view path, const std::string& problem)>;
+
+/// Throws through `blame` when leaves do not fit each other, for the study and each cell of its
+/// sweep; without it, Error naming the key.
+void check(const Study& study, const Blame& blame);
 void check(const Study& study);
 
 /// The resolved configuration: every key, defaults included, in the order of the reference. The

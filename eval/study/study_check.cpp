@@ -1,18 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/study/study_check.hpp"
-
 #include "core/error.hpp"
 #include "eval/study/grid.hpp"
 #include "eval/study/picture_view.hpp"
-#include "files/png_size.hpp"
+#include "files/png.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -35,28 +32,24 @@ void check_input(const Study& study, const Blame& blame) {
     blame("motion",
           "stands without a scene, whose joints it moves; write scene: PATH, or remove it");
   if (study.recording) return;
-  if (!study.scene) {
+  if (!study.scene)
     blame("scene", "is missing; write scene: PATH, or recording: PATH to replay one");
-  }
-  if (study.trajectory.waypoints_m_deg.empty()) {
+  if (study.trajectory.waypoints_m_deg.empty())
     blame("trajectory.waypoints_m_deg",
           "the trajectory is empty; write at least one waypoint, [[x, y, yaw], ...]");
-  }
 }
 
 void check_cameras(const CameraSettings& cameras, const Blame& blame) {
   if (const std::string problem = too_many_pixels(cameras.width_px, cameras.height_px);
       !problem.empty())
     blame("cameras.width_px", problem);
-  if (cameras.range_min_m < cameras.range_max_m) return;
-  blame("cameras.range_min_m", fmt::format("{} is not below range_max_m, {}; write a lesser number",
-                                           cameras.range_min_m, cameras.range_max_m));
 }
 
-void check_lidar(const LidarStudySettings& lidar, const Blame& blame) {
-  if (lidar.range_min_m < lidar.range_max_m) return;
-  blame("lidar.range_min_m", fmt::format("{} is not below range_max_m, {}; write a lesser number",
-                                         lidar.range_min_m, lidar.range_max_m));
+/// Of the cameras or the lidar.
+void check_span(const auto& sensor, const std::string& path, const Blame& blame) {
+  if (sensor.range_min_m < sensor.range_max_m) return;
+  blame(path + ".range_min_m", fmt::format("{} is not below range_max_m, {}; write a lesser number",
+                                           sensor.range_min_m, sensor.range_max_m));
 }
 
 /// By the very test of the fault, whose message begins with the key.
@@ -83,33 +76,25 @@ void check_symmetric(const Covariance6& E, const Blame& blame) {
   }
 }
 
-/// By the very test of the mapper, so that what is accepted here is not refused there.
-bool has_root(const Covariance6& E) {
-  try {
-    (void)covariance_root(E);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 void check_covariance(const sim::PoseNoise& pose, const Blame& blame) {
   if (!pose.covariance_m_rad) return;
   if (pose.sigma_xy_m != 0 || pose.sigma_z_m != 0 || pose.sigma_roll_pitch_deg.deg != 0 ||
-      pose.sigma_yaw_deg.deg != 0) {
+      pose.sigma_yaw_deg.deg != 0)
     blame(kCovariancePath, "stands beside a sigma; keep the covariance or the sigmas");
-  }
   Covariance6 E;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) E(i, j) = (*pose.covariance_m_rad)[i][j];
   }
   check_symmetric(E, blame);
-  if (has_root(E)) return;
-  const double least = Eigen::SelfAdjointEigenSolver<Covariance6>(E).eigenvalues().minCoeff();
-  blame(kCovariancePath,
-        fmt::format("is not positive semi-definite: its least eigenvalue is {:.3g}; write the "
-                    "covariance of a distribution",
-                    least));
+  try {  // the very test of the mapper, so that what is accepted here is not refused there
+    (void)covariance_root(E);
+  } catch (const Error&) {
+    const double least = Eigen::SelfAdjointEigenSolver<Covariance6>(E).eigenvalues().minCoeff();
+    blame(kCovariancePath,
+          fmt::format("is not positive semi-definite: its least eigenvalue is {:.3g}; write the "
+                      "covariance of a distribution",
+                      least));
+  }
 }
 
 /// By the very test of each fault that has one, whose message names the key.
@@ -128,14 +113,12 @@ void check_confusion(const Overrides<sim::LabelDose>& labels, const Blame& blame
   blame("faults.labels.confusion_matrix", "stands beside a confusion; keep one of the two");
 }
 
-template <class T>
-void check_distinct(const std::vector<T>& list, std::string_view path, const Blame& blame) {
-  std::set<T> seen;
-  for (const T& element : list) {
-    if (!seen.insert(element).second) {
+void check_distinct(const std::vector<std::string>& list, std::string_view path,
+                    const Blame& blame) {
+  std::set<std::string> seen;
+  for (const std::string& element : list)
+    if (!seen.insert(element).second)
       blame(path, fmt::format("{} stands twice; keep one", element));
-    }
-  }
 }
 
 /// The scorer counts along such a list, so its order is part of it.
@@ -148,9 +131,8 @@ void check_ascending(const std::vector<T>& list, std::string_view path, const Bl
 }
 
 void check_methods(const std::vector<MethodSettings>& methods, const Blame& blame) {
-  if (methods.empty()) {
+  if (methods.empty())
     blame("methods", "there is no method; write methods: {direct: {segmentation: {direct: {}}}}");
-  }
 }
 
 /// The controller creeps no slower (sim::WaypointController).
@@ -158,8 +140,7 @@ void check_wheels(const Study& study, const Blame& blame) {
   constexpr double kSlowest_mps = 0.01;
   if (!on_wheels(study) || study.trajectory.speed_mps >= kSlowest_mps) return;
   blame("trajectory.speed_mps",
-        fmt::format("{} is below {}, the slowest that wheels drive; write a "
-                    "greater number",
+        fmt::format("{} is below {}, the slowest that wheels drive; write a greater number",
                     study.trajectory.speed_mps, kSlowest_mps));
 }
 
@@ -209,7 +190,8 @@ void check_leaves(const Study& study, const Blame& blame) {
   check_input(study, blame);
   check_methods(study.methods, blame);
   check_cameras(study.cameras, blame);
-  check_lidar(study.lidar, blame);
+  check_span(study.cameras, "cameras", blame);
+  check_span(study.lidar, "lidar", blame);
   if (study.detect) check_distinct(study.detect->classes, "detect", blame);
   check_rigid(study.faults.misregistration.rigid, "faults.misregistration", blame);
   check_rigid(study.faults.mount.rigid, "faults.mount", blame);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/study/study_check.hpp"
 #include "eval/study/study_tree.hpp"
 
 #include <algorithm>
@@ -33,24 +32,19 @@ Override parse_override(const std::string& text) {
 class RawSweep {
  public:
   /// Takes the place of all there was.
-  void replace_all(const YamlValue& at) {
-    axes_.clear();
-    for (const auto& [path, values] : at.entries()) axes_.emplace_back(path, values);
-  }
+  void replace_all(const YamlValue& at) { axes_ = at.entries(); }
 
   /// Takes the place of one axis, or adds it.
   void replace(const std::string& path, const YamlValue& values) {
-    for (auto& axis : axes_) {
-      if (axis.first == path) {
-        axis.second = values;
-        return;
-      }
-    }
-    axes_.emplace_back(path, values);
+    const auto axis = std::ranges::find(axes_, path, &Axis::first);
+    if (axis == axes_.end())
+      axes_.emplace_back(path, values);
+    else
+      axis->second = values;
   }
 
   [[nodiscard]] bool holds(const std::string& path) const {
-    return std::ranges::any_of(axes_, [&](const auto& axis) { return axis.first == path; });
+    return std::ranges::find(axes_, path, &Axis::first) != axes_.end();
   }
 
   /// Reads each value as the leaf that it is for.
@@ -61,25 +55,26 @@ class RawSweep {
   }
 
  private:
+  using Axis = std::pair<std::string, YamlValue>;
+
   static SweepAxis read_axis(const Study& study, const std::string& path, const YamlValue& values) {
     Study probe = study;
-    at_section_leaf(values, probe, path, [&](const Field& field, const auto&) {
+    at_leaf_below(values, probe, path, [&](const Field& field, const auto&) {
       if (!field.swept) values.fail(fmt::format("{} cannot be swept; remove it", path));
     });
     SweepAxis axis{path, {}};
     for (const YamlValue& value : values.elements()) {
       set_leaf(probe, path, value);
       std::string text = leaf_text(probe, path);
-      if (std::ranges::find(axis.values, text) != axis.values.end()) {
+      if (std::ranges::find(axis.values, text) != axis.values.end())
         value.fail(fmt::format("{} stands twice; keep one", text));
-      }
       axis.values.push_back(std::move(text));
     }
     if (axis.values.empty()) values.fail("has no values; write at least one");
     return axis;
   }
 
-  std::vector<std::pair<std::string, YamlValue>> axes_;
+  std::vector<Axis> axes_;
 };
 
 void apply(const Override& change, Study& study, RawSweep& sweep) {
@@ -94,19 +89,16 @@ void apply(const Override& change, Study& study, RawSweep& sweep) {
 
 /// A flag must not be overruled by the doses of a sweep without a word.
 void refuse_swept(const std::vector<Override>& overrides, const RawSweep& sweep) {
-  for (const Override& change : overrides) {
-    if (!sweep.holds(change.path)) continue;
-    change.at.fail(fmt::format("is swept; set sweep.{}=[...] instead", change.path));
-  }
+  for (const Override& change : overrides)
+    if (sweep.holds(change.path))
+      change.at.fail(fmt::format("is swept; set sweep.{}=[...] instead", change.path));
 }
 
 /// Where a value came from: the last flag that set it, otherwise the file.
 YamlValue source_of(std::string_view path, const YamlValue& root,
                     const std::vector<Override>& overrides) {
-  for (auto change = overrides.rbegin(); change != overrides.rend(); ++change) {
-    if (change->path != path) continue;
-    return change->at;
-  }
+  for (auto change = overrides.rbegin(); change != overrides.rend(); ++change)
+    if (change->path == path) return change->at;
   return find(root, path);
 }
 
@@ -123,9 +115,8 @@ Study parse_study(const std::string& text, const std::filesystem::path& file,
   study.base_folder = file.parent_path();
   read_section(root, study);
   RawSweep sweep;
-  for (const auto& [key, value] : root.entries()) {
+  for (const auto& [key, value] : root.entries())
     if (key == kSweepKey) sweep.replace_all(value);
-  }
   for (const Override& change : overrides) apply(change, study, sweep);
   refuse_swept(overrides, sweep);
   study.sweep = sweep.read(study);
@@ -138,9 +129,8 @@ Study parse_study(const std::string& text, const std::filesystem::path& file,
 Study load_study(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   std::ifstream stream(file, std::ios::binary);
   const std::string name = file.generic_string();
-  if (!stream || std::filesystem::is_directory(file)) {
+  if (!stream || std::filesystem::is_directory(file))
     throw Error(name + ": cannot be read; give the path of a study file");
-  }
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   return parse_study(text, file, overrides);
 }

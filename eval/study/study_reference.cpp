@@ -24,19 +24,17 @@ std::string_view unit_of(std::string_view key) {
                                                {"_deg", "deg"},
                                                {"_px", "px"},
                                                {"_m", "m"}});
-  for (const auto& [ending, unit] : kUnits) {
+  for (const auto& [ending, unit] : kUnits)
     if (key.ends_with(ending)) return unit;
-  }
   return "";
 }
 
 class Reference {
  public:
   void section(const std::string& path, const Section auto& value) {
-    std::remove_cvref_t<decltype(value)>::fields(value,
-                                                 [&](const auto& member, const Field& field) {
-                                                   node(join_path(path, field.key), field, member);
-                                                 });
+    for_each_child(value, [&](const auto& member, const Field& field) {
+      node(join_path(path, field.key), field, member);
+    });
   }
 
   [[nodiscard]] std::string take() && { return std::move(text_); }
@@ -59,18 +57,14 @@ class Reference {
     }
   }
 
-  template <class... Kinds>
-  void choice(const std::string& path, const Field& field, const std::variant<Kinds...>& value) {
-    const auto kind_name = [](const auto& kind) { return std::string(kind.kKind); };
+  template <Choice T>
+  void choice(const std::string& path, const Field& field, const T& value) {
     row(path, fmt::format("one of {}", fmt::join(kinds_of(value), ", ")), "",
-        field.required ? "required" : std::visit(kind_name, value), "", field.meaning);
-    (kind(path, Kinds{}), ...);
-  }
-
-  void kind(const std::string& path, const Section auto& value) {
-    const std::string own_path = join_path(path, value.kKind);
-    row(own_path, "section", "", "", "", value.kMeaning);
-    section(own_path, value);
+        field.required ? "required" : kind_of(value), "", field.meaning);
+    for (const auto& kind : each_kind<T>())
+      for_each_child(kind, [&](const auto& section, const Field& of_kind) {
+        node(join_path(path, of_kind.key), of_kind, section);
+      });
   }
 
   template <class T>

@@ -4,13 +4,12 @@
 #pragma once
 
 #include "eval/study/leaf_yaml.hpp"
-#include "eval/study/study.hpp"
-#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <concepts>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -26,10 +25,24 @@ namespace mapscore::eval {
 using Methods = std::vector<MethodSettings>;
 using Sweep = std::vector<SweepAxis>;
 
-[[nodiscard]] std::vector<std::string> keys_of(const Section auto& section) {
+/// What has keys.
+template <class T>
+concept Node = Section<T> || Choice<T> || std::same_as<std::remove_const_t<T>, Methods>;
+
+/// Calls visit(child, field) for each field of a section, the kind of a choice, each method.
+template <Node T>
+void for_each_child(T& node, const auto& visit) {
+  if constexpr (Choice<T>)
+    std::visit([&](auto& kind) { visit(kind, Field{kind.kKind, kind.kMeaning}); }, node);
+  else if constexpr (Section<T>)
+    std::remove_const_t<T>::fields(node, visit);
+  else
+    for (auto& method : node) visit(method, Field{method.name, ""});
+}
+
+[[nodiscard]] std::vector<std::string> keys_of(const Node auto& node) {
   std::vector<std::string> keys;
-  std::remove_cvref_t<decltype(section)>::fields(
-      section, [&](const auto&, const Field& field) { keys.emplace_back(field.key); });
+  for_each_child(node, [&](const auto&, const Field& field) { keys.emplace_back(field.key); });
   return keys;
 }
 
@@ -45,43 +58,36 @@ void read_section(const YamlValue& at, T& section) {
   at.only(keys_of(section));
   const auto entries = at.entries();
   const auto read_field = [&](auto& member, const Field& field) {
-    for (const auto& [key, child] : entries) {
+    for (const auto& [key, child] : entries)
       if (key == field.key) return read_tree(child, field, member);
-    }
     if (field.required) at.fail(fmt::format("'{0}' is missing; write {0}: ...", field.key));
   };
   T::fields(section, read_field);
 }
 
-template <class Kind>
-bool read_kind(const std::pair<std::string, YamlValue>& entry, Choice auto& choice) {
-  if (entry.first != Kind::kKind) return false;
-  Kind section;
-  read_section(entry.second, section);
-  choice = section;
-  return true;
-}
-
-template <class Kind>
-bool take_kind(const std::string& name, Choice auto& choice) {
-  if (name == Kind::kKind) choice = Kind{};
-  return name == Kind::kKind;
+/// The kind of that name with its defaults; none where there is no such kind.
+template <Choice Any>
+std::optional<Any> kind_named(std::string_view name) {
+  for (const Any& kind : each_kind<Any>())
+    if (kind_of(kind) == name) return kind;
+  return std::nullopt;
 }
 
 /// `{kind: {...}}`, or the kind's name alone for its defaults.
-template <class... Kinds>
-void read_choice(const YamlValue& at, std::variant<Kinds...>& choice) {
+template <Choice Any>
+void read_choice(const YamlValue& at, Any& choice) {
   const std::vector<std::string> kinds = kinds_of(choice);
-  if (at.node.IsScalar() && (take_kind<Kinds>(at.node.Scalar(), choice) || ...)) return;
+  if (at.node.IsScalar())
+    if (const auto plain = kind_named<Any>(at.node.Scalar())) return void(choice = *plain);
   const auto entries = at.entries();
-  if (entries.size() != 1) {
+  if (entries.size() != 1)
     at.fail(fmt::format("names {} kinds; write one of {}, as {{{}: {{}}}}", entries.size(),
                         fmt::join(kinds, ", "), kinds.front()));
-  }
-  if (!(read_kind<Kinds>(entries[0], choice) || ...)) {
-    entries[0].second.fail(fmt::format("unknown kind '{}'; {}", entries[0].first,
-                                       suggestion(entries[0].first, kinds)));
-  }
+  const auto& [name, section] = entries[0];
+  auto read = kind_named<Any>(name);
+  if (!read) section.fail(fmt::format("unknown kind '{}'; {}", name, suggestion(name, kinds)));
+  std::visit([&from = section](auto& kind) { read_section(from, kind); }, *read);
+  choice = *read;
 }
 
 /// Throws Error when the name cannot be a part of a dotted path.
@@ -129,61 +135,33 @@ void at_leaf(const YamlValue& at, const Field& field, T& value, std::string_view
 /// them.
 [[noreturn]] inline void fail_on_key(const YamlValue& at, std::string_view key,
                                      const std::vector<std::string>& keys) {
-  if (key.empty()) {
+  if (key.empty())
     at.fail(
         fmt::format("is a section, not a value; name a key below it: {}", fmt::join(keys, ", ")));
-  }
   at.fail(fmt::format("unknown key '{}'; {}", key, suggestion(key, keys)));
 }
 
-template <class T, class Act>
-void at_section_leaf(const YamlValue& at, T& section, std::string_view path, const Act& act) {
+template <Node T, class Act>
+void at_leaf_below(const YamlValue& at, T& node, std::string_view path, const Act& act) {
   const auto [head, tail] = split_path(path);
   bool found = false;
-  const auto try_field = [&, head = head, tail = tail](auto& member, const Field& field) {
+  for_each_child(node, [&, head = head, tail = tail](auto& child, const Field& field) {
     if (field.key != head) return;
     found = true;
-    at_leaf(at, field, member, tail, act);
-  };
-  std::remove_const_t<T>::fields(section, try_field);
-  if (!found) fail_on_key(at, head, keys_of(section));
-}
-
-template <class T, class Act>
-void at_choice_leaf(const YamlValue& at, T& choice, std::string_view path, const Act& act) {
-  const auto [head, tail] = split_path(path);
-  const auto try_kind = [&, head = head, tail = tail](auto& section) {
-    if (head != section.kKind) fail_on_key(at, head, {std::string(section.kKind)});
-    at_section_leaf(at, section, tail, act);
-  };
-  std::visit(try_kind, choice);
-}
-
-template <class T, class Act>
-void at_method_leaf(const YamlValue& at, T& methods, std::string_view path, const Act& act) {
-  const auto [head, tail] = split_path(path);
-  std::vector<std::string> names;
-  for (auto& method : methods) {
-    if (method.name == head) return at_section_leaf(at, method, tail, act);
-    names.push_back(method.name);
-  }
-  fail_on_key(at, head, names);
+    at_leaf(at, field, child, tail, act);
+  });
+  if (!found) fail_on_key(at, head, keys_of(node));
 }
 
 template <class T, class Act>
 void at_leaf(const YamlValue& at, const Field& field, T& value, std::string_view rest,
              const Act& act) {
-  using Plain = std::remove_const_t<T>;
   if constexpr (requires { act.choice(value); })
     if (rest.empty()) return act.choice(value);
-  if constexpr (std::same_as<Plain, Methods>) {
-    at_method_leaf(at, value, rest, act);
-  } else if constexpr (std::same_as<Plain, Sweep>) {
+  if constexpr (std::same_as<std::remove_const_t<T>, Sweep>) {
     at.fail("the sweep is not a leaf; change it in the file or by a flag sweep.PATH=[...]");
-  } else if constexpr (Choice<T>) {
-    at_choice_leaf(at, value, rest, act);
-  } else if constexpr (Section<T>) {
-    at_section_leaf(at, value, rest, act);
+  } else if constexpr (Node<T>) {
+    at_leaf_below(at, value, rest, act);
   } else {
     if (!rest.empty())
       at.fail(

@@ -14,12 +14,12 @@ class Dumper {
   /// `for_key`: leave out what is `later` and has its default.
   explicit Dumper(bool for_key) : for_key_(for_key) {}
 
-  template <Section T>
-  void section(const T& value) {
+  template <Node T>
+  void body(const T& node) {
     static const std::map<std::string_view, std::string> defaults = default_texts<T>();
-    T::fields(value, [this](const auto& member, const Field& field) {
+    for_each_child(node, [this](const auto& child, const Field& field) {
       const auto plain = defaults.find(field.key);
-      this->key(field, member, plain == defaults.end() ? "" : plain->second);
+      this->key(field, child, plain == defaults.end() ? "" : plain->second);
     });
   }
 
@@ -31,7 +31,7 @@ class Dumper {
   static std::map<std::string_view, std::string> default_texts() {
     std::map<std::string_view, std::string> texts;
     const T plain{};
-    T::fields(plain, [&]<class M>(const M& member, const Field& field) {
+    for_each_child(plain, [&]<class M>(const M& member, const Field& field) {
       if (!field.later) return;
       if constexpr (Choice<M>)
         texts[field.key] = kind_of(member);
@@ -45,9 +45,8 @@ class Dumper {
 
   /// `plain`: text that a key leaves out; empty: none.
   template <class T>
-  void key(const Field& field, const T& value, std::string_view plain = {}) {
-    if constexpr (Section<const T> || Choice<T> || std::same_as<T, Methods> ||
-                  std::same_as<T, Sweep>) {
+  void key(const Field& field, const T& value, std::string_view plain) {
+    if constexpr (Node<const T> || std::same_as<T, Sweep>) {
       if constexpr (Choice<T>)
         if (!is_written(kind_of(value), plain)) return;
       nest(field, plain, [&] { body(value); });
@@ -60,18 +59,9 @@ class Dumper {
     return leaf != "-" && !(for_key_ && leaf == plain);
   }
 
-  void body(const Section auto& value) { section(value); }
-  void body(const Choice auto& choice) {
-    const auto write_kind = [this](const auto& kind) { this->key(Field{kind.kKind, ""}, kind); };
-    std::visit(write_kind, choice);
-  }
-  void body(const Methods& methods) {
-    for (const MethodSettings& method : methods) key(Field{method.name, ""}, method);
-  }
   void body(const Sweep& sweep) {
-    for (const SweepAxis& axis : sweep) {
+    for (const SweepAxis& axis : sweep)
       line(fmt::format("{}: [{}]", axis.path, fmt::join(axis.values, ", ")));
-    }
   }
 
   /// "key:" over an indented body, or "key: {}" where the body is empty.
@@ -98,7 +88,7 @@ class Dumper {
 
 std::string yaml_of(const Study& study, bool for_key) {
   Dumper dumper(for_key);
-  dumper.section(study);
+  dumper.body(study);
   return std::move(dumper).take();
 }
 

@@ -3,12 +3,8 @@
 
 #include "eval/truth/distance.hpp"
 
-#include "eval/truth/shapes/convex_gap.hpp"
-
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <type_traits>
 #include <utility>
 
 namespace mapscore::eval {
@@ -21,13 +17,8 @@ constexpr int kLeafPieces = 4;
 double inner_distance(const PreparedShape& shape, const Box& box) {
   double least = kNoCap;
   for (int corner = 0; corner < 8; ++corner) {
-    std::visit(
-        [&](const auto& form) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(form)>, Triangle>) {
-            least = std::min(least, depth(form, corner_of(box, corner)));
-          }
-        },
-        shape.form());
+    const auto depth_of = [&](const auto& form) { return depth(form, corner_of(box, corner)); };
+    least = std::min(least, std::visit(depth_of, shape.form()));
   }
   return least;
 }

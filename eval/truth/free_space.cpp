@@ -4,7 +4,6 @@
 #include "eval/truth/free_space.hpp"
 
 #include "core/error.hpp"
-#include "eval/truth/depth_bounds.hpp"
 
 #include <fmt/format.h>
 
@@ -13,13 +12,52 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
 
-constexpr double kFarthestIndex = (1 << 20) - 16;
+constexpr double kFarthestFreeIndex = (1 << 20) - 16;
 /// Far above rounding, far below a voxel: what is passed over must be out of view for certain.
 constexpr double kSlack_m = 1e-6, kSlack_px = 1e-3;
+
+/// Greatest value of a depth image by tiles of 16 x 16 pixels, to skip voxels that lie behind all
+/// measured surfaces. Immutable.
+class DepthBounds {
+ public:
+  explicit DepthBounds(const cv::Mat1w& depth)
+      : tiles_(
+            cv::Mat1w::zeros((depth.rows + kTile - 1) / kTile, (depth.cols + kTile - 1) / kTile)) {
+    for (int v = 0; v < depth.rows; ++v) {
+      const std::uint16_t* row = depth[v];
+      std::uint16_t* tiles = tiles_[v / kTile];
+      for (int u = 0; u < depth.cols; ++u) {
+        tiles[u / kTile] = std::max(tiles[u / kTile], row[u]);
+        most_ = std::max(most_, row[u]);
+      }
+    }
+  }
+
+  /// Of the whole image.
+  [[nodiscard]] std::uint16_t most() const { return most_; }
+  /// At least the greatest value in columns first_u to last_u and rows first_v to last_v, all
+  /// within the image; 0 when there are none.
+  [[nodiscard]] std::uint16_t most_in(int first_u, int last_u, int first_v, int last_v) const {
+    std::uint16_t most = 0;
+    if (first_u > last_u || first_v > last_v) return most;
+    for (int v = first_v / kTile; v <= last_v / kTile; ++v) {
+      const std::uint16_t* tiles = tiles_[v];
+      for (int u = first_u / kTile; u <= last_u / kTile; ++u) most = std::max(most, tiles[u]);
+    }
+    return most;
+  }
+
+ private:
+  static constexpr int kTile = 16;
+
+  cv::Mat1w tiles_;
+  std::uint16_t most_ = 0;
+};
 
 std::uint64_t bit_of(int j, int k) {
   return std::uint64_t{1} << (8 * j + k);
@@ -53,11 +91,9 @@ class FreeSpace::View {
         z_min_(calibration.range_min_m),
         z_max_(std::min(calibration.range_max_m, bounds_.most() / kDepthUnitsPerMetre)) {}
 
-  struct Range {
-    VoxelKey low, high;  ///< blocks, both included
-  };
-  /// Blocks around all that the frame can see through; nothing when it sees nothing.
-  [[nodiscard]] std::optional<Range> blocks(int frame_index) const {
+  /// Lowest and highest of the blocks around all that the frame can see through; nothing when it
+  /// sees nothing.
+  [[nodiscard]] std::optional<std::pair<VoxelKey, VoxelKey>> blocks(int frame_index) const {
     if (!(z_min_ <= z_max_) || !(z_max_ > 0.0)) return std::nullopt;
     Eigen::AlignedBox3d box;
     for (const double u : {-0.5, camera_.width_px - 0.5}) {
@@ -70,13 +106,13 @@ class FreeSpace::View {
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kSlack_m);
     const Eigen::Vector3d low = (box.min() - margin) / edge_m_,
                           high = (box.max() + margin) / edge_m_;
-    if (!(low.minCoeff() > -kFarthestIndex && high.maxCoeff() < kFarthestIndex)) {
+    if (!(low.minCoeff() > -kFarthestFreeIndex && high.maxCoeff() < kFarthestFreeIndex)) {
       throw Error(
           fmt::format("frame {}: its view reaches beyond 2^20 voxels of {} m; choose larger voxels",
                       frame_index, edge_m_));
     }
     const double block_m = edge_m_ * kBlockEdge;
-    return Range{voxel_of(low * edge_m_, block_m), voxel_of(high * edge_m_, block_m)};
+    return std::pair{voxel_of(low * edge_m_, block_m), voxel_of(high * edge_m_, block_m)};
   }
 
   /// False only when the frame sees through no voxel's centre in the block.
@@ -87,20 +123,16 @@ class FreeSpace::View {
     const double near = p.z() - radius, far = p.z() + radius;
     if (far < z_min_ || near > z_max_) return false;
     if (near < radius) return true;  // the view around the camera is too wide to be bounded
-    const auto low = [=](double x) { return x < 0.0 ? x / near : x / far; };
-    const auto high = [=](double x) { return x > 0.0 ? x / near : x / far; };
-    const auto pixel = [](double slope, double focal, double centre, double slack, int size) {
-      return static_cast<int>(
-          std::clamp(std::floor(focal * slope + centre + 0.5 + slack), -1.0, 1.0 * size));
+    // First and last pixel that the ball around the block covers along an axis of the image.
+    const auto covered = [=](double x, double focal, double centre, int size) {
+      const double low = x - radius, high = x + radius;
+      const double first = focal * (low / (low < 0.0 ? near : far)) + centre + 0.5 - kSlack_px;
+      const double last = focal * (high / (high > 0.0 ? near : far)) + centre + 0.5 + kSlack_px;
+      return std::pair{static_cast<int>(std::clamp(std::floor(first), -1.0, 1.0 * size)),
+                       static_cast<int>(std::clamp(std::floor(last), -1.0, 1.0 * size))};
     };
-    const int first_u =
-        pixel(low(p.x() - radius), camera_.fx_px, camera_.cx_px, -kSlack_px, camera_.width_px);
-    const int last_u =
-        pixel(high(p.x() + radius), camera_.fx_px, camera_.cx_px, kSlack_px, camera_.width_px);
-    const int first_v =
-        pixel(low(p.y() - radius), camera_.fy_px, camera_.cy_px, -kSlack_px, camera_.height_px);
-    const int last_v =
-        pixel(high(p.y() + radius), camera_.fy_px, camera_.cy_px, kSlack_px, camera_.height_px);
+    const auto [first_u, last_u] = covered(p.x(), camera_.fx_px, camera_.cx_px, camera_.width_px);
+    const auto [first_v, last_v] = covered(p.y(), camera_.fy_px, camera_.cy_px, camera_.height_px);
     const std::uint16_t most =
         bounds_.most_in(std::max(first_u, 0), std::min(last_u, camera_.width_px - 1),
                         std::max(first_v, 0), std::min(last_v, camera_.height_px - 1));
@@ -147,7 +179,7 @@ class FreeSpace::View {
 FreeSpace::FreeSpace(const SurfaceTruth& surface) : edge_m_(surface.edge_m()) {
   for (const SurfaceVoxel& voxel : surface.voxels()) {
     const VoxelKey& key = voxel.key;
-    Block& block = blocks_[pack({key.i >> 3, key.j >> 3, key.k >> 3})];
+    Block& block = blocks_[{key.i >> 3, key.j >> 3, key.k >> 3}];
     block.settled[static_cast<std::size_t>(key.i & 7)] |= bit_of(key.j & 7, key.k & 7);
   }
 }
@@ -170,8 +202,7 @@ void FreeSpace::add(const Frame& frame, const Calibration& true_calibration,
 }
 
 void FreeSpace::look(const View& view, const VoxelKey& block) {
-  const std::uint64_t key = pack(block);
-  const auto known = blocks_.find(key);
+  const auto known = blocks_.find(block);
   Block settled = known == blocks_.end() ? Block{} : known->second;
   bool any = false;
   for (int i = 0; i < kBlockEdge; ++i) {
@@ -186,7 +217,7 @@ void FreeSpace::look(const View& view, const VoxelKey& block) {
       any |= seen != 0;
     }
   }
-  if (any) blocks_[key] = settled;
+  if (any) blocks_[block] = settled;
 }
 
 void FreeSpace::merge(const FreeSpace& other) {
@@ -205,30 +236,26 @@ void FreeSpace::merge(const FreeSpace& other) {
 
 std::vector<VoxelKey> FreeSpace::voxels() const {
   // Rows along k are short and whole, so only they are sorted.
-  struct Row {
-    std::uint64_t first;  ///< packed key of its voxel at the block's low k
-    unsigned free;
-  };
-  std::vector<Row> rows;
+  // By the packed key of the voxel at the block's low k, with a bit for each that is free.
+  std::vector<std::pair<std::uint64_t, unsigned>> rows;
   std::size_t count = 0;
-  for (const auto& [key, block] : blocks_) {
-    const VoxelKey low = unpack(key);
+  for (const auto& [low, block] : blocks_) {
     for (int i = 0; i < kBlockEdge; ++i) {
       const std::uint64_t word = block.free[static_cast<std::size_t>(i)];
       count += static_cast<std::size_t>(std::popcount(word));
       for (int j = 0; j < kBlockEdge; ++j) {
         const auto free = static_cast<unsigned>(word >> (8 * j) & 0xffu);
         if (free == 0) continue;
-        rows.push_back({pack({8 * low.i + i, 8 * low.j + j, 8 * low.k}), free});
+        rows.emplace_back(pack({8 * low.i + i, 8 * low.j + j, 8 * low.k}), free);
       }
     }
   }
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.first < b.first; });
+  std::ranges::sort(rows);
   std::vector<VoxelKey> voxels;
   voxels.reserve(count);
-  for (const Row& row : rows) {
-    VoxelKey key = unpack(row.first);
-    for (unsigned free = row.free; free != 0; free >>= 1, ++key.k) {
+  for (const auto& [first, row] : rows) {
+    VoxelKey key = unpack(first);
+    for (unsigned free = row; free != 0; free >>= 1, ++key.k) {
       if (free & 1u) voxels.push_back(key);
     }
   }

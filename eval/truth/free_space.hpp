@@ -10,7 +10,6 @@
 #include "eval/truth/surface_truth.hpp"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -50,15 +49,12 @@ class FreeSpace {
     std::array<std::uint64_t, kBlockEdge> settled{};  ///< on a surface, or free
     std::array<std::uint64_t, kBlockEdge> free{};
   };
-  struct KeyHash {
-    std::size_t operator()(std::uint64_t key) const { return mix_bits(key); }
-  };
   class View;
 
   void look(const View& view, const VoxelKey& block);
 
   double edge_m_;
-  std::unordered_map<std::uint64_t, Block, KeyHash> blocks_;  ///< by the packed key of the block
+  std::unordered_map<VoxelKey, Block> blocks_;  ///< by the key of the block
 };
 
 }  // namespace mapscore::eval

@@ -3,8 +3,6 @@
 
 #include "eval/truth/moving_surface.hpp"
 
-#include "eval/truth/voxelise.hpp"
-
 #include <algorithm>
 #include <iterator>
 #include <tuple>
@@ -15,8 +13,7 @@ namespace {
 
 /// Of equal pairs of voxel and class the one that truly meets comes first.
 bool before(const SurfaceVoxel& a, const SurfaceVoxel& b) {
-  if (a.key != b.key) return a.key < b.key;
-  return std::tie(a.class_id, a.touch_only) < std::tie(b.class_id, b.touch_only);
+  return std::tie(a.key, a.class_id, a.touch_only) < std::tie(b.key, b.class_id, b.touch_only);
 }
 
 bool same_pair(const SurfaceVoxel& a, const SurfaceVoxel& b) {
@@ -32,14 +29,6 @@ std::vector<PreparedShape> numbered_from(int first, const std::vector<PreparedSh
   return numbered;
 }
 
-VoxelBlock spanning(const VoxelBlock& a, const VoxelBlock& b) {
-  return {
-      {std::min(a.low.i, b.low.i), std::min(a.low.j, b.low.j), std::min(a.low.k, b.low.k)},
-      {std::max(a.high.i, b.high.i), std::max(a.high.j, b.high.j), std::max(a.high.k, b.high.k)}};
-}
-
-constexpr VoxelBlock kNoVoxels{{0, 0, 0}, {-1, -1, -1}};
-
 }  // namespace
 
 MovingSurface::MovingSurface(const std::vector<Shape>& fixed, const ClassTable& table,
@@ -51,19 +40,12 @@ MovingSurface::MovingSurface(const std::vector<Shape>& fixed, const ClassTable& 
       pieces_(prepare(fixed, T_map_world)),
       surface_(surface_truth(fixed, table, T_map_world, options)) {}
 
-bool MovingSurface::Zone::holds(const VoxelKey& key) const {
-  return eval::holds(around, key) &&
-         std::any_of(blocks.begin(), blocks.end(),
-                     [&key](const VoxelBlock& block) { return eval::holds(block, key); });
-}
-
 MovingSurface::Zone MovingSurface::zone_of(const std::vector<PreparedShape>& moving) const {
-  Zone zone{{}, kNoVoxels};
+  Zone zone;
   for (const PreparedShape& piece : moving) {
     if (!piece.solid()) continue;
-    const VoxelBlock block = block_around(piece, options_.edge_m, options_.epsilon_m);
-    zone.around = zone.blocks.empty() ? block : spanning(zone.around, block);
-    zone.blocks.push_back(block);
+    zone.blocks.push_back(block_around(piece, options_.edge_m, options_.epsilon_m));
+    zone.around.extend(zone.blocks.back());
   }
   return zone;
 }
@@ -88,12 +70,11 @@ std::vector<SurfaceVoxel> MovingSurface::made_anew(const std::vector<PreparedSha
     add(piece, block_around(piece, options_.edge_m, options_.epsilon_m));
   for (const PreparedShape& piece : pieces_) {
     const VoxelBlock block = block_around(piece, options_.edge_m, options_.epsilon_m);
-    if (empty(common(block, zone.around))) continue;
+    if (!block.intersects(zone.around)) continue;
     for (const VoxelBlock& near : zone.blocks)
-      if (!empty(common(block, near))) add(piece, near);
+      if (block.intersects(near)) add(piece, near);
   }
   std::sort(rows.begin(), rows.end(), before);
-  rows.erase(std::unique(rows.begin(), rows.end(), same_pair), rows.end());
   return rows;
 }
 
@@ -104,8 +85,11 @@ SurfaceTruth MovingSurface::at(const std::vector<Shape>& moving) const {
   const std::vector<SurfaceVoxel> anew = made_anew(pieces, zone);
   std::vector<SurfaceVoxel> kept, rows;
   kept.reserve(surface_.voxels().size());
-  std::copy_if(surface_.voxels().begin(), surface_.voxels().end(), std::back_inserter(kept),
-               [&zone](const SurfaceVoxel& row) { return !zone.holds(row.key); });
+  for (const SurfaceVoxel& row : surface_.voxels()) {
+    const Eigen::Vector3i at(row.key.i, row.key.j, row.key.k);
+    const auto holds = [&at](const VoxelBlock& block) { return block.contains(at); };
+    if (!holds(zone.around) || std::ranges::none_of(zone.blocks, holds)) kept.push_back(row);
+  }
   rows.reserve(kept.size() + anew.size());
   std::merge(kept.begin(), kept.end(), anew.begin(), anew.end(), std::back_inserter(rows), before);
   rows.erase(std::unique(rows.begin(), rows.end(), same_pair), rows.end());

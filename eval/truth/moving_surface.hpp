@@ -8,7 +8,7 @@
 #include "core/geometry/shape.hpp"
 #include "eval/truth/shapes/shape_tests.hpp"
 #include "eval/truth/surface_truth.hpp"
-#include "eval/truth/voxel_slabs.hpp"
+#include "eval/truth/voxelise.hpp"
 
 #include <vector>
 
@@ -23,8 +23,6 @@ class MovingSurface {
   /// Throws as surface_truth does.
   MovingSurface(const std::vector<Shape>& fixed, const ClassTable& table, const Pose& T_map_world,
                 const SurfaceOptions& options);
-  MovingSurface(const MovingSurface&) = delete;
-  MovingSurface& operator=(const MovingSurface&) = delete;
 
   /// Row by row what surface_truth gives for the fixed shapes together with these. Works on one
   /// thread.
@@ -38,7 +36,6 @@ class MovingSurface {
   struct Zone {
     std::vector<VoxelBlock> blocks;
     VoxelBlock around;  ///< all of them
-    [[nodiscard]] bool holds(const VoxelKey& key) const;
   };
 
   [[nodiscard]] Zone zone_of(const std::vector<PreparedShape>& moving) const;

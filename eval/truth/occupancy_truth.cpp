@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -56,25 +58,26 @@ OccupancyTruth make_occupancy_truth(FrameCache& frames, std::span<const int> sel
     FreeSpace free;
   };
   const ClassTable one_class;  // a sample counts whatever it is of
-  std::vector<std::unique_ptr<Share>> shares(static_cast<std::size_t>(std::max(jobs, 1)));
+  std::optional<Share> all;
+  std::mutex merging;
   Runs places(selected.size(), 1);
-  run_jobs(jobs, [&](int job) {
-    auto share =
-        std::make_unique<Share>(Share{SampleCounter(surface.edge_m()), FreeSpace(surface)});
+  run_jobs(jobs, [&](int) {
+    Share share{SampleCounter(surface.edge_m()), FreeSpace(surface)};
     for (Runs::Run place; places.next(place);) {
       const auto frame = frames.get(selected[place.first]);
       const Pose T_map_base = T_map_world * frame->T_world_base;
-      share->samples.add(*frame, true_calibration, one_class, T_map_base);
-      share->free.add(*frame, true_calibration, T_map_base);
+      share.samples.add(*frame, true_calibration, one_class, T_map_base);
+      share.free.add(*frame, true_calibration, T_map_base);
     }
-    shares[static_cast<std::size_t>(job)] = std::move(share);
+    const std::scoped_lock lock(merging);
+    if (!all) {
+      all = std::move(share);
+    } else {
+      all->samples.merge(share.samples);
+      all->free.merge(share.free);
+    }
   });
-  Share& all = *shares.front();
-  for (std::size_t job = 1; job < shares.size(); ++job) {
-    all.samples.merge(shares[job]->samples);
-    all.free.merge(shares[job]->free);
-  }
-  return occupancy_truth(all.samples, min_samples, all.free);
+  return occupancy_truth(all->samples, min_samples, all->free);
 }
 
 }  // namespace mapscore::eval

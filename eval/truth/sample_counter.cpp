@@ -4,18 +4,21 @@
 #include "eval/truth/sample_counter.hpp"
 
 #include "core/error.hpp"
+#include "core/geometry/depth_rays.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace mapscore::eval {
 namespace {
 
 constexpr std::size_t kFirstSlots = 1 << 12;
-constexpr int kFarthestIndex = (1 << 20) - 1;
+constexpr int kFarthestSampleIndex = (1 << 20) - 1;
 
 /// floor(a) for |a| below 2^31; compiles to two instructions and vectorises, unlike std::floor on
 /// processors without SSE 4.1.
@@ -28,15 +31,6 @@ std::int32_t floor_index(double a) {
 struct VoxelRow {
   explicit VoxelRow(int width) : i(width), j(width), k(width) {}
   std::vector<std::int32_t> i, j, k;
-};
-
-/// Rays through the pixel centres with z = 1, by column and by row.
-struct Rays {
-  explicit Rays(const CameraModel& camera) : x(camera.width_px), y(camera.height_px) {
-    for (int u = 0; u < camera.width_px; ++u) x[u] = (u - camera.cx_px) / camera.fx_px;
-    for (int v = 0; v < camera.height_px; ++v) y[v] = (v - camera.cy_px) / camera.fy_px;
-  }
-  std::vector<double> x, y;
 };
 
 /// Smallest and largest raw depth value within the range.
@@ -52,13 +46,13 @@ struct RawRange {
   int low = 1, high = 65535;
 };
 
-void place_row(const std::uint16_t* depth, const Rays& rays, int v, const Pose& T_map_depth,
+void place_row(const std::uint16_t* depth, const DepthRays& rays, int v, const Pose& T_map_depth,
                double edge_m, VoxelRow& row) {
   const Eigen::Matrix3d R = T_map_depth.linear();
   const Eigen::Vector3d t = T_map_depth.translation();
-  const int width = static_cast<int>(rays.x.size());
-  const double* ray_x = rays.x.data();
-  const double ray_y = rays.y[v];
+  const int width = static_cast<int>(rays.x().size());
+  const double* ray_x = rays.x().data();
+  const double ray_y = rays.y()[v];
   std::int32_t *i = row.i.data(), *j = row.j.data(), *k = row.k.data();
   for (int u = 0; u < width; ++u) {
     const double z = depth[u] / kDepthUnitsPerMetre;
@@ -74,27 +68,31 @@ void check(const Frame& frame, const Calibration& calibration, const Pose& T_map
            double edge_m) {
   const std::string where = "frame " + std::to_string(frame.index) + ": ";
   const CameraModel& camera = calibration.depth;
-  const cv::Size size(camera.width_px, camera.height_px);
-  if (frame.depth.size() != size || frame.depth_label.size() != size) {
-    throw Error(where + "depth and depth_label must have the depth camera's size, " +
-                std::to_string(size.width) + " x " + std::to_string(size.height) +
-                "; check recording.yaml and that both images were read");
-  }
+  check_depth_images(frame, camera);
   if (!T_map_depth.matrix().allFinite()) {
     throw Error(where + "its pose is not finite; mend groundtruth.txt or T_base_depth");
   }
-  const Eigen::Vector3d corner(std::max(camera.cx_px, size.width - camera.cx_px) / camera.fx_px,
-                               std::max(camera.cy_px, size.height - camera.cy_px) / camera.fy_px,
-                               1);
+  const Eigen::Vector3d corner(
+      std::max(camera.cx_px, camera.width_px - camera.cx_px) / camera.fx_px,
+      std::max(camera.cy_px, camera.height_px - camera.cy_px) / camera.fy_px, 1);
   const double farthest_m =
       T_map_depth.translation().norm() + 65535 / kDepthUnitsPerMetre * corner.norm();
-  if (!(farthest_m / edge_m < kFarthestIndex)) {
+  if (!(farthest_m / edge_m < kFarthestSampleIndex)) {
     throw Error(where + "samples may lie beyond 2^20 voxels of " + std::to_string(edge_m) +
                 " m from the map's origin; take larger voxels or check its pose");
   }
 }
 
 }  // namespace
+
+void check_depth_images(const Frame& frame, const CameraModel& camera) {
+  const cv::Size size(camera.width_px, camera.height_px);
+  if (frame.depth.size() == size && frame.depth_label.size() == size) return;
+  throw Error(
+      fmt::format("frame {}: depth and depth_label must have the depth camera's size, {} x {}; "
+                  "check recording.yaml and that both images were read",
+                  frame.index, size.width, size.height));
+}
 
 SampleCounter::SampleCounter(double edge_m) : edge_m_(edge_m), slots_(kFirstSlots) {
   if (!(std::isfinite(edge_m) && edge_m > 0)) {
@@ -106,7 +104,7 @@ void SampleCounter::add(const Frame& frame, const Calibration& true_calibration,
                         const ClassTable& table, const Pose& T_map_base) {
   const Pose T_map_depth = T_map_base * true_calibration.T_base_depth;
   check(frame, true_calibration, T_map_depth, edge_m_);
-  const Rays rays(true_calibration.depth);
+  const DepthRays rays(true_calibration.depth);
   const RawRange range(true_calibration);
   VoxelRow row(frame.depth.cols);
   for (int v = 0; v < frame.depth.rows; ++v) {
@@ -141,34 +139,24 @@ void SampleCounter::merge(const SampleCounter& other) {
   }
 }
 
-std::uint32_t SampleCounter::samples(const VoxelKey& key, ClassId class_id) const {
-  return slots_[position(pack(key), class_id)].samples;
-}
-
 std::vector<SampleCount> SampleCounter::counts() const {
   std::vector<SampleCount> counts;
   counts.reserve(used_);
   for (const Slot& slot : slots_) {
     if (slot.samples > 0) counts.push_back({unpack(slot.key), slot.class_id, slot.samples});
   }
-  std::sort(counts.begin(), counts.end(), [](const SampleCount& a, const SampleCount& b) {
-    return a.key != b.key ? a.key < b.key : a.class_id < b.class_id;
-  });
+  std::ranges::sort(counts, {}, [](const SampleCount& c) { return std::tie(c.key, c.class_id); });
   return counts;
 }
 
 void SampleCounter::count(std::uint64_t key, ClassId class_id, std::uint32_t samples) {
-  std::size_t at = position(key, class_id);
-  if (slots_[at].samples == 0) {
-    if (2 * (used_ + 1) > slots_.size()) {
-      grow();
-      at = position(key, class_id);
-    }
-    slots_[at] = {key, 0, class_id};
+  if (2 * (used_ + 1) > slots_.size()) grow();
+  Slot& slot = slots_[position(key, class_id)];
+  if (slot.samples == 0) {
+    slot = {key, 0, class_id};
     ++used_;
   }
-  slots_[at].samples += samples;
-  total_ += samples;
+  slot.samples += samples;
 }
 
 std::size_t SampleCounter::position(std::uint64_t key, ClassId class_id) const {

@@ -10,10 +10,12 @@
 #include "core/geometry/voxel.hpp"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace mapscore::eval {
+
+/// Throws Error naming the frame when `depth` or `depth_label` has another size than the camera.
+void check_depth_images(const Frame& frame, const CameraModel& camera);
 
 /// How many depth samples of one class lie in one voxel.
 struct SampleCount {
@@ -46,12 +48,8 @@ class SampleCounter {
   /// Adds the counts of another counter of the same edge; throws Error otherwise.
   void merge(const SampleCounter& other);
 
-  /// Samples of one class in the voxel.
-  [[nodiscard]] std::uint32_t samples(const VoxelKey& key, ClassId class_id) const;
   /// All counts, sorted by key, then class.
   [[nodiscard]] std::vector<SampleCount> counts() const;
-  /// Samples of all voxels and classes.
-  [[nodiscard]] std::uint64_t total() const { return total_; }
 
  private:
   struct Slot {
@@ -67,7 +65,6 @@ class SampleCounter {
   double edge_m_;
   std::vector<Slot> slots_;  ///< open addressing, linear probing, at most half full
   std::size_t used_ = 0;
-  std::uint64_t total_ = 0;
 };
 
 }  // namespace mapscore::eval

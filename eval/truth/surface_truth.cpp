@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "eval/truth/shapes/shape_tests.hpp"
-#include "eval/truth/voxel_slabs.hpp"
 #include "eval/truth/voxelise.hpp"
 
 #include <fmt/format.h>
@@ -60,15 +59,7 @@ void check(const SurfaceOptions& options) {
   }
 }
 
-/// Sorts and keeps each pair of voxel and class once.
-void make_unique(SlabRows& rows) {
-  std::sort(rows.begin(), rows.end());
-  rows.erase(
-      std::unique(rows.begin(), rows.end(), [](SlabRow a, SlabRow b) { return a >> 1 == b >> 1; }),
-      rows.end());
-}
-
-/// Rows of every slab; threads take slabs in turn.
+/// Rows of every slab, sorted, each pair of voxel and class once; threads take slabs in turn.
 std::vector<SlabRows> voxelise_slabs(const std::vector<Slab>& slabs, const ClassTable& table,
                                      const SurfaceOptions& options) {
   std::vector<SlabRows> rows_of_slabs(slabs.size());
@@ -83,10 +74,13 @@ std::vector<SlabRows> voxelise_slabs(const std::vector<Slab>& slabs, const Class
       for (const PreparedShape* piece : slab.pieces) {
         const ClassId class_id = table.class_of(piece->instance());
         voxels.clear();
-        voxeliser.voxelise(*piece, slab, voxels);
+        voxeliser.voxelise(*piece, slab.block(), slab.solids, voxels);
         for (const PieceVoxel& voxel : voxels) rows.push_back(row_of(voxel, slab, class_id));
       }
-      make_unique(rows);
+      std::sort(rows.begin(), rows.end());
+      rows.erase(std::unique(rows.begin(), rows.end(),
+                             [](SlabRow a, SlabRow b) { return a >> 1 == b >> 1; }),
+                 rows.end());
       rows_of_slabs[run.first].assign(rows.begin(), rows.end());
     }
   });
@@ -136,12 +130,7 @@ SurfaceTruth::SurfaceTruth(std::vector<SurfaceVoxel> voxels, double edge_m)
 
 bool SurfaceTruth::contains(const VoxelKey& key, ClassId class_id) const {
   const auto rows = classes_at(key);
-  return std::any_of(rows.begin(), rows.end(),
-                     [class_id](const SurfaceVoxel& row) { return row.class_id == class_id; });
-}
-
-bool SurfaceTruth::touches_any(const VoxelKey& key) const {
-  return !classes_at(key).empty();
+  return std::ranges::find(rows, class_id, &SurfaceVoxel::class_id) != rows.end();
 }
 
 std::span<const SurfaceVoxel> SurfaceTruth::classes_at(const VoxelKey& key) const {
@@ -150,15 +139,10 @@ std::span<const SurfaceVoxel> SurfaceTruth::classes_at(const VoxelKey& key) cons
   const std::span<const SurfaceVoxel> all = voxels();
   const auto at = static_cast<std::size_t>(layer);
   const std::span rows = all.subspan(layers_[at], layers_[at + 1] - layers_[at]);
-  const auto first = std::partition_point(
-      rows.begin(), rows.end(), [&key](const SurfaceVoxel& row) { return row.key < key; });
+  const auto first = std::ranges::lower_bound(rows, key, {}, &SurfaceVoxel::key);
   const auto last =
       std::find_if(first, rows.end(), [&key](const SurfaceVoxel& row) { return row.key != key; });
   return {first, last};
-}
-
-std::size_t SurfaceTruth::count(ClassId class_id) const {
-  return class_id < counts_.size() ? counts_[class_id] : 0;
 }
 
 SurfaceTruth surface_truth(const std::vector<Shape>& shapes, const ClassTable& table,

@@ -43,7 +43,7 @@ class SurfaceTruth {
   /// True when the voxel lies in S_c; time grows with the logarithm of a layer's rows.
   [[nodiscard]] bool contains(const VoxelKey& key, ClassId class_id) const;
   /// True when any class touches the voxel, background included.
-  [[nodiscard]] bool touches_any(const VoxelKey& key) const;
+  [[nodiscard]] bool touches_any(const VoxelKey& key) const { return !classes_at(key).empty(); }
   /// Rows of one voxel, by class; empty when no surface touches it.
   [[nodiscard]] std::span<const SurfaceVoxel> classes_at(const VoxelKey& key) const;
   /// All rows, sorted by key, then class.
@@ -51,7 +51,9 @@ class SurfaceTruth {
     return rows_ ? std::span<const SurfaceVoxel>(*rows_) : std::span<const SurfaceVoxel>();
   }
   /// |S_c|.
-  [[nodiscard]] std::size_t count(ClassId class_id) const;
+  [[nodiscard]] std::size_t count(ClassId class_id) const {
+    return class_id < counts_.size() ? counts_[class_id] : 0;
+  }
 
  private:
   std::shared_ptr<const std::vector<SurfaceVoxel>> rows_;

@@ -7,12 +7,12 @@
 #include "core/whole_file.hpp"
 #include "files/csv.hpp"
 
-#include <array>
+#include <fmt/format.h>
+
 #include <bit>
-#include <charconv>
+#include <iterator>
 #include <ostream>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace mapscore::eval {
@@ -44,23 +44,13 @@ void take(std::ostream& out, std::string& bytes, std::size_t enough = 1 << 16) {
   bytes.clear();
 }
 
-void append_number(std::string& text, std::int64_t n, char end) {
-  std::array<char, 24> digits{};
-  const auto last = std::to_chars(digits.data(), digits.data() + digits.size(), n).ptr;
-  text.append(digits.data(), last);
-  text += end;
-}
-
 void write_csv(std::ostream& out, const SurfaceTruth& truth, const VisibleTruth* visible,
                const std::vector<std::string>& names) {
   std::string text = "i,j,k,class,touch_only,samples\n";
   for (const SurfaceVoxel& voxel : truth.voxels()) {
-    append_number(text, voxel.key.i, ',');
-    append_number(text, voxel.key.j, ',');
-    append_number(text, voxel.key.k, ',');
-    text += names.at(voxel.class_id);
-    text += voxel.touch_only ? ",1," : ",0,";
-    append_number(text, samples_at(visible, voxel), '\n');
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{:d},{}\n", voxel.key.i, voxel.key.j,
+                   voxel.key.k, names.at(voxel.class_id), voxel.touch_only,
+                   samples_at(visible, voxel));
     take(out, text);
   }
   take(out, text, 0);
@@ -69,13 +59,8 @@ void write_csv(std::ostream& out, const SurfaceTruth& truth, const VisibleTruth*
 /// Appends the bytes of a number, lowest first.
 template <typename Number>
 void put(std::string& bytes, Number number) {
-  using Bits =
-      std::conditional_t<sizeof(Number) == 1, std::uint8_t,
-                         std::conditional_t<sizeof(Number) == 2, std::uint16_t, std::uint32_t>>;
-  const auto bits = std::bit_cast<Bits>(number);
-  for (unsigned byte = 0; byte < sizeof(Number); ++byte) {
-    bytes += static_cast<char>(bits >> (8 * byte) & 0xffu);
-  }
+  static_assert(std::endian::native == std::endian::little);
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
 void write_ply(std::ostream& out, const SurfaceTruth& truth, const VisibleTruth* visible,

@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace mapscore::eval {
@@ -31,32 +33,39 @@ VisibleVoxel owned(std::span<const SampleCount> counts) {
 }  // namespace
 
 VisibleTruth::VisibleTruth(std::vector<VisibleVoxel> voxels, double edge_m)
-    : voxels_(std::move(voxels)), index_(voxels_.size()), edge_m_(edge_m) {
-  std::sort(voxels_.begin(), voxels_.end(), [](const VisibleVoxel& a, const VisibleVoxel& b) {
-    return a.owner != b.owner ? a.owner < b.owner : a.key < b.key;
-  });
+    : voxels_(std::move(voxels)), slots_(std::bit_ceil(2 * voxels_.size() + 2)), edge_m_(edge_m) {
+  std::ranges::sort(voxels_, {}, [](const VisibleVoxel& v) { return std::tie(v.owner, v.key); });
   for (std::size_t row = 0; row < voxels_.size(); ++row) {
-    index_.insert(pack(voxels_[row].key), static_cast<std::uint32_t>(row));
+    const std::uint64_t key = pack(voxels_[row].key);
+    slots_[position(key)] = {key, static_cast<std::uint32_t>(row)};
   }
 }
 
+std::size_t VisibleTruth::position(std::uint64_t key) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = mix_bits(key) & mask;
+  while (slots_[at].row != kNone && slots_[at].key != key) at = (at + 1) & mask;
+  return at;
+}
+
+const VisibleVoxel* VisibleTruth::find(const VoxelKey& key) const {
+  const std::uint32_t row = slots_[position(pack(key))].row;
+  return row == kNone ? nullptr : &voxels_[row];
+}
+
 std::span<const VisibleVoxel> VisibleTruth::of(ClassId class_id) const {
-  const auto first = std::partition_point(
-      voxels_.begin(), voxels_.end(), [=](const VisibleVoxel& v) { return v.owner < class_id; });
-  const auto last = std::partition_point(
-      first, voxels_.end(), [=](const VisibleVoxel& v) { return v.owner <= class_id; });
-  return {first, last};
+  const auto rows = std::ranges::equal_range(voxels_, class_id, {}, &VisibleVoxel::owner);
+  return {rows.begin(), rows.end()};
 }
 
 std::optional<ClassId> VisibleTruth::owner_of(const VoxelKey& key) const {
-  const std::uint32_t row = index_.find(pack(key));
-  if (row == KeyIndex::kNone) return std::nullopt;
-  return voxels_[row].owner;
+  const VisibleVoxel* voxel = find(key);
+  return voxel == nullptr ? std::nullopt : std::optional(voxel->owner);
 }
 
 std::uint32_t VisibleTruth::samples(const VoxelKey& key, ClassId class_id) const {
-  const std::uint32_t row = index_.find(pack(key));
-  return row == KeyIndex::kNone || voxels_[row].owner != class_id ? 0 : voxels_[row].samples;
+  const VisibleVoxel* voxel = find(key);
+  return voxel == nullptr || voxel->owner != class_id ? 0 : voxel->samples;
 }
 
 VisibleTruth visible_truth(const SampleCounter& samples, const SurfaceTruth& surface,

@@ -5,7 +5,6 @@
 
 #include "core/classes.hpp"
 #include "core/geometry/voxel.hpp"
-#include "eval/truth/key_index.hpp"
 #include "eval/truth/sample_counter.hpp"
 #include "eval/truth/surface_truth.hpp"
 
@@ -44,8 +43,19 @@ class VisibleTruth {
   [[nodiscard]] std::uint32_t samples(const VoxelKey& key, ClassId class_id) const;
 
  private:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t row = kNone;
+  };
+  /// Where a packed key stands, or belongs.
+  [[nodiscard]] std::size_t position(std::uint64_t key) const;
+  /// The row of a voxel, or nullptr.
+  [[nodiscard]] const VisibleVoxel* find(const VoxelKey& key) const;
+
   std::vector<VisibleVoxel> voxels_;
-  KeyIndex index_;
+  /// Rows by packed key: open addressing, linear probing, at most half full.
+  std::vector<Slot> slots_ = std::vector<Slot>(2);
   double edge_m_ = 0;
 };
 

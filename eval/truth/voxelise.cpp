@@ -3,8 +3,12 @@
 
 #include "eval/truth/voxelise.hpp"
 
-#include <algorithm>
+#include "core/error.hpp"
+
+#include <map>
 #include <span>
+#include <string>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -14,6 +18,12 @@ using Eigen::Vector3d;
 /// Blocks are kept by a wider margin than voxels, so that rounding never loses a voxel.
 constexpr double kBlockMargin_m = 10 * kContact_m;
 constexpr int kFinestCut = 3;  // 2^3 = 8 boxes along an edge, 512 in all
+constexpr double kFarthestIndex = (1 << 20) - 2;
+
+Eigen::Vector3i indices_of(const Vector3d& p_in_voxels) {
+  const VoxelKey key = voxel_of(p_in_voxels, 1.0);
+  return {key.i, key.j, key.k};
+}
 
 enum class Fate { buried, exposed, undecided };
 
@@ -48,14 +58,33 @@ bool any_stays(const PreparedShape& piece, const Box& box,
 
 }  // namespace
 
-Voxeliser::Voxeliser(double edge_m, double epsilon_m) : edge_m_(edge_m), epsilon_m_(epsilon_m) {}
+VoxelBlock block_around(const PreparedShape& piece, double edge_m, double epsilon_m) {
+  const Box& bounds = piece.bounds();
+  const Vector3d low = (bounds.min().array() - epsilon_m) / edge_m - 1.5;
+  const Vector3d high = (bounds.max().array() + epsilon_m) / edge_m + 0.5;
+  if (low.minCoeff() < -kFarthestIndex || high.maxCoeff() > kFarthestIndex) {
+    throw Error("shape " + std::to_string(piece.shape()) + ": reaches beyond 2^20 voxels of " +
+                std::to_string(edge_m) + " m from the map's origin; take larger voxels or cut it");
+  }
+  return {indices_of(low), indices_of(high)};
+}
 
-void Voxeliser::voxelise(const PreparedShape& piece, const Slab& slab,
-                         std::vector<PieceVoxel>& voxels) {
-  VoxelBlock block = block_around(piece, edge_m_, epsilon_m_);
-  block.low.i = slab.first_i;
-  block.high.i = slab.first_i + kSlabVoxels - 1;
-  voxelise(piece, block, slab.solids, voxels);
+std::vector<Slab> slabs_of(const std::vector<PreparedShape>& pieces, double edge_m,
+                           double epsilon_m) {
+  std::map<std::int32_t, Slab> by_first_i;
+  for (const PreparedShape& piece : pieces) {
+    const VoxelBlock block = block_around(piece, edge_m, epsilon_m);
+    for (int i = block.min().x() & -kSlabVoxels; i <= block.max().x(); i += kSlabVoxels) {
+      Slab& slab = by_first_i[i];
+      slab.first_i = i;
+      slab.pieces.push_back(&piece);
+      if (piece.solid()) slab.solids.push_back(&piece);
+    }
+  }
+  std::vector<Slab> slabs;
+  slabs.reserve(by_first_i.size());
+  for (auto& [first_i, slab] : by_first_i) slabs.push_back(std::move(slab));
+  return slabs;
 }
 
 void Voxeliser::voxelise(const PreparedShape& piece, const VoxelBlock& within,
@@ -63,8 +92,8 @@ void Voxeliser::voxelise(const PreparedShape& piece, const VoxelBlock& within,
                          std::vector<PieceVoxel>& voxels) {
   piece_ = &piece;
   voxels_ = &voxels;
-  const VoxelBlock block = common(block_around(piece, edge_m_, epsilon_m_), within);
-  if (empty(block)) return;
+  const VoxelBlock block = block_around(piece, edge_m_, epsilon_m_).intersection(within);
+  if (block.isEmpty()) return;
   const Box box = box_of(block, epsilon_m_ + kBlockMargin_m);
   others_.clear();
   for (const PreparedShape* solid : solids) {
@@ -76,8 +105,7 @@ void Voxeliser::voxelise(const PreparedShape& piece, const VoxelBlock& within,
 }
 
 void Voxeliser::descend(const VoxelBlock& block, std::size_t first_other) {
-  const Eigen::Vector3i span{block.high.i - block.low.i, block.high.j - block.low.j,
-                             block.high.k - block.low.k};
+  const Eigen::Vector3i span = block.sizes();
   int axis = 0;
   const bool one_voxel = span.maxCoeff(&axis) == 0;
   const Box box = box_of(block, epsilon_m_ + kBlockMargin_m);
@@ -87,14 +115,11 @@ void Voxeliser::descend(const VoxelBlock& block, std::size_t first_other) {
   if (buried) {
     // nothing of it stays
   } else if (one_voxel) {
-    settle(block.low, first);
+    settle(block, first);
   } else {
-    const auto index = [axis](VoxelKey& key) -> std::int32_t& {
-      return axis == 0 ? key.i : axis == 1 ? key.j : key.k;
-    };
     VoxelBlock lower = block, upper = block;
-    index(lower.high) = index(lower.low) + span[axis] / 2;
-    index(upper.low) = index(lower.high) + 1;
+    lower.max()[axis] = block.min()[axis] + span[axis] / 2;
+    upper.min()[axis] = lower.max()[axis] + 1;
     descend(lower, first);
     descend(upper, first);
   }
@@ -102,16 +127,17 @@ void Voxeliser::descend(const VoxelBlock& block, std::size_t first_other) {
 }
 
 /// Decides one voxel.
-void Voxeliser::settle(const VoxelKey& key, std::size_t first_other) {
-  const Box cube = box_of({key, key}, epsilon_m_);
+void Voxeliser::settle(const VoxelBlock& voxel, std::size_t first_other) {
+  const Box cube = box_of(voxel, epsilon_m_);
   if (!meets_surface(*piece_, cube)) return;
   const std::span others(others_.data() + first_other, others_.size() - first_other);
   if (!others.empty() && fate_of(cube, others) != Fate::exposed &&
       !any_stays(*piece_, cube, others, 1)) {
     return;
   }
-  const bool meets = open_meets_surface(*piece_, box_of({key, key}, 0));
-  voxels_->push_back({key, !meets});
+  const bool meets = open_meets_surface(*piece_, box_of(voxel, 0));
+  const Eigen::Vector3i& at = voxel.min();
+  voxels_->push_back({{at.x(), at.y(), at.z()}, !meets});
 }
 
 /// Pushes the candidates of [first, last) whose bounds meet the box; true when one of them holds
@@ -127,8 +153,8 @@ bool Voxeliser::push_others(const Box& box, std::size_t first, std::size_t last)
 }
 
 Box Voxeliser::box_of(const VoxelBlock& block, double margin_m) const {
-  const VoxelKey past{block.high.i + 1, block.high.j + 1, block.high.k + 1};
-  return widened({low_corner_of(block.low, edge_m_), low_corner_of(past, edge_m_)}, margin_m);
+  const Vector3d low = block.min().cast<double>(), past = block.max().cast<double>().array() + 1.0;
+  return widened({low * edge_m_, past * edge_m_}, margin_m);
 }
 
 }  // namespace mapscore::eval

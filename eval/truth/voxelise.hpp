@@ -5,12 +5,42 @@
 
 #include "core/geometry/voxel.hpp"
 #include "eval/truth/shapes/shape_tests.hpp"
-#include "eval/truth/voxel_slabs.hpp"
 
+#include <Eigen/Geometry>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace mapscore::eval {
+
+/// A box of voxels by their indices, both corners included.
+using VoxelBlock = Eigen::AlignedBox3i;
+
+/// All voxels whose closed cube, widened by `epsilon_m`, could meet the piece. Throws Error when it
+/// reaches beyond 2^20 voxels from the origin.
+[[nodiscard]] VoxelBlock block_around(const PreparedShape& piece, double edge_m, double epsilon_m);
+
+/// Thin enough to keep threads even and the slab in the processor's cache.
+inline constexpr std::int32_t kSlabVoxels = 8;
+
+/// The voxels with first_i <= i < first_i + kSlabVoxels, as a unit of work, and the pieces that
+/// could meet one of them. A truth's rows are sorted by i first, so slabs can be voxelised, sorted
+/// and packed one by one; appended in order, their rows are sorted as a whole.
+struct Slab {
+  std::int32_t first_i = 0;
+  std::vector<const PreparedShape*> pieces;  ///< in their order
+  std::vector<const PreparedShape*> solids;  ///< those of them that have an inside
+
+  [[nodiscard]] VoxelBlock block() const {
+    constexpr int kBeyond = 1 << 20;
+    return {Eigen::Vector3i(first_i, -kBeyond, -kBeyond),
+            Eigen::Vector3i(first_i + kSlabVoxels - 1, kBeyond, kBeyond)};
+  }
+};
+
+/// The slabs that hold something, by rising i. Keeps pointers to `pieces`. Throws as block_around.
+[[nodiscard]] std::vector<Slab> slabs_of(const std::vector<PreparedShape>& pieces, double edge_m,
+                                         double epsilon_m);
 
 /// A voxel of one piece's surface; `touch_only` when its open, unwidened cube misses the piece.
 struct PieceVoxel {
@@ -31,18 +61,16 @@ struct PieceVoxel {
 /// Holds scratch memory: one per thread.
 class Voxeliser {
  public:
-  Voxeliser(double edge_m, double epsilon_m);
+  Voxeliser(double edge_m, double epsilon_m) : edge_m_(edge_m), epsilon_m_(epsilon_m) {}
 
-  /// Appends the voxels of `piece` in the slab that stay, each once, in no promised order.
-  void voxelise(const PreparedShape& piece, const Slab& slab, std::vector<PieceVoxel>& voxels);
-
-  /// The same for a block of voxels. `solids`: all that could meet one of them.
+  /// Appends the voxels of `piece` in the block that stay, each once, in no promised order.
+  /// `solids`: all that could meet one of the block.
   void voxelise(const PreparedShape& piece, const VoxelBlock& within,
                 std::span<const PreparedShape* const> solids, std::vector<PieceVoxel>& voxels);
 
  private:
   void descend(const VoxelBlock& block, std::size_t first_other);
-  void settle(const VoxelKey& key, std::size_t first_other);
+  void settle(const VoxelBlock& voxel, std::size_t first_other);
   bool push_others(const Box& box, std::size_t first, std::size_t last);
   Box box_of(const VoxelBlock& block, double margin_m) const;
 

@@ -6,7 +6,6 @@
 #include "core/geometry/camera.hpp"
 #include "core/parameters.hpp"
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <string_view>

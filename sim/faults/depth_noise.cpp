@@ -6,10 +6,9 @@
 #include "core/error.hpp"
 #include "core/random_stream.hpp"
 #include "sim/faults/depth_geometry.hpp"
-#include "sim/faults/depth_returns.hpp"
-#include "sim/faults/projector_shadow.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -32,6 +31,52 @@ struct Seen {
   cv::Mat1d z_m;
   cv::Mat1f incidence_rad;
 };
+
+// One draw, or pair of draws, for each pixel in row-major order, whatever the pixel holds.
+
+/// Takes the return (z = 0) of each pixel with the chance min(1, grazing * grazing_loss(angle)).
+void drop_grazing(Seen& seen, const DepthDose& dose, RandomStream stream) {
+  for (int v = 0; v < seen.z_m.rows; ++v)
+    for (int u = 0; u < seen.z_m.cols; ++u)
+      if (stream.uniform() < dose.grazing * grazing_loss(dose, seen.incidence_rad(v, u)))
+        seen.z_m(v, u) = 0.0;
+}
+
+/// Depth across the largest step beside pixel (u, v), or 0.
+double across_step(const cv::Mat1d& z_m, int u, int v, const StepRule& rule) {
+  const cv::Rect image({0, 0}, z_m.size());
+  const double here = z_m(v, u);
+  double across = 0.0, largest = 0.0;
+  for (const cv::Point& offset : std::array<cv::Point, 4>{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}}) {
+    const cv::Point other = cv::Point(u, v) + offset;
+    if (!image.contains(other)) continue;
+    const double there = z_m(other);
+    if (there == 0.0 || !rule.is_step(here, there)) continue;
+    const double size = std::abs(1.0 / here - 1.0 / there);
+    if (size <= largest) continue;
+    largest = size;
+    across = there;
+  }
+  return across;
+}
+
+/// A pixel with a return and a neighbour (of four) across a step of the noise-free image reports,
+/// with the chance min(1, flying * flying_share), the mix z + m (z_neighbour - z), m uniform in [0,
+/// 1); of several the neighbour across the largest step in 1/z, ties to the order left, right,
+/// above, below.
+void add_flying_pixels(cv::Mat1d& z_m, const cv::Mat1d& noise_free_m, const CameraModel& camera,
+                       const DepthDose& dose, RandomStream stream) {
+  const StepRule rule(camera);
+  for (int v = 0; v < z_m.rows; ++v) {
+    for (int u = 0; u < z_m.cols; ++u) {
+      const double chance = stream.uniform(), mix = stream.uniform();
+      double& z = z_m(v, u);
+      if (z == 0.0 || chance >= dose.flying * dose.flying_share) continue;
+      const double across = across_step(noise_free_m, u, v, rule);
+      if (across > 0.0) z += mix * (across - z);
+    }
+  }
+}
 
 /// Each pixel reports what the pixel sees that lies a whole-number draw of N(0, sigma) away.
 Seen displaced(const Seen& seen, const DepthDose& dose, RandomStream stream) {
@@ -131,7 +176,7 @@ cv::Mat1w corrupt_depth(const cv::Mat1w& depth, const CameraModel& camera, const
             needs_angles ? incidence_angles(noise_free_m, camera) : cv::Mat1f(depth.size(), 0.0F)};
   if (dose.shadow > 0.0)
     seen.z_m.setTo(0.0, projector_shadow(noise_free_m, camera, dose.shadow * dose.baseline_m));
-  if (dose.grazing > 0.0) drop_grazing(seen.z_m, seen.incidence_rad, dose, stream("depth.grazing"));
+  if (dose.grazing > 0.0) drop_grazing(seen, dose, stream("depth.grazing"));
   if (dose.flying > 0.0)
     add_flying_pixels(seen.z_m, noise_free_m, camera, dose, stream("depth.flying"));
   if (dose.lateral > 0.0) seen = displaced(seen, dose, stream("depth.lateral"));

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/geometry/camera.hpp"
-#include "sim/faults/depth_dose.hpp"
+#include "sim/faults/image_doses.hpp"
 
 #include <opencv2/core.hpp>
 

@@ -4,8 +4,6 @@
 #include "sim/faults/label_noise.hpp"
 
 #include "core/random_stream.hpp"
-#include "sim/faults/ragged_field.hpp"
-#include "sim/faults/random_discs.hpp"
 
 #include <opencv2/imgproc.hpp>
 
@@ -21,10 +19,86 @@ constexpr double kFarthest = 4.0;
 /// What is drawn of one frame.
 struct Draws {
   std::uint64_t seed, frame;
-  [[nodiscard]] RandomStream stream(std::string_view purpose, InstanceId id) const {
-    return {seed, purpose, {frame, id}};
-  }
 };
+
+/// Nodes 0 .. count - 1 of one row of the lattice.
+std::vector<double> node_row(const Draws& draws, InstanceId id, int row, int count) {
+  RandomStream stream(draws.seed, "labels.ragged",
+                      {draws.frame, id, static_cast<std::uint64_t>(row)});
+  std::vector<double> nodes;
+  for (int i = 0; i < count; ++i) nodes.push_back(stream.normal());
+  return nodes;
+}
+
+/// A random field over the pixels of `window`, standard normal at every pixel and smooth over
+/// `pitch_px`: standard normals at the nodes of a lattice anchored at pixel (0, 0), interpolated
+/// bilinearly with weights of unit sum of squares. The draws are fixed by (seed, "labels.ragged",
+/// frame, instance) and the node's place. `window` lies in the image.
+cv::Mat1f ragged_field(const cv::Rect& window, double pitch_px, const Draws& draws, InstanceId id) {
+  cv::Mat1f field(window.size());
+  const int columns = static_cast<int>(window.br().x / pitch_px) + 2;
+  std::vector<double> above, below;
+  int above_row = -1;
+  for (int v = 0; v < window.height; ++v) {
+    const double y = (window.y + v) / pitch_px, fy = y - std::floor(y);
+    const int row = static_cast<int>(y);
+    if (row != above_row) {
+      above = node_row(draws, id, row, columns);
+      below = node_row(draws, id, row + 1, columns);
+      above_row = row;
+    }
+    for (int u = 0; u < window.width; ++u) {
+      const double x = (window.x + u) / pitch_px, fx = x - std::floor(x);
+      const auto i = static_cast<std::size_t>(x);
+      const double sum = (1 - fy) * ((1 - fx) * above[i] + fx * above[i + 1]) +
+                         fy * ((1 - fx) * below[i] + fx * below[i + 1]);
+      const double squares = ((1 - fy) * (1 - fy) + fy * fy) * ((1 - fx) * (1 - fx) + fx * fx);
+      field(v, u) = static_cast<float>(sum / std::sqrt(squares));
+    }
+  }
+  return field;
+}
+
+/// Makes rows and columns left of and above the image whole numbers from 0.
+constexpr int kOrigin = 1 << 20;
+
+std::vector<cv::Point> disc_of(double radius_px) {
+  const int reach = static_cast<int>(radius_px);
+  std::vector<cv::Point> disc;
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx)
+      if (dx * dx + dy * dy <= radius_px * radius_px) disc.emplace_back(dx, dy);
+  return disc;
+}
+
+/// 255 on the pixels of `window` that random discs cover; of the window's size. Every pixel of the
+/// plane is the centre of a disc (dx^2 + dy^2 <= radius^2, n pixels) with the chance 1 - (1 -
+/// share)^(1/n), so that every pixel is covered with the chance `share`, 0 to 1. A centre's draw is
+/// fixed by (seed, purpose, frame, instance) and its place: it depends on neither window nor share.
+/// Row and column of the window are above -2^20.
+cv::Mat1b random_discs(const cv::Rect& window, double share, double radius_px, const Draws& draws,
+                       std::string_view purpose, InstanceId id) {
+  cv::Mat1b covered(window.size(), std::uint8_t{0});
+  if (share <= 0.0) return covered;
+  const std::vector<cv::Point> disc = disc_of(radius_px);
+  const double chance =
+      share >= 1.0 ? 1.0 : 1.0 - std::pow(1.0 - share, 1.0 / static_cast<double>(disc.size()));
+  const cv::Rect inside({0, 0}, window.size());
+  const int reach = static_cast<int>(radius_px);
+  for (int v = -reach; v < window.height + reach; ++v) {
+    RandomStream row(draws.seed, purpose,
+                     {draws.frame, id, static_cast<std::uint64_t>(kOrigin + window.y + v)});
+    row.skip(static_cast<std::uint64_t>(kOrigin + window.x - reach));
+    for (int u = -reach; u < window.width + reach; ++u) {
+      if (row.uniform() >= chance) continue;
+      for (const cv::Point& offset : disc) {
+        const cv::Point pixel = cv::Point(u, v) + offset;
+        if (inside.contains(pixel)) covered(pixel) = 255;
+      }
+    }
+  }
+  return covered;
+}
 
 cv::Rect rect_of(const PixelBox& box) {
   return {box.u_min, box.v_min, box.width(), box.height()};
@@ -112,8 +186,8 @@ void move_boundary(const Detection& detection, const cv::Mat1w& truth, const Lab
   cv::Mat1f margin = signed_distance(truth(window) == detection.instance);
   margin += dose.boundary_px;
   if (dose.ragged_px > 0.0)
-    margin += dose.ragged_px * ragged_field(window, dose.ragged_length_px, draws.seed, draws.frame,
-                                            detection.instance);
+    margin +=
+        dose.ragged_px * ragged_field(window, dose.ragged_length_px, draws, detection.instance);
   canvas.redraw(truth, detection.instance, window, margin);
 }
 
@@ -122,8 +196,8 @@ void cut_holes(const Detection& detection, const cv::Mat1w& truth, const LabelDo
   const double grown_px = std::max(0.0, dose.boundary_px) + kFarthest * dose.ragged_px;
   const cv::Rect window = widened(detection, grown_px, truth.size());
   canvas.cut(detection.instance, window,
-             random_discs(window, dose.holes, dose.disc_radius_px,
-                          {draws.seed, "labels.holes", draws.frame, detection.instance}));
+             random_discs(window, dose.holes, dose.disc_radius_px, draws, "labels.holes",
+                          detection.instance));
 }
 
 void add_islands(const Detection& detection, const cv::Mat1w& truth, const LabelDose& dose,
@@ -132,10 +206,9 @@ void add_islands(const Detection& detection, const cv::Mat1w& truth, const Label
   const cv::Mat1f distance = signed_distance(truth(window) == detection.instance);
   const cv::Mat1b around =
       (distance >= -dose.island_reach_px) & (distance <= -0.25 * dose.island_reach_px);
-  canvas.add(
-      detection.instance, window,
-      around & random_discs(window, dose.islands, dose.disc_radius_px,
-                            {draws.seed, "labels.islands", draws.frame, detection.instance}));
+  canvas.add(detection.instance, window,
+             around & random_discs(window, dose.islands, dose.disc_radius_px, draws,
+                                   "labels.islands", detection.instance));
 }
 
 }  // namespace
@@ -152,12 +225,14 @@ cv::Mat1w corrupt_labels(const cv::Mat1w& label, const ClassTable& table, const 
   Canvas canvas(label, table);
   std::vector<Detection> kept;
   for (const Detection& detection : detections_of(label, table)) {
-    const double chance = draws.stream("labels.miss", detection.instance).uniform();
-    const bool missed = chance < miss_chance(dose, cv::countNonZero(detection.mask));
-    if (missed) canvas.miss(detection);
-    if (!missed) kept.push_back(detection);
+    RandomStream stream(seed, "labels.miss", {draws.frame, detection.instance});
+    if (stream.uniform() < miss_chance(dose, cv::countNonZero(detection.mask))) {
+      canvas.miss(detection);
+    } else {
+      canvas.own(detection);
+      kept.push_back(detection);
+    }
   }
-  for (const Detection& detection : kept) canvas.own(detection);
   if (dose.boundary_px != 0.0 || dose.ragged_px > 0.0)
     for (const Detection& detection : kept) move_boundary(detection, label, dose, draws, canvas);
   if (dose.holes > 0.0)

@@ -5,7 +5,7 @@
 
 #include "core/classes.hpp"
 #include "core/segmentation/detection.hpp"
-#include "sim/faults/label_dose.hpp"
+#include "sim/faults/image_doses.hpp"
 
 #include <opencv2/core.hpp>
 

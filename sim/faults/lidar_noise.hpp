@@ -36,18 +36,13 @@ struct LidarNoise {
   }
 
   static void fields(auto& s, auto&& visit) {
-    visit(s.sigma_m, Field{.key = "sigma_m",
-                           .meaning = "standard deviation of a range, the part that does not grow",
-                           .range = {0, 10},
-                           .dose = true});
-    visit(s.sigma_per_metre, Field{.key = "sigma_per_metre",
-                                   .meaning = "standard deviation of a range by the range",
-                                   .range = {0, 1},
-                                   .dose = true});
-    visit(s.dropout_rate, Field{.key = "dropout_rate",
-                                .meaning = "share of beams without a measurement",
-                                .range = {0, 1},
-                                .dose = true});
+    const auto dose = [&](auto& member, std::string_view key, std::string_view meaning,
+                          double most) {
+      visit(member, Field{.key = key, .meaning = meaning, .range = {0, most}, .dose = true});
+    };
+    dose(s.sigma_m, "sigma_m", "standard deviation of a range, the part that does not grow", 10);
+    dose(s.sigma_per_metre, "sigma_per_metre", "standard deviation of a range by the range", 1);
+    dose(s.dropout_rate, "dropout_rate", "share of beams without a measurement", 1);
   }
   bool operator==(const LidarNoise&) const = default;
 };

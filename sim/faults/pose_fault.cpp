@@ -18,19 +18,14 @@ Pose draw_error(const Covariance6& root, std::uint64_t seed, std::size_t frame) 
 
 /// Covariance of scale 1.
 Covariance6 unit_covariance(const PoseNoise& noise) {
-  Covariance6 covariance = Covariance6::Zero();
-  if (noise.covariance_m_rad) {
-    for (int row = 0; row < 6; ++row)
-      for (int column = 0; column < 6; ++column)
-        covariance(row, column) = noise.covariance_m_rad->at(row).at(column);
-    return covariance;
-  }
+  using RowMajor6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  if (noise.covariance_m_rad)
+    return Eigen::Map<const RowMajor6>(noise.covariance_m_rad->front().data());
   const double tilt = noise.sigma_roll_pitch_deg.rad();
   Vector6 sigma;
   sigma << noise.sigma_xy_m, noise.sigma_xy_m, noise.sigma_z_m, tilt, tilt,
       noise.sigma_yaw_deg.rad();
-  covariance.diagonal() = sigma.cwiseAbs2();
-  return covariance;
+  return sigma.cwiseAbs2().asDiagonal();
 }
 
 }  // namespace

@@ -9,21 +9,10 @@
 #include "sim/world/shape_bounds.hpp"
 #include "sim/world/surfaces.hpp"
 
-#include <algorithm>
 #include <set>
 
 namespace mapscore::sim {
 namespace {
-
-std::string name_of_body(const mjModel& model, int body) {
-  const char* name = mj_id2name(&model, mjOBJ_BODY, body);
-  return name ? name : "";
-}
-
-bool infinite(const mjModel& model, int geom) {
-  const mjtNum* size = model.geom_size + 3 * geom;
-  return model.geom_type[geom] == mjGEOM_PLANE && (size[0] <= 0 || size[1] <= 0);
-}
 
 /// Nothing shines: the headlight is off and every light is missing or off.
 bool dark(const mjModel& model) {
@@ -41,7 +30,7 @@ std::vector<BodyEntry> bodies_of(const mjModel& model, const Ownership& ownershi
   std::vector<BodyEntry> bodies(model.nbody);
   for (int body = 0; body < model.nbody; ++body) {
     BodyEntry& entry = bodies[body];
-    entry.name = name_of_body(model, body);
+    entry.name = element_name(model, mjOBJ_BODY, body);
     entry.parent = model.body_parentid[body];
     entry.jointed = model.body_jntnum[body] > 0;
     entry.matched = ownership.owner_of_body[body] >= 0;
@@ -58,12 +47,12 @@ void count_unseen(const mjModel& model, const Ownership& ownership, const DrawnS
     seen.insert(geom.objid);
     if (geom.rgba[3] >= 1.0f || ownership.opaque(body)) continue;
     ++unseen.transparent;
-    names.insert(name_of_body(model, body));
+    names.insert(element_name(model, mjOBJ_BODY, body));
   }
   unseen.transparent_bodies.assign(names.begin(), names.end());
   for (int geom = 0; geom < model.ngeom; ++geom) {
     if (seen.contains(geom)) {
-      unseen.infinite_planes += infinite(model, geom) ? 1 : 0;
+      unseen.infinite_planes += is_infinite_plane(model, geom) ? 1 : 0;
     } else {
       (model.geom_group[geom] > 2 ? unseen.hidden_groups : unseen.invisible) += 1;
     }
@@ -93,7 +82,7 @@ SceneInventory take_inventory(const std::filesystem::path& scene) {
   for (const mjvGeom& geom : solid.geoms) {
     BodyEntry& body = inventory.bodies[model->geom_bodyid[geom.objid]];
     ++body.drawn_geoms;
-    if (!infinite(*model, geom.objid))
+    if (!is_infinite_plane(*model, geom.objid))
       body.bounds.extend(bounds_of(surface_of(*model, *data, geom.objid, scene.string())));
   }
   for (const BodyEntry& body : inventory.bodies) inventory.bounds.extend(body.bounds);

@@ -17,18 +17,16 @@ constexpr double kMostFrames = 1e7;  ///< more than any recording could hold
 void check(const Drive& drive) {
   if (drive.waypoints.empty()) throw Error("trajectory: no waypoints; give at least one");
   const auto positive = [](double value, const char* name) {
-    if (!(value > 0) || !std::isfinite(value)) {
+    if (!(value > 0) || !std::isfinite(value))
       throw Error(std::string("trajectory: ") + name + " must be above 0");
-    }
   };
   positive(drive.speed_mps, "speed_mps");
   positive(drive.turn_rate_radps, "turn_rate");
   positive(drive.frames_per_s, "frames_per_s");
   if (drive.max_frames < 0) throw Error("trajectory: max_frames must be 0 (no limit) or more");
   for (const Drive::Waypoint& w : drive.waypoints) {
-    if (!std::isfinite(w.x_m) || !std::isfinite(w.y_m) || !std::isfinite(w.yaw_rad)) {
+    if (!std::isfinite(w.x_m) || !std::isfinite(w.y_m) || !std::isfinite(w.yaw_rad))
       throw Error("trajectory: waypoints must be finite numbers");
-    }
   }
 }
 
@@ -40,7 +38,7 @@ struct Leg {
   Pose pose_at(double time_s) const {
     const double share =
         duration_s > 0 ? std::clamp((time_s - start_s) / duration_s, 0.0, 1.0) : 1.0;
-    const double turn = std::remainder(to.yaw_rad - from.yaw_rad, 2.0 * M_PI);
+    const double turn = wrapped_angle(to.yaw_rad - from.yaw_rad);
     return planar_pose(from.x_m + share * (to.x_m - from.x_m),
                        from.y_m + share * (to.y_m - from.y_m), from.yaw_rad + share * turn);
   }
@@ -53,7 +51,7 @@ std::vector<Leg> legs_of(const Drive& drive) {
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const auto &from = points[i], &to = points[i + 1];
     const double distance = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
-    const double turn = std::abs(std::remainder(to.yaw_rad - from.yaw_rad, 2.0 * M_PI));
+    const double turn = std::abs(wrapped_angle(to.yaw_rad - from.yaw_rad));
     const double duration = std::max(distance / drive.speed_mps, turn / drive.turn_rate_radps);
     legs.push_back({from, to, time_s, duration});
     time_s += duration;

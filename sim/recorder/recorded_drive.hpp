@@ -3,7 +3,8 @@
 
 #pragma once
 
-#include "sim/world/stamped_pose.hpp"
+#include "core/localization/planar_pose.hpp"
+#include "sim/world/world.hpp"
 
 #include <vector>
 
@@ -12,9 +13,7 @@ namespace mapscore::sim {
 /// Drive along waypoints: position and heading are interpolated linearly, the heading the short
 /// way.
 struct Drive {
-  struct Waypoint {
-    double x_m, y_m, yaw_rad;
-  };
+  using Waypoint = PlanarPose;
   std::vector<Waypoint> waypoints;
   double speed_mps = 0.4;
   double turn_rate_radps = 0.7;

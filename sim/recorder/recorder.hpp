@@ -4,7 +4,6 @@
 #pragma once
 
 #include "core/frame.hpp"
-#include "sim/world/stamped_pose.hpp"
 #include "sim/world/world.hpp"
 
 #include <functional>
@@ -17,14 +16,6 @@ struct RecordOptions {
   bool shadows = false;
 };
 
-/// Renders the frame of every pose, the scene as its motion has it at that stamp, and hands each to
-/// `sink`, which is called from several threads and in any order; frames have the same bytes for
-/// any number of jobs. `progress(done, total)` is called from one thread at a time. An exception of
-/// a worker ends the others and is rethrown.
-void record(const World& world, const std::vector<StampedPose>& poses, const RecordOptions& options,
-            const std::function<void(const Frame&)>& sink,
-            const std::function<void(int, int)>& progress = {});
-
 /// Where the robot stands at each image of either camera.
 struct Streams {
   std::vector<StampedPose> color, depth;
@@ -36,7 +27,10 @@ struct StreamSinks {
   std::function<void(const Frame&)> color, depth;
 };
 
-/// As above, for cameras with rates of their own; `progress` counts images of either.
+/// Renders each image, the scene as its motion has it at that stamp, and hands it to its sink,
+/// which is called from several threads and in any order; images have the same bytes for any number
+/// of jobs. `progress(done, total)` counts images of either camera, from one thread at a time. An
+/// exception of a worker ends the others and is rethrown.
 void record(const World& world, const Streams& streams, const RecordOptions& options,
             const StreamSinks& sinks, const std::function<void(int, int)>& progress = {});
 

@@ -38,9 +38,8 @@ struct Offscreen::Context {
   mjrContext mujoco;
 
   void make_current() {
-    if (!OSMesaMakeCurrent(osmesa.get(), window.data(), GL_UNSIGNED_BYTE, 16, 16)) {
+    if (!OSMesaMakeCurrent(osmesa.get(), window.data(), GL_UNSIGNED_BYTE, 16, 16))
       throw Error("OSMesa: the context cannot be made current; check the Mesa installation");
-    }
   }
 };
 
@@ -57,19 +56,16 @@ Offscreen::Offscreen(const mjModel& model, bool coarse) : context_(std::make_uni
   if (coarse) drawn.vis.quality.numquads = 1;
   mjr_makeContext(&drawn, &context_->mujoco, mjFONTSCALE_50);
   mjr_setBuffer(mjFB_OFFSCREEN, &context_->mujoco);
-  if (context_->mujoco.currentBuffer != mjFB_OFFSCREEN) {
+  if (context_->mujoco.currentBuffer != mjFB_OFFSCREEN)
     throw Error("OpenGL: no off-screen buffer; check the Mesa installation");
-  }
   context_->mujoco.readDepthMap = mjDEPTH_ZEROFAR;
   context_->mujoco.readPixelFormat = GL_BGR;
 }
 
 Offscreen::~Offscreen() {
   const std::scoped_lock lock(opengl_mutex());
-  if (OSMesaMakeCurrent(context_->osmesa.get(), context_->window.data(), GL_UNSIGNED_BYTE, 16,
-                        16)) {
+  if (OSMesaMakeCurrent(context_->osmesa.get(), context_->window.data(), GL_UNSIGNED_BYTE, 16, 16))
     mjr_freeContext(&context_->mujoco);
-  }
   OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);  // before it is destroyed
 }
 

@@ -4,8 +4,8 @@
 #include "sim/render/picture.hpp"
 
 #include "core/error.hpp"
-#include "sim/render/eye.hpp"
-#include "sim/render/scene_buffer.hpp"
+#include "sim/render/scene_view.hpp"
+#include "sim/world/facets.hpp"
 #include "sim/world/shape_bounds.hpp"
 
 #include <fmt/format.h>
@@ -23,13 +23,11 @@ constexpr int kSupersampling = 2;
 constexpr float kLitShare = 0.4f;
 
 void check(const View& view) {
-  if (view.width_px < 1 || view.height_px < 1 || view.vfov_deg <= 0 || view.vfov_deg >= 180) {
+  if (view.width_px < 1 || view.height_px < 1 || view.vfov_deg <= 0 || view.vfov_deg >= 180)
     throw Error(fmt::format("view: {} x {} px, vfov_deg {}: give a size and an angle below 180",
                             view.width_px, view.height_px, view.vfov_deg));
-  }
-  if ((view.target_m - view.eye_m).norm() < 1e-9) {
+  if ((view.target_m - view.eye_m).norm() < 1e-9)
     throw Error("view: eye_m and target_m are the same point; move one");
-  }
 }
 
 CameraModel camera_of(const View& view) {
@@ -63,9 +61,8 @@ std::vector<bool> hidden_classes(const ClassTable& table, const std::vector<std:
   for (const std::string& name : names) {
     const auto found = std::find_if(table.classes.begin(), table.classes.end(),
                                     [&](const SemanticClass& c) { return c.name == name; });
-    if (found == table.classes.end()) {
+    if (found == table.classes.end())
       throw Error(fmt::format("view: hidden_classes: no class `{}` in this scene", name));
-    }
     hidden[found->id] = true;
   }
   return hidden;
@@ -131,13 +128,8 @@ mjvGeom in_class_colour(mjvGeom geom, const SemanticClass& semantic_class) {
 }
 
 mjvGeom box_of(const Cube& cube) {
-  const double half = 0.5 * cube.edge_m;
-  const mjtNum size[3] = {half, half, half};
-  const mjtNum position[3] = {cube.centre_world.x(), cube.centre_world.y(), cube.centre_world.z()};
-  mjtNum rotation[9];
-  for (int i = 0; i < 9; ++i) rotation[i] = cube.R_world_cube(i / 3, i % 3);
-  mjvGeom geom;
-  mjv_initGeom(&geom, mjGEOM_BOX, size, position, rotation, nullptr);
+  mjvGeom geom =
+      box_geom(Eigen::Vector3d::Constant(0.5 * cube.edge_m), cube.centre_world, cube.R_world_cube);
   paint(cube.colour, geom);
   return geom;
 }

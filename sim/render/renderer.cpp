@@ -3,13 +3,9 @@
 
 #include "sim/render/renderer.hpp"
 
-#include "sim/render/eye.hpp"
 #include "sim/render/offscreen.hpp"
 #include "sim/render/picture.hpp"
-#include "sim/render/scene_buffer.hpp"
-#include "sim/world/moving_scene.hpp"
-
-#include <opencv2/core.hpp>
+#include "sim/render/scene_view.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -88,9 +84,8 @@ struct Renderer::State {
       const Eigen::Vector3d centre = Eigen::Map<const Eigen::Vector3f>(geom.pos).cast<double>();
       const bool unbounded = geom.modelrbound <= 0;
       if (unbounded || frustum.may_see(centre, geom.modelrbound) ||
-          (with_shades && shades(frustum, centre, geom))) {
+          (with_shades && shades(frustum, centre, geom)))
         buffer.add(geom);
-      }
     }
     buffer.look_through(gl_camera(camera, T_world_optical));
   }
@@ -102,14 +97,10 @@ struct Renderer::State {
     });
   }
 
-  void draw(const CameraModel& camera) {
-    offscreen.draw(camera.width_px, camera.height_px, buffer.scene());
-  }
-
   cv::Mat3b colour(const CameraModel& camera, const Pose& T_world_optical) {
     look(camera, T_world_optical, shadows);
     buffer.show_colours(shadows);
-    draw(camera);
+    offscreen.draw(camera.width_px, camera.height_px, buffer.scene());
     offscreen.read(pixels);
     cv::Mat3b image;
     cv::flip(pixels, image, 0);
@@ -119,7 +110,7 @@ struct Renderer::State {
   cv::Mat1w ids(const CameraModel& camera, const Pose& T_world_optical, cv::Mat1f* metres) {
     look(camera, T_world_optical, false);
     buffer.show_ids();
-    draw(camera);
+    offscreen.draw(camera.width_px, camera.height_px, buffer.scene());
     offscreen.read(pixels, metres ? &depth_buffer : nullptr);
     if (metres) *metres = metric_depth(depth_buffer, offscreen.depth_scale());
     return instance_ids(pixels);
@@ -138,20 +129,7 @@ Renderer::Renderer(const World& world, bool shadows, bool coarse)
     : state_(std::make_unique<State>(world, shadows, coarse)) {}
 Renderer::~Renderer() = default;
 
-Frame Renderer::render(int index, double stamp_s, const Pose& T_world_base) {
-  const Instant instant{stamp_s, T_world_base};
-  return render(index, instant, instant);
-}
-
-Frame Renderer::render(int index, const Instant& color, const Instant& depth) {
-  Frame frame;
-  frame.index = index;
-  render_color(color, frame);
-  render_depth(depth, frame);
-  return frame;
-}
-
-void Renderer::render_color(const Instant& instant, Frame& frame) {
+void Renderer::render_color(const StampedPose& instant, Frame& frame) {
   const CameraModel& camera = state_->world.calibration().color;
   const Pose T_world_color = state_->T_world_color(instant.T_world_base);
   state_->move_to(instant.stamp_s);
@@ -159,7 +137,7 @@ void Renderer::render_color(const Instant& instant, Frame& frame) {
   frame.label = state_->ids(camera, T_world_color, nullptr);
 }
 
-void Renderer::render_depth(const Instant& instant, Frame& frame) {
+void Renderer::render_depth(const StampedPose& instant, Frame& frame) {
   const Calibration& calibration = state_->world.calibration();
   state_->move_to(instant.stamp_s);
   frame.stamp_s = instant.stamp_s;

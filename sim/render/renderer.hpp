@@ -9,7 +9,6 @@
 
 #include <opencv2/core.hpp>
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -40,12 +39,6 @@ struct View {
   bool open_ceiling = false;
 };
 
-/// When a camera looks, and where the robot stands then.
-struct Instant {
-  double stamp_s = 0.0;
-  Pose T_world_base = Pose::Identity();
-};
-
 /// Off-screen renderer of one world on OSMesa: one context, used by one thread (the one that made
 /// it). Renders repeat bit for bit, also between contexts of different threads.
 class Renderer {
@@ -57,19 +50,12 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Renders both cameras of the robot standing at `T_world_base`: colour and instance ids from the
-  /// colour camera; depth (16-bit, out of range = 0) and instance ids from the depth camera.
-  [[nodiscard]] Frame render(int index, double stamp_s, const Pose& T_world_base);
-
-  /// The colour camera's side (color, label) at one instant, the depth camera's (depth,
-  /// depth_label) at another, each with the scene's configuration of that instant. Stamp and pose
-  /// of the frame are the depth's.
-  [[nodiscard]] Frame render(int index, const Instant& color, const Instant& depth);
-
-  /// One side alone: fills `color` and `label`.
-  void render_color(const Instant& instant, Frame& frame);
-  /// One side alone: fills `depth` and `depth_label`, stamp and pose.
-  void render_depth(const Instant& instant, Frame& frame);
+  /// The colour camera's side of a frame, the robot and the scene as they stand at an instant:
+  /// fills `color` and `label` (instance ids).
+  void render_color(const StampedPose& instant, Frame& frame);
+  /// The depth camera's side: fills `depth` (16-bit, out of range = 0) and `depth_label` (instance
+  /// ids), stamp and pose.
+  void render_depth(const StampedPose& instant, Frame& frame);
 
   /// Planar depth in metres before it is stored (float, 0 = none beyond the far plane), at the pose
   /// of loading, for tests.

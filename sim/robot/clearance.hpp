@@ -3,13 +3,14 @@
 
 #pragma once
 
+#include "sim/recorder/recorded_drive.hpp"
 #include "sim/robot/drive_model.hpp"
-#include "sim/robot/waypoint_controller.hpp"
 
 #include <mujoco/mujoco.h>
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mapscore::sim {
 
@@ -30,11 +31,11 @@ class Clearance {
   explicit Clearance(const DriveModel& drive);
 
   /// The deepest obstacle of the robot that stands upright at a place on the floor z = `floor_m`.
-  [[nodiscard]] std::optional<Obstacle> obstacle_at(const PlanarState& place, double floor_m = 0.0);
+  [[nodiscard]] std::optional<Obstacle> obstacle_at(const PlanarPose& place, double floor_m = 0.0);
 
   /// Height of the higher of the floors under the two wheels, looked for within 6 cm above and 4 cm
   /// below z = 0; nothing where a wheel has none.
-  [[nodiscard]] std::optional<double> floor_at(const PlanarState& place);
+  [[nodiscard]] std::optional<double> floor_at(const PlanarPose& place);
 
  private:
   std::optional<double> floor_below(double x_m, double y_m);
@@ -42,5 +43,20 @@ class Clearance {
   const DriveModel& drive_;
   DataPtr data_;
 };
+
+/// `waypoint 3 (2.100, 1.500 m)`, counted from 1.
+[[nodiscard]] std::string waypoint_text(const std::vector<Drive::Waypoint>& waypoints,
+                                        std::size_t index);
+
+/// Throws Error when the robot would stand in something at a waypoint, or has no floor there, or
+/// when something stands in the way of a straight leg, sampled every 2 cm. `start_only`: looks at
+/// the first waypoint alone.
+void check_way(const std::vector<Drive::Waypoint>& waypoints, bool start_only,
+               Clearance& clearance);
+
+/// The Error of a leg that something blocks, seen from where the robot then is. `target`: the
+/// waypoint it leads to.
+[[noreturn]] void refuse_blocked(const std::vector<Drive::Waypoint>& waypoints, std::size_t target,
+                                 const Obstacle& obstacle, const char* what);
 
 }  // namespace mapscore::sim

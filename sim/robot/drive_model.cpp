@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 
 namespace mapscore::sim {
@@ -73,64 +73,47 @@ ModelPtr compile(mjSpec* spec, const std::string& file) {
 }
 
 /// Looks up what the drive needs in the compiled robot; throws naming what is missing.
-class RobotParts {
- public:
-  RobotParts(const mjModel& model, std::string file) : model_(model), file_(std::move(file)) {}
-
-  int id(mjtObj type, const char* kind, const char* name) const {
-    const int found = mj_name2id(&model_, type, name);
+void find_parts(const std::string& file, DriveModel& drive) {
+  const mjModel& model = *drive.model;
+  const auto id_of = [&](mjtObj type, const char* kind, const char* name) {
+    const int found = mj_name2id(&model, type, name);
     if (found < 0)
       throw Error(
           fmt::format("{}: no {} `{}`; a robot that drives needs it, or leave the drive "
                       "kinematic",
-                      file_, kind, name));
+                      file, kind, name));
     return found;
-  }
-
-  GeomRole role(int geom) const {
-    const char* name = mj_id2name(&model_, mjOBJ_GEOM, geom);
-    const std::string text = name ? name : "";
-    if (model_.geom_contype[geom] == 0 && model_.geom_conaffinity[geom] == 0) return GeomRole::none;
-    if (text == kWheels[0] || text == kWheels[1]) return GeomRole::wheel;
-    if (text.starts_with("caster")) return GeomRole::caster;
-    if (text.empty())
-      throw Error(fmt::format("{}: a geom that collides has no name; name it", file_));
-    return GeomRole::bump;
-  }
-
-  WheelGeometry wheels(const std::array<int, 2>& joints, const std::array<int, 2>& geoms) const {
-    const mjtNum* left = model_.body_pos + 3 * model_.jnt_bodyid[joints[0]];
-    const mjtNum* right = model_.body_pos + 3 * model_.jnt_bodyid[joints[1]];
-    const double radius_m = model_.geom_size[3 * geoms[0]];
-    if (radius_m != model_.geom_size[3 * geoms[1]] || left[2] != right[2])
-      throw Error(fmt::format("{}: the wheels differ in size or height; make them alike", file_));
-    return {radius_m, std::abs(left[1] - right[1])};
-  }
-
- private:
-  const mjModel& model_;
-  std::string file_;
-};
-
-void find_parts(const std::string& file, DriveModel& drive) {
-  const mjModel& model = *drive.model;
-  const RobotParts parts(model, file);
-  drive.base_body = parts.id(mjOBJ_BODY, "body", "base_footprint");
+  };
+  drive.base_body = id_of(mjOBJ_BODY, "body", "base_footprint");
   drive.base_qpos = model.jnt_qposadr[model.body_jntadr[drive.base_body]];
-  std::array<int, 2> joint{};
+  std::array<const mjtNum*, 2> position{};
+  std::array<double, 2> radius_m{};
   for (int side = 0; side < 2; ++side) {
-    joint[side] = parts.id(mjOBJ_JOINT, "hinge joint", kWheels[side]);
-    drive.wheel_qpos[side] = model.jnt_qposadr[joint[side]];
-    drive.wheel_actuator[side] = parts.id(mjOBJ_ACTUATOR, "velocity actuator", kWheels[side]);
-    drive.wheel_geom[side] = parts.id(mjOBJ_GEOM, "geom", kWheels[side]);
+    const int joint = id_of(mjOBJ_JOINT, "hinge joint", kWheels[side]);
+    drive.wheel_qpos[side] = model.jnt_qposadr[joint];
+    drive.wheel_actuator[side] = id_of(mjOBJ_ACTUATOR, "velocity actuator", kWheels[side]);
+    drive.wheel_geom[side] = id_of(mjOBJ_GEOM, "geom", kWheels[side]);
+    position[side] = model.body_pos + 3 * model.jnt_bodyid[joint];
+    radius_m[side] = model.geom_size[3 * drive.wheel_geom[side]];
   }
-  drive.wheels = parts.wheels(joint, drive.wheel_geom);
+  if (radius_m[0] != radius_m[1] || position[0][2] != position[1][2])
+    throw Error(fmt::format("{}: the wheels differ in size or height; make them alike", file));
+  drive.wheels = {radius_m[0], std::abs(position[0][1] - position[1][1])};
+}
+
+/// Of a geom of the robot.
+GeomRole role_of(const mjModel& model, int geom, const std::string& file) {
+  const std::string name = element_name(model, mjOBJ_GEOM, geom);
+  if (model.geom_contype[geom] == 0 && model.geom_conaffinity[geom] == 0) return GeomRole::none;
+  if (name == kWheels[0] || name == kWheels[1]) return GeomRole::wheel;
+  if (name.starts_with("caster")) return GeomRole::caster;
+  if (name.empty()) throw Error(fmt::format("{}: a geom that collides has no name; name it", file));
+  return GeomRole::bump;
 }
 
 void assign_roles(const std::vector<Collider>& colliders, const std::string& file,
                   DriveModel& drive) {
   const mjModel& model = *drive.model;
-  const RobotParts parts(model, file);
   drive.role.assign(model.ngeom, GeomRole::none);
   drive.scene_body.assign(model.ngeom, "");
   for (const Collider& collider : colliders) {
@@ -139,7 +122,7 @@ void assign_roles(const std::vector<Collider>& colliders, const std::string& fil
     drive.scene_body[geom] = collider.body_name;
   }
   for (int geom = 0; geom < model.ngeom; ++geom)
-    if (model.geom_bodyid[geom] != 0) drive.role[geom] = parts.role(geom);
+    if (model.geom_bodyid[geom] != 0) drive.role[geom] = role_of(model, geom, file);
 }
 
 /// Rays look for group 0.
@@ -166,6 +149,13 @@ DriveModel make_drive_model(const World& world, const std::filesystem::path& rob
   hide_robot_from_rays(drive.role, *drive.model);
   hide_robot_from_rays(drive.role, *drive.probe);
   return drive;
+}
+
+void stand_upright(const DriveModel& drive, const PlanarPose& place, double z_m, mjData& data) {
+  const double half = 0.5 * place.yaw_rad;
+  const std::array<double, 7> pose = {place.x_m, place.y_m, z_m,           std::cos(half),
+                                      0.0,       0.0,       std::sin(half)};
+  std::ranges::copy(pose, data.qpos + drive.base_qpos);
 }
 
 }  // namespace mapscore::sim

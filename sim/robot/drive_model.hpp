@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "core/localization/planar_pose.hpp"
 #include "sim/robot/odometry.hpp"
 #include "sim/world/mujoco_session.hpp"
 #include "sim/world/world.hpp"
@@ -39,5 +40,9 @@ struct DriveModel {
 /// what it lacks.
 [[nodiscard]] DriveModel make_drive_model(const World& world, const std::filesystem::path& robot,
                                           double clearance_m);
+
+/// Puts the robot upright at a place of the world, its base at z = `z_m`; kinematics are to be
+/// done.
+void stand_upright(const DriveModel& drive, const PlanarPose& place, double z_m, mjData& data);
 
 }  // namespace mapscore::sim

@@ -4,7 +4,7 @@
 #include "sim/robot/drive_physics.hpp"
 
 #include "core/error.hpp"
-#include "sim/world/mujoco_pose.hpp"
+#include "sim/world/mujoco_session.hpp"
 
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
@@ -20,15 +20,9 @@ constexpr double kTippedRad = 0.35, kFallenM = -0.1;
 
 }  // namespace
 
-DrivePhysics::DrivePhysics(const DriveModel& drive)
-    : drive_(drive), data_(mj_makeData(drive.model.get())) {}
-
-void DrivePhysics::settle(const PlanarState& start, double floor_m) {
+void DrivePhysics::settle(const PlanarPose& start, double floor_m) {
   mj_resetData(drive_.model.get(), data_.get());
-  const double half = 0.5 * start.yaw_rad;
-  const std::array<double, 7> pose = {start.x_m, start.y_m, floor_m + kDropM, std::cos(half),
-                                      0.0,       0.0,       std::sin(half)};
-  std::copy(pose.begin(), pose.end(), data_->qpos + drive_.base_qpos);
+  stand_upright(drive_, start, floor_m + kDropM, *data_);
   ramp_steps_ = 0;
   const int steps = static_cast<int>(std::lround(kSettleS / step_s()));
   for (int i = 0; i < steps; ++i) step();
@@ -109,25 +103,11 @@ std::optional<Obstacle> DrivePhysics::touched() const {
   return obstacle_of(drive_, *most);
 }
 
-double DrivePhysics::time_s() const {
-  return static_cast<double>(steps_) * step_s();
-}
-
-double DrivePhysics::step_s() const {
-  return drive_.model->opt.timestep;
-}
-
 Pose DrivePhysics::T_world_base() const {
   const mjtNum* pose = data_->qpos + drive_.base_qpos;
   mjtNum rotation[9];
   mju_quat2Mat(rotation, pose + 3);
   return pose_of(pose, rotation);
-}
-
-PlanarState DrivePhysics::planar() const {
-  const Pose pose = T_world_base();
-  const Eigen::Vector3d ahead = pose.linear().col(0);
-  return {pose.translation().x(), pose.translation().y(), std::atan2(ahead.y(), ahead.x())};
 }
 
 WheelTicks DrivePhysics::ticks(int ticks_per_turn) const {

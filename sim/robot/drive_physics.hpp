@@ -24,11 +24,12 @@ struct DriveHealth {
 /// The robot in motion: one state of a DriveModel, stepped. Not thread-safe.
 class DrivePhysics {
  public:
-  explicit DrivePhysics(const DriveModel& drive);
+  explicit DrivePhysics(const DriveModel& drive)
+      : drive_(drive), data_(mj_makeData(drive.model.get())) {}
 
   /// Stands the robot upright on the floor at `floor_m` and lets it settle for a second; time and
   /// wheel angles then count from here.
-  void settle(const PlanarState& start, double floor_m);
+  void settle(const PlanarPose& start, double floor_m);
 
   /// Turns a command of the base into wheel speeds, which the motors get to evenly over the `steps`
   /// that follow: a jump would make the wheels spin.
@@ -37,10 +38,10 @@ class DrivePhysics {
   /// falls.
   void step();
 
-  [[nodiscard]] double time_s() const;
-  [[nodiscard]] double step_s() const;
+  [[nodiscard]] double time_s() const { return static_cast<double>(steps_) * step_s(); }
+  [[nodiscard]] double step_s() const { return drive_.model->opt.timestep; }
   [[nodiscard]] Pose T_world_base() const;
-  [[nodiscard]] PlanarState planar() const;  ///< heading of the x axis, seen from above
+  [[nodiscard]] PlanarPose planar() const { return mapscore::planar(T_world_base()); }
   [[nodiscard]] WheelTicks ticks(int ticks_per_turn) const;
   /// What the robot touches most from the side, with any part; nothing where it only stands.
   [[nodiscard]] std::optional<Obstacle> touched() const;

@@ -4,8 +4,6 @@
 #include "sim/robot/drive_simulation.hpp"
 
 #include "core/error.hpp"
-#include "sim/recorder/recorded_drive.hpp"
-#include "sim/robot/way_check.hpp"
 
 #include <fmt/format.h>
 
@@ -58,12 +56,8 @@ WheelGeometry believed(const WheelGeometry& wheels, const DriveSettings& setting
           wheels.track_m * (1.0 + settings.track_error)};
 }
 
-PlanarState place_of(const Drive::Waypoint& w) {
-  return {w.x_m, w.y_m, w.yaw_rad};
-}
-
 double turn_between(double from_rad, double to_rad) {
-  return std::abs(std::remainder(to_rad - from_rad, 2.0 * M_PI));
+  return std::abs(wrapped_angle(to_rad - from_rad));
 }
 
 /// Notices when a robot that should move does not, or takes far too long for a waypoint.
@@ -73,7 +67,7 @@ class Patience {
       : waypoints_(waypoints), params_(params) {}
 
   /// True when it is time to give up.
-  bool lost(double time_s, std::size_t target, const PlanarState& robot) {
+  bool lost(double time_s, std::size_t target, const PlanarPose& robot) {
     if (target != target_) start(time_s, target);
     const bool moved = std::hypot(robot.x_m - last_.x_m, robot.y_m - last_.y_m) > kStuckM ||
                        turn_between(last_.yaw_rad, robot.yaw_rad) > kStuckRad;
@@ -96,14 +90,15 @@ class Patience {
   const std::vector<Drive::Waypoint>& waypoints_;
   const ControllerParams& params_;
   std::size_t target_ = 0;
-  PlanarState last_;
+  PlanarPose last_;
   double last_s_ = 0.0, limit_s_ = 0.0;
 };
 
 /// One drive from start to end: controller, physics, odometry and log, in step.
 class DriveRun {
  public:
-  DriveRun(const DriveModel& model, const Drive& drive, const DriveSettings& settings)
+  DriveRun(const DriveModel& model, const Drive& drive, const DriveSettings& settings,
+           const std::function<void(std::size_t, std::size_t)>& progress)
       : waypoints_(drive.waypoints),
         settings_(settings),
         params_(params_of(drive, settings)),
@@ -112,18 +107,19 @@ class DriveRun {
         odometry_(believed(model.wheels, settings), settings.encoder_ticks_per_turn),
         physics_(model),
         patience_(waypoints_, params_),
-        until_s_(drive.until_s) {
+        until_s_(drive.until_s),
+        progress_(progress) {
     steps_ = share_of(settings.control_hz, 1.0 / physics_.step_s(), "control_hz");
     controls_ = share_of(settings.log_hz, settings.control_hz, "log_hz");
   }
 
-  DriveLog run(const std::function<void(std::size_t, std::size_t)>& progress) {
-    stand_at_start(progress);
+  DriveLog run() {
+    stand_at_start();
     while (!controller_.done()) {
       const std::size_t target = controller_.target();
       advance(controller_.command(physics_.planar(), control_s()));
       if (const auto obstacle = ahead()) stop_before(*obstacle);
-      if (controller_.target() != target) arrive(target, progress);
+      if (controller_.target() != target) arrive(target);
       if (!controller_.done() && patience_.lost(physics_.time_s(), controller_.target(), place_))
         give_up();
     }
@@ -137,21 +133,20 @@ class DriveRun {
  private:
   double control_s() const { return steps_ * physics_.step_s(); }
 
-  void stand_at_start(const std::function<void(std::size_t, std::size_t)>& progress) {
-    check_waypoints(waypoints_, !settings_.check_way_first, clearance_);
-    if (settings_.check_way_first) check_legs(waypoints_, clearance_);
-    const PlanarState start = place_of(waypoints_.front());
+  void stand_at_start() {
+    check_way(waypoints_, !settings_.check_way_first, clearance_);
+    const PlanarPose& start = waypoints_.front();
     physics_.settle(start, clearance_.floor_at(start).value_or(0.0));
     place_ = physics_.planar();
     log_sample();
-    arrive(0, progress);
+    arrive(0);
   }
 
   void advance(const VelocityCommand& command) {
     command_ = command;
     physics_.command(command, steps_);
     for (int i = 0; i < steps_; ++i) physics_.step();
-    const PlanarState before = place_;
+    const PlanarPose before = place_;
     place_ = physics_.planar();
     log_.distance_m += std::hypot(place_.x_m - before.x_m, place_.y_m - before.y_m);
     if (++control_ % controls_ == 0) log_sample();
@@ -171,8 +166,8 @@ class DriveRun {
     const double way_m = v * kReactionS + 0.5 * v * std::abs(v) / params_.acceleration_mps2;
     const double turn = w * kReactionS + 0.5 * w * std::abs(w) / params_.turn_acceleration_radps2;
     const double yaw = place_.yaw_rad + 0.5 * turn;
-    const PlanarState stop{place_.x_m + way_m * std::cos(yaw), place_.y_m + way_m * std::sin(yaw),
-                           place_.yaw_rad + turn};
+    const PlanarPose stop{place_.x_m + way_m * std::cos(yaw), place_.y_m + way_m * std::sin(yaw),
+                          place_.yaw_rad + turn};
     return clearance_.obstacle_at(stop, physics_.T_world_base().translation().z());
   }
 
@@ -194,12 +189,12 @@ class DriveRun {
                     waypoint_text(waypoints_, controller_.target()), place_.x_m, place_.y_m));
   }
 
-  void arrive(std::size_t waypoint, const std::function<void(std::size_t, std::size_t)>& progress) {
+  void arrive(std::size_t waypoint) {
     const Drive::Waypoint& w = waypoints_[waypoint];
     log_.arrivals.push_back({waypoint, physics_.time_s(),
                              std::hypot(place_.x_m - w.x_m, place_.y_m - w.y_m),
                              turn_between(w.yaw_rad, place_.yaw_rad)});
-    if (progress) progress(waypoint + 1, waypoints_.size());
+    if (progress_) progress_(waypoint + 1, waypoints_.size());
   }
 
   const std::vector<Drive::Waypoint>& waypoints_;
@@ -211,8 +206,9 @@ class DriveRun {
   DrivePhysics physics_;
   Patience patience_;
   const double until_s_;
+  const std::function<void(std::size_t, std::size_t)>& progress_;
   int steps_ = 1, controls_ = 1, control_ = 0;
-  PlanarState place_;
+  PlanarPose place_;
   VelocityCommand command_;
   DriveLog log_;
 };
@@ -224,7 +220,7 @@ DriveLog simulate_drive(const World& world, const std::filesystem::path& robot, 
                         const std::function<void(std::size_t, std::size_t)>& progress) {
   check(drive, settings);
   const DriveModel model = make_drive_model(world, robot, settings.clearance_m);
-  return DriveRun(model, drive, settings).run(progress);
+  return DriveRun(model, drive, settings, progress).run();
 }
 
 Pose pose_at(const DriveLog& log, double stamp_s) {

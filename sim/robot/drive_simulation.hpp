@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <vector>
 
 namespace mapscore::sim {

@@ -32,7 +32,6 @@ void Odometry::update(const WheelTicks& ticks) {
   x_m_ += chord_m * std::cos(yaw_rad_ + half);
   y_m_ += chord_m * std::sin(yaw_rad_ + half);
   yaw_rad_ += turn;
-  distance_m_ += std::abs(along_m);
 }
 
 }  // namespace mapscore::sim

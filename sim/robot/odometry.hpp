@@ -38,14 +38,12 @@ class Odometry {
   void update(const WheelTicks& ticks);
 
   [[nodiscard]] Pose T_odom_base() const { return planar_pose(x_m_, y_m_, yaw_rad_); }
-  [[nodiscard]] double yaw_rad() const { return yaw_rad_; }  ///< not wrapped
-  [[nodiscard]] double distance_m() const { return distance_m_; }
 
  private:
   WheelGeometry believed_;
   double rad_per_tick_;
   WheelTicks last_;
-  double x_m_ = 0.0, y_m_ = 0.0, yaw_rad_ = 0.0, distance_m_ = 0.0;
+  double x_m_ = 0.0, y_m_ = 0.0, yaw_rad_ = 0.0;
 };
 
 }  // namespace mapscore::sim

@@ -3,10 +3,10 @@
 
 #include "sim/robot/scene_colliders.hpp"
 
-#include "sim/robot/mesh_colliders.hpp"
-#include "sim/world/drawn_scene.hpp"
-#include "sim/world/mujoco_pose.hpp"
-#include "sim/world/mujoco_session.hpp"
+#include "sim/world/compiled_scene.hpp"
+#include "sim/world/facets.hpp"
+#include "sim/world/shape_bounds.hpp"
+#include "sim/world/surfaces.hpp"
 
 #include <fmt/format.h>
 
@@ -18,15 +18,18 @@ namespace mapscore::sim {
 namespace {
 
 constexpr double kPlaneHalfThicknessM = 0.05;
+constexpr double kRoomM = 2.5;
+constexpr std::size_t kMostSlabs = 20000;
+constexpr double kSlabM = 0.01, kLeastAreaM2 = 1e-6;
+constexpr double kHighestM = 1.5, kLowestM = -0.5;  ///< beyond these no robot is
 
 std::string body_name(const mjModel& model, int geom) {
   for (int body = model.geom_bodyid[geom]; body > 0; body = model.body_parentid[body]) {
-    const char* name = mj_id2name(&model, mjOBJ_BODY, body);
-    if (name && *name) return name;
+    const std::string name = element_name(model, mjOBJ_BODY, body);
+    if (!name.empty()) return name;
   }
-  const char* name = mj_id2name(&model, mjOBJ_GEOM, geom);
-  return name && *name ? fmt::format("geom {} of the world body", name)
-                       : fmt::format("geom {} of the world body", geom);
+  const std::string name = element_name(model, mjOBJ_GEOM, geom);
+  return fmt::format("geom {} of the world body", name.empty() ? fmt::to_string(geom) : name);
 }
 
 bool collides(const mjModel& model, int geom) {
@@ -48,15 +51,9 @@ std::vector<int> standing_geoms(const World& world, mjData& data) {
   return {geoms.begin(), geoms.end()};
 }
 
-Eigen::AlignedBox3d local_bounds(const mjModel& model, int geom) {
-  const Eigen::Map<const Eigen::Vector3d> centre(model.geom_aabb + 6 * geom);
-  const Eigen::Map<const Eigen::Vector3d> half(model.geom_aabb + 6 * geom + 3);
-  return {centre - half, centre + half};
-}
-
 double lowest_m(const mjModel& model, int geom, const Pose& T_world_geom) {
   if (model.geom_type[geom] == mjGEOM_PLANE) return -1e9;
-  const Eigen::AlignedBox3d bounds = local_bounds(model, geom);
+  const Eigen::AlignedBox3d bounds = geom_bounds(model, geom);
   const Eigen::Vector3d reach =
       T_world_geom.linear().cwiseAbs() * (0.5 * bounds.sizes());  // half extents along the world
   return (T_world_geom * bounds.center()).z() - reach.z();
@@ -70,6 +67,41 @@ void add_height_field(const mjModel& model, int field, const std::string& name, 
   copy->ncol = model.hfield_ncol[field];
   mjs_setFloat(copy->userdata, model.hfield_data + model.hfield_adr[field],
                copy->nrow * copy->ncol);
+}
+
+/// Whether a mesh spans more than 2.5 m along both x and y of the world, so that its hull would
+/// fill the rooms inside it; false above 20000 triangles.
+bool is_room(const std::vector<Triangle>& triangles, const Pose& T_world_mesh) {
+  if (triangles.size() > kMostSlabs) return false;
+  const Eigen::AlignedBox3d bounds = bounds_of(triangles, T_world_mesh);
+  return bounds.sizes().x() > kRoomM && bounds.sizes().y() > kRoomM;
+}
+
+/// Adds a mesh asset with the vertices of a compiled one; geoms collide with its convex hull.
+void add_hull(mjSpec* spec, const std::string& name, const mjModel& model, int mesh) {
+  const float* vertices = model.mesh_vert + 3 * model.mesh_vertadr[mesh];
+  const int* faces = model.mesh_face + 3 * model.mesh_faceadr[mesh];
+  add_mesh(spec, name, {vertices, vertices + 3 * model.mesh_vertnum[mesh]},
+           {faces, faces + 3 * model.mesh_facenum[mesh]});
+}
+
+/// Adds a triangle as a slab 1 cm thick behind its front face. False, and nothing added, where it
+/// has no area to speak of, lies above the robot or under the floor.
+bool add_slab(mjSpec* spec, const std::string& name, const Triangle& triangle,
+              const Pose& T_world_mesh) {
+  const Eigen::Vector3d across = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  if (across.norm() < 2.0 * kLeastAreaM2) return false;
+  const Eigen::AlignedBox3d bounds = bounds_of({&triangle, 1}, T_world_mesh);
+  if (bounds.min().z() > kHighestM || bounds.max().z() < kLowestM) return false;
+  const Eigen::Vector3d back = -kSlabM * across.normalized();
+  std::vector<float> vertices;
+  for (const Eigen::Vector3d& shift : {Eigen::Vector3d(0, 0, 0), back})
+    for (const Eigen::Vector3d& corner : triangle)
+      for (int axis = 0; axis < 3; ++axis)
+        vertices.push_back(static_cast<float>(corner[axis] + shift[axis]));
+  add_mesh(spec, name, vertices,
+           {0, 1, 2, 5, 4, 3, 0, 3, 4, 0, 4, 1, 1, 4, 5, 1, 5, 2, 2, 5, 3, 2, 3, 0});
+  return true;
 }
 
 /// Copies geoms of a compiled scene into the world body of a spec.
@@ -127,12 +159,12 @@ class ColliderCopy {
   void add_mesh_geom(int geom, const Pose& T_world_geom) {
     constexpr double kThinnestM = 0.002;
     const int mesh = model_.geom_dataid[geom];
-    const Eigen::AlignedBox3d bounds = local_bounds(model_, geom);
+    const Eigen::AlignedBox3d bounds = geom_bounds(model_, geom);
     if (bounds.sizes().minCoeff() < kThinnestM) {  // a hull needs a volume
       const Eigen::Vector3d half = (0.5 * bounds.sizes()).cwiseMax(0.5 * kThinnestM);
       return add_box({bounds.center() - half, bounds.center() + half}, T_world_geom);
     }
-    const std::vector<Triangle> triangles = triangles_of(model_, mesh);
+    const std::vector<Triangle> triangles = mesh_triangles(model_, mesh);
     if (is_room(triangles, T_world_geom)) {
       int index = 0;
       for (const Triangle& triangle : triangles) {
@@ -162,9 +194,7 @@ class ColliderCopy {
 std::vector<Collider> add_scene_colliders(const World& world, double height_m, mjSpec* spec) {
   const mjModel& model = world.model();
   const DataPtr data(mj_makeData(&model));
-  mj_kinematics(&model, data.get());
-  mj_comPos(&model, data.get());
-  mj_camlight(&model, data.get());
+  place(model, *data);
   ColliderCopy copy(model, spec);
   for (const int geom : standing_geoms(world, *data)) {
     const Pose T_world_geom = geom_pose(*data, geom);

@@ -4,7 +4,6 @@
 #include "sim/robot/waypoint_controller.hpp"
 
 #include "core/error.hpp"
-#include "sim/recorder/recorded_drive.hpp"
 
 #include <fmt/format.h>
 
@@ -22,23 +21,18 @@ constexpr double kStoppedRadps = 0.05;     ///< a turn has ended
 constexpr double kSteepestApproach = 0.6;  ///< rad, towards a leg that the robot is off
 
 void check(const ControllerParams& p) {
-  const auto positive = [](double value, const char* name) {
+  const std::pair<double, const char*> all[] = {{p.speed_mps, "speed_mps"},
+                                                {p.turn_rate_radps, "turn_rate"},
+                                                {p.acceleration_mps2, "acceleration_mps2"},
+                                                {p.turn_acceleration_radps2, "turn_acceleration"},
+                                                {p.lookahead_m, "lookahead_m"},
+                                                {p.heading_gain_per_s, "heading_gain_per_s"},
+                                                {p.position_tolerance_m, "position_tolerance_m"},
+                                                {p.yaw_tolerance_rad, "yaw_tolerance"},
+                                                {p.arrival_tolerance_m, "arrival_tolerance_m"}};
+  for (const auto& [value, name] : all)
     if (!(value > 0) || !std::isfinite(value))
       throw Error(fmt::format("drive: {} must be above 0", name));
-  };
-  positive(p.speed_mps, "speed_mps");
-  positive(p.turn_rate_radps, "turn_rate");
-  positive(p.acceleration_mps2, "acceleration_mps2");
-  positive(p.turn_acceleration_radps2, "turn_acceleration");
-  positive(p.lookahead_m, "lookahead_m");
-  positive(p.heading_gain_per_s, "heading_gain_per_s");
-  positive(p.position_tolerance_m, "position_tolerance_m");
-  positive(p.yaw_tolerance_rad, "yaw_tolerance");
-  positive(p.arrival_tolerance_m, "arrival_tolerance_m");
-}
-
-double wrapped(double angle_rad) {
-  return std::remainder(angle_rad, 2.0 * M_PI);
 }
 
 /// Fastest rate from which `error` can still be braked out.
@@ -67,13 +61,13 @@ void WaypointController::face_target(double x_m, double y_m) {
   leg_yaw_rad_ = std::atan2(dy, dx);
 }
 
-bool WaypointController::at_target(const PlanarState& robot) const {
+bool WaypointController::at_target(const PlanarPose& robot) const {
   const Drive::Waypoint& to = waypoints_[target_];
   return std::hypot(to.x_m - robot.x_m, to.y_m - robot.y_m) <= params_.arrival_tolerance_m;
 }
 
-double WaypointController::turn_towards(double yaw_rad, const PlanarState& robot) {
-  const double error = wrapped(yaw_rad - robot.yaw_rad);
+double WaypointController::turn_towards(double yaw_rad, const PlanarPose& robot) {
+  const double error = wrapped_angle(yaw_rad - robot.yaw_rad);
   if (std::abs(error) > params_.yaw_tolerance_rad || std::abs(command_.omega_radps) > kStoppedRadps)
     return braking_rate(error, params_.turn_rate_radps, params_.turn_acceleration_radps2,
                         kCreepRadps);
@@ -87,7 +81,7 @@ double WaypointController::turn_towards(double yaw_rad, const PlanarState& robot
   return 0.0;
 }
 
-VelocityCommand WaypointController::follow(const PlanarState& robot) {
+VelocityCommand WaypointController::follow(const PlanarPose& robot) {
   const Drive::Waypoint& to = waypoints_[target_];
   const double c = std::cos(leg_yaw_rad_), s = std::sin(leg_yaw_rad_);
   const double dx = to.x_m - robot.x_m, dy = to.y_m - robot.y_m;
@@ -101,12 +95,12 @@ VelocityCommand WaypointController::follow(const PlanarState& robot) {
   const double approach =
       std::clamp(std::atan(offset_m / params_.lookahead_m), -kSteepestApproach, kSteepestApproach);
   const double omega =
-      params_.heading_gain_per_s * wrapped(leg_yaw_rad_ - approach - robot.yaw_rad);
+      params_.heading_gain_per_s * wrapped_angle(leg_yaw_rad_ - approach - robot.yaw_rad);
   return {braking_rate(left_m, params_.speed_mps, params_.acceleration_mps2, kCreepMps),
           std::clamp(omega, -params_.turn_rate_radps, params_.turn_rate_radps)};
 }
 
-VelocityCommand WaypointController::wanted(const PlanarState& robot) {
+VelocityCommand WaypointController::wanted(const PlanarPose& robot) {
   if (done()) return {};
   if (phase_ == Phase::face) return {0.0, turn_towards(leg_yaw_rad_, robot)};
   if (phase_ == Phase::follow) return follow(robot);
@@ -119,14 +113,6 @@ VelocityCommand WaypointController::slewed(const VelocityCommand& wanted, double
   command_.v_mps += std::clamp(wanted.v_mps - command_.v_mps, -dv, dv);
   command_.omega_radps += std::clamp(wanted.omega_radps - command_.omega_radps, -dw, dw);
   return command_;
-}
-
-VelocityCommand WaypointController::command(const PlanarState& robot, double step_s) {
-  return slewed(wanted(robot), step_s);
-}
-
-VelocityCommand WaypointController::brake(double step_s) {
-  return slewed({}, step_s);
 }
 
 }  // namespace mapscore::sim

@@ -15,11 +15,6 @@ struct VelocityCommand {
   double v_mps = 0.0, omega_radps = 0.0;
 };
 
-/// Position and heading on the floor, of base_footprint in the world.
-struct PlanarState {
-  double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
-};
-
 /// Limits and gains of the controller. Tolerances are where it takes a target for reached.
 struct ControllerParams {
   double speed_mps = 0.4, turn_rate_radps = 0.7;
@@ -39,15 +34,19 @@ struct ControllerParams {
 ///   turn on the spot    min(turn rate, sqrt(2 b |error|)), the short way, b likewise
 ///
 /// Commands change at most as fast as the accelerations allow.
+///
+/// Planar poses are those of base_footprint in the world.
 class WaypointController {
  public:
   /// The robot stands at the first waypoint. Throws Error when a parameter is not above 0.
   WaypointController(std::vector<Drive::Waypoint> waypoints, const ControllerParams& params);
 
   /// The next command, `step_s` after the last one.
-  [[nodiscard]] VelocityCommand command(const PlanarState& robot, double step_s);
+  [[nodiscard]] VelocityCommand command(const PlanarPose& robot, double step_s) {
+    return slewed(wanted(robot), step_s);
+  }
   /// Slows down to a stop whatever the waypoints say.
-  [[nodiscard]] VelocityCommand brake(double step_s);
+  [[nodiscard]] VelocityCommand brake(double step_s) { return slewed({}, step_s); }
 
   [[nodiscard]] bool done() const { return target_ >= waypoints_.size(); }
   /// Index of the waypoint that is driven to; those below are reached.
@@ -56,13 +55,13 @@ class WaypointController {
  private:
   enum class Phase { face, follow, align };
 
-  VelocityCommand wanted(const PlanarState& robot);
-  double turn_towards(double yaw_rad, const PlanarState& robot);
-  VelocityCommand follow(const PlanarState& robot);
+  VelocityCommand wanted(const PlanarPose& robot);
+  double turn_towards(double yaw_rad, const PlanarPose& robot);
+  VelocityCommand follow(const PlanarPose& robot);
   VelocityCommand slewed(const VelocityCommand& wanted, double step_s);
   void start_leg(std::size_t target);
   void face_target(double x_m, double y_m);
-  bool at_target(const PlanarState& robot) const;
+  bool at_target(const PlanarPose& robot) const;
 
   std::vector<Drive::Waypoint> waypoints_;
   ControllerParams params_;

@@ -4,11 +4,10 @@
 #pragma once
 
 #include "core/geometry/pose.hpp"
-#include "sim/world/stamped_pose.hpp"
 #include "sim/world/world.hpp"
 
+#include <cmath>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace mapscore::sim {
@@ -19,7 +18,6 @@ struct LidarSettings {
   int beams = 360;
   double first_angle_rad = -3.14159265358979323846;
   double range_min_m = 0.15, range_max_m = 12.0;
-  std::optional<Pose> T_base_lidar;  ///< default: the robot's site `lidar`
 };
 
 /// One turn: a range a beam, metres. Infinity: nothing within range_max_m. 0: no measurement, as of
@@ -32,37 +30,28 @@ using LidarRanges = std::vector<float>;
 /// and safe to share between threads.
 class Lidar {
  public:
-  /// Throws Error when a setting is out of range, or the robot has no site `lidar` and no pose is
-  /// given.
+  /// Stands at the robot's site `lidar`. Throws Error when there is none, or a setting is out of
+  /// range.
   explicit Lidar(const World& world, const LidarSettings& settings = {});
 
-  [[nodiscard]] const LidarSettings& settings() const { return settings_; }
   [[nodiscard]] const Pose& T_base_lidar() const { return T_base_lidar_; }
-  [[nodiscard]] double angle_step_rad() const;
+  [[nodiscard]] double angle_step_rad() const { return 2.0 * M_PI / settings_.beams; }
 
-  /// One turn at a pose of the base, without noise, all beams from one place. A tilted base tilts
-  /// the lidar's plane.
-  [[nodiscard]] LidarRanges scan(const Pose& T_world_base) const;
-  /// One turn at each pose, the scene as its motion has it at that stamp (without a motion, as for
-  /// a world made by World::at, as it was loaded).
+  /// One turn at each pose of the base, without noise, all its beams from one place, the scene as
+  /// its motion has it at that stamp (without a motion, as for a world made by World::at, as it was
+  /// loaded). A tilted base tilts the lidar's plane. The same bytes for any number of `jobs`.
+  /// Throws Error when jobs < 1.
   [[nodiscard]] std::vector<LidarRanges> scans(const std::vector<StampedPose>& poses,
-                                               int jobs) const;
-  /// One turn at each pose, the scene at its pose of loading; the same bytes for any number of
-  /// `jobs`. Throws Error when jobs < 1.
-  [[nodiscard]] std::vector<LidarRanges> scans(const std::vector<Pose>& T_world_base,
                                                int jobs) const;
 
  private:
-  struct Target;
   class Caster;
 
+  World world_;  // shares its state
   LidarSettings settings_;
   Pose T_base_lidar_ = Pose::Identity();
-  template <class ScanOne>
-  std::vector<LidarRanges> all(std::size_t count, int jobs, const ScanOne& scan_one) const;
-
-  std::vector<double> directions_;  ///< beams x 3, in the lidar's frame
-  std::shared_ptr<const Target> target_;
+  std::vector<double> directions_;         ///< beams x 3, in the lidar's frame
+  std::shared_ptr<const mjModel_> model_;  ///< what the renderer draws in group 0, all else in 5
 };
 
 }  // namespace mapscore::sim

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "files/text.hpp"
+#include "sim/world/mujoco_session.hpp"
 
 #include <fmt/format.h>
 
@@ -16,21 +17,16 @@
 namespace mapscore::sim {
 namespace {
 
-std::string body_name(const mjModel& model, int body) {
-  const char* name = mj_id2name(&model, mjOBJ_BODY, body);
-  return name ? name : "";
-}
-
 /// Of a body that becomes an object.
 std::string instance_name(const mjModel& model, int body) {
-  const std::string name = body_name(model, body);
+  const std::string name = element_name(model, mjOBJ_BODY, body);
   if (const auto unfit = unfit_as_name(name))
     throw Error(fmt::format("scene: the name of body {}: {} in the MJCF", body, *unfit));
   return name;
 }
 
 std::string display_name(const mjModel& model, int body) {
-  const std::string name = body_name(model, body);
+  const std::string name = element_name(model, mjOBJ_BODY, body);
   return name.empty() ? fmt::format("(body {})", body) : name;
 }
 
@@ -40,11 +36,10 @@ int matching_rule(const std::vector<ClassRule>& rules, const std::string& body,
   int match = -1;
   for (std::size_t i = 0; i < rules.size(); ++i) {
     if (!rules[i].matches(body)) continue;
-    if (match >= 0) {
+    if (match >= 0)
       throw Error(fmt::format(
           "{}: classes.bodies: body `{}` belongs to `{}` and to `{}`; narrow a pattern",
           file.string(), body, rules[match].semantic_class.name, rules[i].semantic_class.name));
-    }
     match = static_cast<int>(i);
   }
   return match;
@@ -66,37 +61,12 @@ void refuse_unknown(const std::vector<ClassRule>& rules, const std::vector<std::
   }
 }
 
-/// One rule for each class that the bodies' names give.
-class RulesByName {
- public:
-  explicit RulesByName(std::vector<ClassRule>& rules) : rules_(rules) {}
-
-  int rule_for(const std::string& body) {
-    const std::string name = class_name_of_body(body);
-    const auto [entry, fresh] = index_.try_emplace(name, static_cast<int>(rules_.size()));
-    if (fresh) {
-      ClassRule rule;
-      rule.semantic_class.name = name;
-      rule.semantic_class.detect = true;
-      rules_.push_back(std::move(rule));
-    }
-    return entry->second;
-  }
-
- private:
-  std::vector<ClassRule>& rules_;
-  std::map<std::string, int> index_;
-};
-
 void set_owners(const mjModel& model, Ownership& ownership) {
   ownership.owner_of_body.assign(model.nbody, -1);
   for (int body = 0; body < model.nbody; ++body) {  // parents come first
     const int parent = model.body_parentid[body];
-    if (ownership.rule_of_body[body] >= 0) {
-      ownership.owner_of_body[body] = body;
-    } else if (body > 0 && parent > 0) {
-      ownership.owner_of_body[body] = ownership.owner_of_body[parent];
-    }
+    const int inherited = parent > 0 ? ownership.owner_of_body[parent] : -1;
+    ownership.owner_of_body[body] = ownership.rule_of_body[body] >= 0 ? body : inherited;
   }
 }
 
@@ -111,9 +81,8 @@ std::vector<ClassId> add_classes(ClassTable& table, const Ownership& ownership,
                                  const std::set<int>& owners, bool from_file) {
   std::vector<ClassId> ids(ownership.rules.size(), kBackground);
   if (from_file) {
-    for (std::size_t i = 0; i < ids.size(); ++i) {
+    for (std::size_t i = 0; i < ids.size(); ++i)
       ids[i] = add_class(table, ownership.rules[i].semantic_class);
-    }
     return ids;
   }
   for (const int owner : owners) {
@@ -133,18 +102,24 @@ Ownership assign_bodies(const mjModel& model,
                         const std::vector<bool>& robot_body) {
   Ownership ownership;
   if (class_file) ownership.rules = read_class_file(*class_file);
-  RulesByName by_name(ownership.rules);
+  std::map<std::string, int> rule_of_class;
+  const auto rule_by_name = [&](const std::string& body) {  // one for each class
+    const std::string name = class_name_of_body(body);
+    const auto [entry, fresh] =
+        rule_of_class.try_emplace(name, static_cast<int>(ownership.rules.size()));
+    if (fresh) ownership.rules.emplace_back().semantic_class = {.name = name, .detect = true};
+    return entry->second;
+  };
   ownership.rule_of_body.assign(model.nbody, -1);
   std::vector<std::string> names;
   for (int body = 0; body < model.nbody; ++body) {
-    const std::string name = body_name(model, body);
+    const std::string name = element_name(model, mjOBJ_BODY, body);
     if (name.empty() || robot_body[body]) continue;
     names.push_back(name);
-    if (class_file) {
+    if (class_file)
       ownership.rule_of_body[body] = matching_rule(ownership.rules, name, *class_file);
-    } else if (body > 0) {
-      ownership.rule_of_body[body] = by_name.rule_for(name);
-    }
+    else if (body > 0)
+      ownership.rule_of_body[body] = rule_by_name(name);
   }
   if (class_file) refuse_unknown(ownership.rules, names, *class_file);
   set_owners(model, ownership);
@@ -159,9 +134,8 @@ Assignment assign_geoms(const mjModel& model, const Ownership& ownership,
     const int owner = ownership.owner_of_body[body];
     (owner >= 0 ? owners : unmatched).insert(owner >= 0 ? owner : body);
   }
-  if (owners.size() > std::numeric_limits<InstanceId>::max()) {
+  if (owners.size() > std::numeric_limits<InstanceId>::max())
     throw Error(fmt::format("scene: {} objects; label images hold at most 65535", owners.size()));
-  }
   Assignment assignment;
   ClassTable& table = assignment.table;
   const std::vector<ClassId> class_of_rule = add_classes(table, ownership, owners, from_file);

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include "core/classes.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/shape.hpp"
 #include "sim/world/class_assignment.hpp"
@@ -12,7 +11,8 @@
 #include "sim/world/mujoco_session.hpp"
 #include "sim/world/world.hpp"
 
-#include <memory>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,21 +28,11 @@ struct CompiledScene {
   std::string hash;
 };
 
-/// A motion and where its joints' values go.
-struct JointMotion {
-  Motion motion;
-  std::vector<int> addresses;  ///< in qpos, one a joint
-};
-
-struct World::State {
-  std::shared_ptr<const CompiledScene> compiled;
-  DrawnScene drawn;
-  std::vector<Shape> shapes;
-  std::shared_ptr<const JointMotion> motion;  ///< none for a world that stands still
-};
-
 /// Everything but dynamics: no solver can diverge.
 void place(const mjModel& model, mjData& data);
+
+/// Moves the joints of a motion to where they are at a stamp, and places what hangs on them.
+void place_at(const Motion& motion, double stamp_s, const mjModel& model, mjData& data);
 
 /// The drawn geoms at the pose that `data` holds, without the robot's and the transparent ones;
 /// geoms of opaque classes become solid.
@@ -53,5 +43,12 @@ void place(const mjModel& model, mjData& data);
 [[nodiscard]] DrawnScene faceted_scene(const CompiledScene& scene, mjData& data,
                                        const std::vector<Shape>& shapes,
                                        const std::vector<Pose>& T_world_shape);
+
+/// XXH3 (128 bits, hexadecimal) over the bytes of scene, class file and robot, and over what they
+/// compile to, which covers included files, meshes and textures: names, geoms, cameras, lights and
+/// assets. Says nothing of where the files lie.
+[[nodiscard]] std::string content_hash(const mjModel& model, const std::filesystem::path& scene,
+                                       const std::optional<std::filesystem::path>& classes,
+                                       const std::filesystem::path& robot);
 
 }  // namespace mapscore::sim

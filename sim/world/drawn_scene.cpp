@@ -3,9 +3,8 @@
 
 #include "sim/world/drawn_scene.hpp"
 
-#include "sim/world/mujoco_pose.hpp"
+#include "sim/world/mujoco_session.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace mapscore::sim {
@@ -23,36 +22,38 @@ mjvOption plain_options() {
   return options;
 }
 
-bool infinite(const mjModel& model, int geom) {
-  const mjtNum* size = model.geom_size + 3 * geom;
-  return model.geom_type[geom] == mjGEOM_PLANE && (size[0] <= 0 || size[1] <= 0);
-}
-
 Box3 bounds_in(const Pose& T_frame_world, const mjModel& model, const mjData& data,
                const std::vector<int>& geoms) {
   Box3 bounds;
   for (const int geom : geoms) {
     if (model.geom_type[geom] == mjGEOM_PLANE) continue;
     const Pose T_frame_geom = T_frame_world * geom_pose(data, geom);
-    const mjtNum* aabb = model.geom_aabb + 6 * geom;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::Vector3d sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-      const Eigen::Vector3d half(aabb[3], aabb[4], aabb[5]);
-      bounds.extend(T_frame_geom *
-                    (Eigen::Vector3d(aabb[0], aabb[1], aabb[2]) + sign.cwiseProduct(half)));
-    }
+    const Box3 box = geom_bounds(model, geom);
+    for (int corner = 0; corner < 8; ++corner)
+      bounds.extend(T_frame_geom * box.corner(static_cast<Box3::CornerType>(corner)));
   }
   return bounds;
 }
 
 Box3 extent_in(const Pose& T_frame_world, const mjModel& model) {
-  const mjtNum* centre = model.stat.center;
-  const Eigen::Vector3d middle = T_frame_world * Eigen::Vector3d(centre[0], centre[1], centre[2]);
+  const Eigen::Vector3d middle =
+      T_frame_world * Eigen::Map<const Eigen::Vector3d>(model.stat.center);
   const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * model.stat.extent);
   return {middle - half, middle + half};
 }
 
 }  // namespace
+
+Box3 geom_bounds(const mjModel& model, int geom) {
+  const Eigen::Map<const Eigen::Vector3d> centre(model.geom_aabb + 6 * geom);
+  const Eigen::Map<const Eigen::Vector3d> half(model.geom_aabb + 6 * geom + 3);
+  return {centre - half, centre + half};
+}
+
+bool is_infinite_plane(const mjModel& model, int geom) {
+  const mjtNum* size = model.geom_size + 3 * geom;
+  return model.geom_type[geom] == mjGEOM_PLANE && (size[0] <= 0 || size[1] <= 0);
+}
 
 DrawnScene visible_scene(const mjModel& model, mjData& data) {
   mjvScene scene;
@@ -74,7 +75,7 @@ DrawnScene visible_scene(const mjModel& model, mjData& data) {
 
 void cut_infinite_planes(mjModel& model, const mjData& data, const std::vector<int>& geoms) {
   for (int geom = 0; geom < model.ngeom; ++geom) {
-    if (!infinite(model, geom)) continue;
+    if (!is_infinite_plane(model, geom)) continue;
     const Pose T_plane_world = geom_pose(data, geom).inverse();
     Box3 bounds = bounds_in(T_plane_world, model, data, geoms);
     if (bounds.isEmpty()) bounds = extent_in(T_plane_world, model);

@@ -5,6 +5,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Geometry>
 #include <vector>
 
 namespace mapscore::sim {
@@ -21,6 +22,12 @@ struct DrawnScene {
 /// Every geom that MuJoCo draws at the pose that `data` holds (kinematics done), with its effective
 /// colour and alpha, and the lights. Groups 3 to 5, alpha 0, sites, flexes and skins are left out.
 [[nodiscard]] DrawnScene visible_scene(const mjModel& model, mjData& data);
+
+/// Least box along the axes of a geom that holds it, as MuJoCo has it.
+[[nodiscard]] Eigen::AlignedBox3d geom_bounds(const mjModel& model, int geom);
+
+/// Whether a geom is a plane without end along x or y.
+[[nodiscard]] bool is_infinite_plane(const mjModel& model, int geom);
 
 /// Gives planes without end the size of the rectangle that all other geoms among `geoms` cover on
 /// them; where there are none, of the square of half the scene's extent about its centre.

@@ -3,6 +3,7 @@
 
 #include "sim/world/facets.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -60,9 +61,8 @@ void append_arc(std::vector<Ring>& rings, double radius, double z0, double from,
 /// Inner rings of a cylinder's side, at most 0.4 m apart: light is computed at the vertices.
 void append_side(std::vector<Ring>& rings, double radius, double half_length) {
   const int pieces = std::clamp(static_cast<int>(std::ceil(half_length / 0.2)), 1, 32);
-  for (int i = 0; i <= pieces; ++i) {
+  for (int i = 0; i <= pieces; ++i)
     rings.push_back({radius, half_length * (2.0 * i / pieces - 1.0), 1.0, 0.0});
-  }
 }
 
 Facets ellipsoid(const Eigen::Vector3d& half_axes, double tolerance) {
@@ -92,6 +92,14 @@ Facets cylinder(double radius, double half_length, double tolerance) {
   return revolve(rings, slices_for(radius, tolerance));
 }
 
+std::vector<float> flattened(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<float> values;
+  values.reserve(3 * points.size());
+  for (const Eigen::Vector3d& p : points)
+    for (const double coordinate : p) values.push_back(static_cast<float>(coordinate));
+  return values;
+}
+
 }  // namespace
 
 bool is_round(ShapeKind kind) {
@@ -100,18 +108,71 @@ bool is_round(ShapeKind kind) {
 }
 
 Facets facets_of(ShapeKind kind, const Eigen::Vector3d& size, double tolerance_m) {
-  switch (kind) {
-    case ShapeKind::sphere:
-      return ellipsoid(Eigen::Vector3d::Constant(size.x()), tolerance_m);
-    case ShapeKind::ellipsoid:
-      return ellipsoid(size, tolerance_m);
-    case ShapeKind::capsule:
-      return capsule(size.x(), size.y(), tolerance_m);
-    case ShapeKind::cylinder:
-      return cylinder(size.x(), size.y(), tolerance_m);
-    default:
-      return {};
+  if (kind == ShapeKind::sphere) return ellipsoid(Eigen::Vector3d::Constant(size.x()), tolerance_m);
+  if (kind == ShapeKind::ellipsoid) return ellipsoid(size, tolerance_m);
+  if (kind == ShapeKind::capsule) return capsule(size.x(), size.y(), tolerance_m);
+  if (kind == ShapeKind::cylinder) return cylinder(size.x(), size.y(), tolerance_m);
+  return {};
+}
+
+Facets flat_facets(const std::vector<Triangle>& triangles) {
+  Facets facets;
+  for (const Triangle& triangle : triangles) {
+    const Eigen::Vector3d across = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+    if (!(across.norm() > 0)) continue;
+    const int first = static_cast<int>(facets.vertices.size());
+    for (const Eigen::Vector3d& corner : triangle) {
+      facets.vertices.push_back(corner);
+      facets.normals.push_back(across.normalized());
+    }
+    facets.faces.push_back({first, first + 1, first + 2});
   }
+  return facets;
+}
+
+mjsMesh* add_mesh(mjSpec* spec, const std::string& name, const std::vector<float>& vertices,
+                  const std::vector<int>& faces) {
+  mjsMesh* mesh = mjs_addMesh(spec, nullptr);
+  mjs_setName(mesh->element, name.c_str());
+  std::fill_n(mesh->scale, 3, 1.0);      // not that of the scene's default class
+  mesh->inertia = mjMESH_INERTIA_SHELL;  // the other kinds refuse meshes that are open or thin
+  mjs_setFloat(mesh->uservert, vertices.data(), static_cast<int>(vertices.size()));
+  mjs_setInt(mesh->userface, faces.data(), static_cast<int>(faces.size()));
+  return mesh;
+}
+
+void add_mesh(mjSpec* spec, const std::string& name, const Facets& facets) {
+  std::vector<int> faces;
+  for (const auto& face : facets.faces) faces.insert(faces.end(), face.begin(), face.end());
+  mjsMesh* mesh = add_mesh(spec, name, flattened(facets.vertices), faces);
+  const std::vector<float> normals = flattened(facets.normals);
+  mjs_setFloat(mesh->usernormal, normals.data(), static_cast<int>(normals.size()));
+  mjs_setInt(mesh->userfacenormal, faces.data(), static_cast<int>(faces.size()));
+}
+
+mjvGeom box_geom(const Eigen::Vector3d& half_m, const Eigen::Vector3d& centre_world,
+                 const Eigen::Matrix3d& R_world_box) {
+  const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor> rotation = R_world_box;
+  mjvGeom geom;
+  mjv_initGeom(&geom, mjGEOM_BOX, half_m.data(), centre_world.data(), rotation.data(), nullptr);
+  return geom;
+}
+
+// The compiler moves a mesh to its centre of mass and main axes: v_asset = mesh_pos + R(mesh_quat)
+// v.
+void draw_mesh(const mjModel& model, int mesh, const Pose& T_world_shape, mjvGeom& geom) {
+  mjtNum rotation[9];
+  mju_quat2Mat(rotation, model.mesh_quat + 4 * mesh);
+  Eigen::Matrix<float, 3, 3, Eigen::RowMajor> R_shape_mesh;
+  for (int i = 0; i < 9; ++i) R_shape_mesh(i / 3, i % 3) = static_cast<float>(rotation[i]);
+  const mjtNum* shift = model.mesh_pos + 3 * mesh;
+  Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>> mat(geom.mat);
+  mat = (T_world_shape.linear() * R_shape_mesh.cast<double>()).cast<float>();
+  Eigen::Map<Eigen::Vector3f>(geom.pos) =
+      (T_world_shape * Eigen::Vector3d(shift[0], shift[1], shift[2])).cast<float>();
+  geom.type = mjGEOM_MESH;
+  geom.dataid = 2 * mesh;  // odd numbers are convex hulls
+  geom.texcoord = 0;
 }
 
 }  // namespace mapscore::sim

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "sim/world/mjcf_cost.hpp"
-
 #include "core/error.hpp"
+#include "sim/world/costly_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -15,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mapscore::sim {
@@ -37,13 +37,9 @@ constexpr auto kHarmless = std::to_array<std::string_view>(
      "material",  "worldbody", "body",   "frame",    "geom",      "joint",  "freejoint", "inertial",
      "site",      "camera",    "light",  "actuator", "velocity"});
 
-struct Attribute {
-  std::string_view name, value;
-};
-
 struct Element {
   std::string_view name;
-  std::vector<Attribute> attributes;
+  std::vector<std::pair<std::string_view, std::string_view>> attributes;  ///< name and value
 };
 
 /// Walks over the opening tags of an XML text.
@@ -111,7 +107,7 @@ class Tags {
       const std::string_view value = take_until({&quote, 1});
       if (rest_.empty() || value.find('&') != value.npos) return std::nullopt;
       rest_.remove_prefix(1);
-      element.attributes.push_back({name, value});
+      element.attributes.emplace_back(name, value);
     }
     plain_ = true;
     return element;
@@ -148,9 +144,7 @@ class Cost {
   explicit Cost(const fs::path& file) : file_(file), folders_{file.parent_path()} {}
 
   void add(const Element& element) {
-    const bool known =
-        std::find(kHarmless.begin(), kHarmless.end(), element.name) != kHarmless.end();
-    unbounded_ = unbounded_ || !known;
+    if (std::ranges::find(kHarmless, element.name) == kHarmless.end()) unbounded_ = true;
     double area_px = 1;
     bool builtin = false;
     for (const auto& [name, value] : element.attributes) {

@@ -4,17 +4,15 @@
 #include "sim/world/motion.hpp"
 
 #include "core/error.hpp"
+#include "files/file_bytes.hpp"
 #include "files/text.hpp"
-#include "sim/world/content_hash.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 
 namespace mapscore::sim {
 namespace {
@@ -28,7 +26,7 @@ std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
+std::vector<std::string> cells_of(std::string_view line) {
   std::vector<std::string> cells(1);
   for (const char letter : line) {
     if (letter == ',')
@@ -42,25 +40,24 @@ std::vector<std::string> cells_of(const std::string& line) {
 /// What is read of a file, line by line.
 class MotionReader {
  public:
-  explicit MotionReader(const std::filesystem::path& file) : file_(file) {}
+  MotionReader(const std::filesystem::path& file, std::string_view text)
+      : file_(file), lines_(text) {}
 
-  void take(const std::string& line) {
-    ++line_;
-    if (line.empty() || line == "\r" || line.front() == '#') return;
-    if (motion_.joints.empty())
-      take_header(cells_of(line));
-    else
-      take_row(cells_of(line));
-  }
-
-  Motion finish() {
+  Motion read() {
+    while (const auto line = lines_.next()) {
+      if (line->empty() || line->front() == '#') continue;
+      if (motion_.joints.empty())
+        take_header(cells_of(*line));
+      else
+        take_row(cells_of(*line));
+    }
     if (motion_.stamps_s.empty()) refuse("no rows; write a row of numbers for each stamp");
     return std::move(motion_);
   }
 
  private:
   [[noreturn]] void refuse(const std::string& what) const {
-    throw Error(fmt::format("{}:{}: {}", file_.string(), line_, what));
+    throw Error(fmt::format("{}:{}: {}", file_.string(), lines_.number(), what));
   }
 
   void take_header(std::vector<std::string> cells) {
@@ -86,46 +83,39 @@ class MotionReader {
   }
 
   [[nodiscard]] double number(const std::string& cell) const {
-    double value = 0.0;
-    const char* end = cell.data() + cell.size();
-    const auto [stop, error] = std::from_chars(cell.data(), end, value);
-    if (error != std::errc() || stop != end || !std::isfinite(value))
+    const std::optional<double> value = parse_number(cell);
+    if (!value)
       refuse(fmt::format("'{}' is not a finite number; write radians or metres",
                          shown(cell.substr(0, 40))));
-    return value;
+    return *value;
   }
 
   const std::filesystem::path& file_;
-  int line_ = 0;
+  TextLines lines_;
   Motion motion_;
 };
 
 }  // namespace
 
 std::vector<double> Motion::at(double stamp_s) const {
-  const auto row = [this](std::size_t n) {
-    return values.begin() + static_cast<std::ptrdiff_t>(n * joints.size());
-  };
+  const auto row = [this](std::size_t n) { return values.data() + n * joints.size(); };
   const auto after = static_cast<std::size_t>(
       std::upper_bound(stamps_s.begin(), stamps_s.end(), stamp_s) - stamps_s.begin());
   const std::size_t first = after > 0 ? after - 1 : 0;
   const std::size_t second = std::min(after, stamps_s.size() - 1);
-  std::vector<double> result(row(first), row(first) + static_cast<std::ptrdiff_t>(joints.size()));
+  std::vector<double> result(row(first), row(first + 1));
   if (first == second) return result;
   const double share = (stamp_s - stamps_s[first]) / (stamps_s[second] - stamps_s[first]);
   for (std::size_t joint = 0; joint < result.size(); ++joint)
-    result[joint] += share * (row(second)[static_cast<std::ptrdiff_t>(joint)] - result[joint]);
+    result[joint] += share * (row(second)[joint] - result[joint]);
   return result;
 }
 
 Motion read_motion(const std::filesystem::path& file) {
   const std::string bytes = bytes_of(file);
-  MotionReader reader(file);
-  std::istringstream text(bytes);
-  for (std::string line; std::getline(text, line);) reader.take(line);
-  Motion motion = reader.finish();
+  Motion motion = MotionReader(file, bytes).read();
   motion.file = file.filename().string();
-  motion.hash = hash_of_bytes(bytes);
+  motion.hash = hash_of(bytes);
   return motion;
 }
 

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "core/geometry/pose.hpp"
+
 #include <mujoco/mujoco.h>
 
 #include <memory>
@@ -27,5 +29,16 @@ void quiet_mujoco();
 
 /// MuJoCo's message on one line.
 [[nodiscard]] std::string one_line(const std::string& message);
+
+/// Name of a body, geom or joint; empty where it has none.
+[[nodiscard]] std::string element_name(const mjModel& model, mjtObj type, int id);
+
+/// Pose from MuJoCo's position (3) and row-major rotation matrix (9).
+[[nodiscard]] Pose pose_of(const mjtNum* position, const mjtNum* rotation);
+
+/// World pose of a geom, its kinematics done.
+[[nodiscard]] inline Pose geom_pose(const mjData& data, int geom) {
+  return pose_of(data.geom_xpos + 3 * geom, data.geom_xmat + 9 * geom);
+}
 
 }  // namespace mapscore::sim

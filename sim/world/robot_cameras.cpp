@@ -4,7 +4,7 @@
 #include "sim/world/robot_cameras.hpp"
 
 #include "core/error.hpp"
-#include "sim/world/mujoco_pose.hpp"
+#include "sim/world/mujoco_session.hpp"
 
 #include <fmt/format.h>
 
@@ -16,27 +16,23 @@ namespace {
 constexpr double kLargestDepthM = 65535 / kDepthUnitsPerMetre;
 
 void check(const CameraOverrides& cameras) {
-  if (cameras.width_px < 1 || cameras.height_px < 1) {
+  if (cameras.width_px < 1 || cameras.height_px < 1)
     throw Error(fmt::format("cameras: resolution {} x {}: must be at least 1 x 1 px",
                             cameras.width_px, cameras.height_px));
-  }
   const bool ordered = cameras.range_min_m > 0 && cameras.range_max_m > cameras.range_min_m;
-  if (!ordered || cameras.range_max_m > kLargestDepthM) {
+  if (!ordered || cameras.range_max_m > kLargestDepthM)
     throw Error(fmt::format("cameras: depth range {} to {} m: give 0 < min < max <= {} m",
                             cameras.range_min_m, cameras.range_max_m, kLargestDepthM));
-  }
 }
 
 int find_camera(const mjModel& model, const std::string& name, const std::string& robot_file) {
   const int id = mj_name2id(&model, mjOBJ_CAMERA, (kRobotPrefix + name).c_str());
-  if (id < 0) {
+  if (id < 0)
     throw Error(
         fmt::format("{}: no camera `{}` under body base_footprint; add one", robot_file, name));
-  }
-  if (model.cam_fovy[id] <= 0 || model.cam_fovy[id] >= 180) {
+  if (model.cam_fovy[id] <= 0 || model.cam_fovy[id] >= 180)
     throw Error(
         fmt::format("{}: camera `{}`: fovy must lie between 0 and 180 degrees", robot_file, name));
-  }
   return id;
 }
 

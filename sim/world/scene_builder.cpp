@@ -4,11 +4,9 @@
 #include "sim/world/scene_builder.hpp"
 
 #include "core/error.hpp"
-#include "sim/world/drawn_mesh.hpp"
+#include "sim/world/costly_scene.hpp"
 #include "sim/world/facets.hpp"
-#include "sim/world/mjcf_cost.hpp"
 #include "sim/world/robot_cameras.hpp"
-#include "sim/world/trial_process.hpp"
 
 #include <fmt/format.h>
 
@@ -29,9 +27,8 @@ namespace {
 }
 
 SpecPtr parse(const std::filesystem::path& file, const char* what) {
-  if (!std::filesystem::is_regular_file(file)) {
+  if (!std::filesystem::is_regular_file(file))
     throw Error(fmt::format("{}: no such {} file; check the path", file.string(), what));
-  }
   std::array<char, 1024> reason{};
   SpecPtr spec(mj_parseXML(file.c_str(), nullptr, reason.data(), static_cast<int>(reason.size())));
   if (!spec) refuse(file, reason.data());
@@ -66,15 +63,13 @@ SceneBuilder::SceneBuilder(const std::filesystem::path& scene, const std::filesy
 void SceneBuilder::attach(const std::filesystem::path& robot) {
   robot_spec_ = parse(robot, "robot");
   mjsBody* base = mjs_findBody(robot_spec_.get(), "base_footprint");
-  if (!base) {
+  if (!base)
     throw Error(
         fmt::format("{}: no body `base_footprint`; name the robot's root so", robot.string()));
-  }
   mjsFrame* frame = mjs_addFrame(mjs_findBody(spec_.get(), "world"), nullptr);
-  if (!mjs_attach(frame->element, base->element, kRobotPrefix, "")) {
+  if (!mjs_attach(frame->element, base->element, kRobotPrefix, ""))
     throw Error(fmt::format("{}: cannot be attached to {}: {}", robot.string(), scene_.string(),
                             one_line(mjs_getError(spec_.get()))));
-  }
 }
 
 ModelPtr SceneBuilder::compile() {

@@ -10,32 +10,26 @@ namespace {
 Eigen::Vector3d half_extents(const Shape& shape) {
   const Eigen::Matrix3d R = shape.T_world_shape.linear();
   const Eigen::Vector3d& size = shape.size;
-  const auto disc = [&](double radius) {  // a circle about the shape's z axis
-    return (radius * R.leftCols<2>().rowwise().norm()).eval();
-  };
-  switch (shape.kind) {
-    case ShapeKind::sphere:
-      return Eigen::Vector3d::Constant(size.x());
-    case ShapeKind::ellipsoid:
-      return (R * size.asDiagonal()).rowwise().norm();
-    case ShapeKind::capsule:
-      return Eigen::Vector3d::Constant(size.x()) + size.y() * R.col(2).cwiseAbs();
-    case ShapeKind::cylinder:
-      return disc(size.x()) + size.y() * R.col(2).cwiseAbs();
-    default:
-      return R.cwiseAbs() * size;
-  }
+  if (shape.kind == ShapeKind::sphere) return Eigen::Vector3d::Constant(size.x());
+  if (shape.kind == ShapeKind::ellipsoid) return (R * size.asDiagonal()).rowwise().norm();
+  if (shape.kind == ShapeKind::capsule)
+    return Eigen::Vector3d::Constant(size.x()) + size.y() * R.col(2).cwiseAbs();
+  if (shape.kind == ShapeKind::cylinder)  // two circles about the shape's z axis
+    return (size.x() * R.leftCols<2>().rowwise().norm()).eval() + size.y() * R.col(2).cwiseAbs();
+  return R.cwiseAbs() * size;
 }
 
 }  // namespace
 
-Eigen::AlignedBox3d bounds_of(const Shape& shape) {
+Eigen::AlignedBox3d bounds_of(std::span<const Triangle> triangles, const Pose& T_world_mesh) {
   Eigen::AlignedBox3d bounds;
-  if (shape.kind == ShapeKind::mesh) {
-    for (const Triangle& triangle : shape.triangles)
-      for (const Eigen::Vector3d& corner : triangle) bounds.extend(shape.T_world_shape * corner);
-    return bounds;
-  }
+  for (const Triangle& triangle : triangles)
+    for (const Eigen::Vector3d& corner : triangle) bounds.extend(T_world_mesh * corner);
+  return bounds;
+}
+
+Eigen::AlignedBox3d bounds_of(const Shape& shape) {
+  if (shape.kind == ShapeKind::mesh) return bounds_of(shape.triangles, shape.T_world_shape);
   const Eigen::Vector3d half = half_extents(shape);
   const Eigen::Vector3d centre = shape.T_world_shape.translation();
   return {centre - half, centre + half};

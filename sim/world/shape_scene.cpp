@@ -4,7 +4,6 @@
 #include "sim/world/shape_scene.hpp"
 
 #include "core/error.hpp"
-#include "sim/world/drawn_mesh.hpp"
 #include "sim/world/facets.hpp"
 
 #include <fmt/format.h>
@@ -54,7 +53,7 @@ class Meshes {
     const Facets facets = drawn_facets(shape);
     if (facets.faces.empty()) return std::nullopt;
     const int number = static_cast<int>(numbers_.size());
-    add_mesh(spec_.get(), name_of_mesh(number), facets);
+    add_mesh(spec_.get(), std::to_string(number), facets);
     numbers_.emplace(form, number);
     return number;
   }
@@ -69,36 +68,24 @@ class Meshes {
     return model;
   }
 
-  static std::string name_of_mesh(int number) { return fmt::format("{}", number); }
-
  private:
   SpecPtr spec_;
   std::map<std::string, int> numbers_;
 };
 
-/// Half grey, half the colour of the class.
-void set_colour(const Shape& shape, const ClassTable& table, float* rgba) {
+/// In half grey, half the colour of the class.
+mjvGeom geom_of(const Shape& shape, const ClassTable& table) {
   constexpr float kGrey = 0.75f;
+  mjvGeom geom =
+      box_geom(shape.size, shape.T_world_shape.translation(), shape.T_world_shape.linear());
   const ClassId id = table.class_of(shape.instance);
   const Colour& colour = table.classes.at(id).colour;
   const std::uint8_t bytes[3] = {colour.r, colour.g, colour.b};
   for (int channel = 0; channel < 3; ++channel)
-    rgba[channel] = id == kBackground
-                        ? kGrey
-                        : 0.5f * kGrey + 0.5f * static_cast<float>(bytes[channel]) / 255.0f;
-  rgba[3] = 1.0f;
-}
-
-mjvGeom geom_of(const Shape& shape, const ClassTable& table) {
-  const Eigen::Vector3d& p = shape.T_world_shape.translation();
-  const mjtNum position[3] = {p.x(), p.y(), p.z()};
-  const mjtNum size[3] = {shape.size.x(), shape.size.y(), shape.size.z()};
-  mjtNum rotation[9];
-  for (int i = 0; i < 9; ++i) rotation[i] = shape.T_world_shape.linear()(i / 3, i % 3);
-  float rgba[4];
-  set_colour(shape, table, rgba);
-  mjvGeom geom;
-  mjv_initGeom(&geom, mjGEOM_BOX, size, position, rotation, rgba);
+    geom.rgba[channel] = id == kBackground
+                             ? kGrey
+                             : 0.5f * kGrey + 0.5f * static_cast<float>(bytes[channel]) / 255.0f;
+  geom.rgba[3] = 1.0f;
   geom.segid = shape.instance;
   return geom;
 }
@@ -122,7 +109,7 @@ ShapeScene scene_of_shapes(std::vector<Shape> shapes, const ClassTable& table) {
   for (std::size_t i = 0; i < drawn_by.size(); ++i) {
     if (!drawn_by[i]) continue;
     const int mesh =
-        mj_name2id(scene.model.get(), mjOBJ_MESH, Meshes::name_of_mesh(*drawn_by[i]).c_str());
+        mj_name2id(scene.model.get(), mjOBJ_MESH, std::to_string(*drawn_by[i]).c_str());
     draw_mesh(*scene.model, mesh, scene.shapes[i].T_world_shape, scene.drawn.geoms[i]);
   }
   return scene;

@@ -9,8 +9,12 @@
 #include <mujoco/mujoco.h>
 
 #include <string>
+#include <vector>
 
 namespace mapscore::sim {
+
+/// Triangles of a compiled mesh, in the frame of its geoms.
+[[nodiscard]] std::vector<Triangle> mesh_triangles(const mjModel& model, int mesh);
 
 /// Exact surface of one geom at the pose that `data` holds (kinematics done). Height fields become
 /// the triangles that MuJoCo draws: top, sides and base; a signed distance field its mesh. Throws

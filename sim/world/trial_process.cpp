@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "sim/world/trial_process.hpp"
-
 #include "core/error.hpp"
+#include "sim/world/costly_scene.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -73,11 +72,10 @@ std::string read_all(int pipe) {
   std::array<char, 4096> part{};
   while (true) {
     const ssize_t size = read(pipe, part.data(), part.size());
-    if (size > 0) {
+    if (size > 0)
       text.append(part.data(), static_cast<std::size_t>(size));
-    } else if (size == 0 || errno != EINTR) {
+    else if (size == 0 || errno != EINTR)
       return text;
-    }
   }
 }
 

@@ -4,30 +4,25 @@
 #include "sim/world/world.hpp"
 
 #include "core/error.hpp"
-#include "sim/world/class_assignment.hpp"
 #include "sim/world/compiled_scene.hpp"
-#include "sim/world/content_hash.hpp"
-#include "sim/world/motion.hpp"
-#include "sim/world/moving_scene.hpp"
 #include "sim/world/robot_cameras.hpp"
 #include "sim/world/scene_builder.hpp"
 #include "sim/world/shape_scene.hpp"
 #include "sim/world/surfaces.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace mapscore::sim {
+namespace {
 
 /// A compiled scene at its initial pose.
 struct PlacedModel {
   ModelPtr model;
   DataPtr data;
 };
-
-namespace {
 
 PlacedModel compile_and_place(SceneBuilder& builder) {
   PlacedModel placed;
@@ -74,23 +69,32 @@ std::vector<Pose> poses_of(const std::vector<Shape>& shapes) {
   return poses;
 }
 
-/// Where the value of a joint of the scene stands in qpos.
-int address_of(const CompiledScene& scene, const std::string& joint, const std::string& file) {
+/// For each body, whether a joint of the motion moves it.
+std::vector<bool> moved_bodies(const mjModel& model, const Motion& motion) {
+  std::vector<bool> moved(static_cast<std::size_t>(model.nbody), false);
+  for (const std::string& joint : motion.joints)
+    moved[model.jnt_bodyid[mj_name2id(&model, mjOBJ_JOINT, joint.c_str())]] = true;
+  for (int body = 1; body < model.nbody; ++body)  // parents come first
+    if (moved[model.body_parentid[body]]) moved[body] = true;
+  return moved;
+}
+
+/// Throws Error unless the scene has the joint, and it is a hinge or a slide.
+void check_joint(const CompiledScene& scene, const std::string& joint, const std::string& file) {
   const mjModel& model = *scene.model;
   const int id = mj_name2id(&model, mjOBJ_JOINT, joint.c_str());
   if (id >= 0 && !scene.robot_body[model.jnt_bodyid[id]]) {
-    if (model.jnt_type[id] == mjJNT_HINGE || model.jnt_type[id] == mjJNT_SLIDE)
-      return model.jnt_qposadr[id];
+    if (model.jnt_type[id] == mjJNT_HINGE || model.jnt_type[id] == mjJNT_SLIDE) return;
     throw Error(fmt::format(
         "{}: joint '{}' is neither hinge nor slide; move it by several of these", file, joint));
   }
-  std::string names;
+  std::vector<std::string> names;
   for (int other = 0; other < model.njnt; ++other)
-    if (const char* name = mj_id2name(&model, mjOBJ_JOINT, other);
-        name && *name && !scene.robot_body[model.jnt_bodyid[other]])
-      names.append(names.empty() ? "" : ", ").append(name);
+    if (std::string name = element_name(model, mjOBJ_JOINT, other);
+        !name.empty() && !scene.robot_body[model.jnt_bodyid[other]])
+      names.push_back(std::move(name));
   throw Error(fmt::format("{}: the scene has no joint '{}'; its joints: {}", file, joint,
-                          names.empty() ? "none" : names));
+                          names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
 /// OpenGL would keep that many slices of every built-in shape.
@@ -114,6 +118,13 @@ void set_quality(mjModel& model, const CameraOverrides& cameras) {
 }
 
 }  // namespace
+
+struct World::State {
+  std::shared_ptr<const CompiledScene> compiled;
+  DrawnScene drawn;
+  std::vector<Shape> shapes;
+  std::shared_ptr<const Motion> motion;  ///< none for a world that stands still
+};
 
 // Compiled twice: once as it stands, to know the drawn surfaces, then with facets for the round
 // ones.
@@ -151,10 +162,7 @@ World World::load(const WorldFiles& files, const CameraOverrides& cameras) {
   compiled->model = std::move(faceted.model);
   state->drawn = faceted_scene(*compiled, *faceted.data, state->shapes, poses_of(state->shapes));
   state->compiled = std::move(compiled);
-
-  World world;
-  world.state_ = std::move(state);
-  return world;
+  return World(std::move(state));
 }
 
 World World::of_shapes(std::vector<Shape> shapes, const ClassTable& table) {
@@ -170,21 +178,14 @@ World World::of_shapes(std::vector<Shape> shapes, const ClassTable& table) {
   for (const Shape& shape : state->shapes)
     compiled->assignment.geom_instances.push_back(shape.instance);
   state->compiled = std::move(compiled);
-  World world;
-  world.state_ = std::move(state);
-  return world;
+  return World(std::move(state));
 }
 
 World World::moving(Motion motion) const {
-  auto moving = std::make_shared<JointMotion>();
-  for (const std::string& joint : motion.joints)
-    moving->addresses.push_back(address_of(*state_->compiled, joint, motion.file));
-  moving->motion = std::move(motion);
+  for (const std::string& joint : motion.joints) check_joint(*state_->compiled, joint, motion.file);
   auto state = std::make_shared<State>(*state_);
-  state->motion = std::move(moving);
-  World world;
-  world.state_ = std::move(state);
-  return world;
+  state->motion = std::make_shared<Motion>(std::move(motion));
+  return World(std::move(state));
 }
 
 World World::at(double stamp_s) const {
@@ -195,13 +196,11 @@ World World::at(double stamp_s) const {
   state->drawn = scene.drawn();
   for (std::size_t i = 0; i < state->shapes.size(); ++i)
     state->shapes[i].T_world_shape = scene.poses()[i];
-  World world;
-  world.state_ = std::move(state);
-  return world;
+  return World(std::move(state));
 }
 
 const Motion* World::motion() const {
-  return state_->motion ? &state_->motion->motion : nullptr;
+  return state_->motion.get();
 }
 const ClassTable& World::classes() const {
   return state_->compiled->assignment.table;
@@ -230,6 +229,46 @@ bool World::robot_geom(int geom) const {
 }
 const DrawnScene& World::drawn() const {
   return state_->drawn;
+}
+
+struct MovingScene::State {
+  explicit State(std::shared_ptr<const World::State> world_state)
+      : world(std::move(world_state)), drawn(world->drawn), poses(poses_of(world->shapes)) {
+    if (!world->motion) return;
+    const mjModel& model = *world->compiled->model;
+    data.reset(mj_makeData(&model));
+    const std::vector<bool> moved = moved_bodies(model, *world->motion);
+    for (const mjvGeom& geom : world->drawn.geoms)
+      moves.push_back(moved[model.geom_bodyid[geom.objid]]);
+  }
+
+  std::shared_ptr<const World::State> world;
+  DataPtr data;
+  std::vector<bool> moves;  ///< by shape
+  std::optional<double> stamp_s;
+  DrawnScene drawn;
+  std::vector<Pose> poses;
+};
+
+MovingScene::MovingScene(const World& world) : state_(std::make_unique<State>(world.state_)) {}
+MovingScene::~MovingScene() = default;
+
+void MovingScene::move_to(double stamp_s) {
+  State& s = *state_;
+  if (!s.world->motion || s.stamp_s == stamp_s) return;
+  s.stamp_s = stamp_s;
+  place_at(*s.world->motion, stamp_s, *s.world->compiled->model, *s.data);
+  for (std::size_t i = 0; i < s.poses.size(); ++i)
+    if (s.moves[i]) s.poses[i] = geom_pose(*s.data, s.world->drawn.geoms[i].objid);
+  s.drawn = faceted_scene(*s.world->compiled, *s.data, s.world->shapes, s.poses);
+}
+
+const DrawnScene& MovingScene::drawn() const {
+  return state_->drawn;
+}
+
+const std::vector<Pose>& MovingScene::poses() const {
+  return state_->poses;
 }
 
 std::string mujoco_version() {

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 struct mjModel_;
@@ -19,6 +20,12 @@ namespace mapscore::sim {
 
 struct DrawnScene;
 struct Motion;
+
+/// Where the robot is at an instant.
+struct StampedPose {
+  double stamp_s = 0.0;
+  Pose T_world_base = Pose::Identity();
+};
 
 /// Files that make a world.
 struct WorldFiles {
@@ -80,7 +87,30 @@ class World {
  private:
   friend class MovingScene;
   struct State;
+  explicit World(std::shared_ptr<const State> state) : state_(std::move(state)) {}
   std::shared_ptr<const State> state_;
+};
+
+/// A world at one instant of its motion after the other. A world without a motion is always as it
+/// was loaded. Kinematics alone: joint limits, contacts and constraints do not act. Used by one
+/// thread at a time.
+class MovingScene {
+ public:
+  explicit MovingScene(const World& world);
+  ~MovingScene();
+  MovingScene(const MovingScene&) = delete;
+  MovingScene& operator=(const MovingScene&) = delete;
+
+  void move_to(double stamp_s);
+
+  /// What renderers draw at that instant; valid until the next move.
+  [[nodiscard]] const DrawnScene& drawn() const;
+  /// Poses T_world_shape of the world's shapes at that instant, in their order.
+  [[nodiscard]] const std::vector<Pose>& poses() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 [[nodiscard]] std::string mujoco_version();

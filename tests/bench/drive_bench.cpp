@@ -42,8 +42,8 @@ BENCHMARK(drive_apartment)->Unit(benchmark::kMillisecond);
 /// Turns of 360 beams, by jobs.
 void lidar_apartment(benchmark::State& state) {
   const sim::Lidar lidar(apartment());
-  std::vector<Pose> poses;
-  for (int i = 0; i < 500; ++i) poses.push_back(planar_pose(4.2, 1.9 + 0.004 * i, 0.05 * i));
+  std::vector<sim::StampedPose> poses;
+  for (int i = 0; i < 500; ++i) poses.push_back({0.0, planar_pose(4.2, 1.9 + 0.004 * i, 0.05 * i)});
   for (auto _ : state)
     benchmark::DoNotOptimize(lidar.scans(poses, static_cast<int>(state.range(0))));
   state.counters["scans_per_s"] = benchmark::Counter(

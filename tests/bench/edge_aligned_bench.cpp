@@ -12,13 +12,9 @@
 namespace {
 
 using namespace mapscore;
+using mapscore::testing::person;
 
 constexpr double kFrameBar_ms = 10.0;
-
-const testing::SyntheticPerson& person() {
-  static const testing::SyntheticPerson kPerson = testing::synthetic_person();
-  return kPerson;
-}
 
 /// Labels 20 mm off: the search has something to find.
 Calibration misregistered() {

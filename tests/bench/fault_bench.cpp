@@ -10,11 +10,7 @@
 namespace {
 
 using namespace mapscore;
-
-const testing::SyntheticPerson& person() {
-  static const testing::SyntheticPerson kPerson = testing::synthetic_person();
-  return kPerson;
-}
+using mapscore::testing::person;
 
 /// A frame of 640 x 480.
 void corrupt_depth(benchmark::State& state, const sim::DepthDose& dose) {

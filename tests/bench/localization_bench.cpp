@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/localization/distance_transform.hpp"
+#include "core/localization/occupancy_grid.hpp"
 #include "core/localization/particle_filter.hpp"
-#include "core/localization/ray_cast.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -25,7 +24,7 @@ void fill(OccupancyGrid& grid, GridCell low, GridCell high) {
       grid.set(cell, kOccupiedCell);
 }
 
-OccupancyGrid home() {
+OccupancyGrid home_grid() {
   OccupancyGrid grid({0.05, {}, 200, 140}, kFreeCell);
   fill(grid, {0, 0}, {199, 1});
   fill(grid, {0, 138}, {199, 139});
@@ -55,7 +54,7 @@ LaserScan scan_at(const OccupancyGrid& grid, const PlanarPose& pose) {
 
 /// Steps of 6 cm on the spot of one scan: the time does not depend on where the particles are.
 void run_filter(benchmark::State& state, ScanModel model) {
-  const OccupancyGrid grid = home();
+  const OccupancyGrid grid = home_grid();
   const PlanarPose start{3.0, 2.5, 0.4};
   const LaserScan scan = scan_at(grid, start);
   ParticleFilterParams params;
@@ -72,7 +71,7 @@ void run_filter(benchmark::State& state, ScanModel model) {
 }
 
 void filter_step_field(benchmark::State& state) {
-  run_filter(state, LikelihoodField(home(), {}, 12.0));
+  run_filter(state, LikelihoodField(home_grid(), {}, 12.0));
 }
 BENCHMARK(filter_step_field)->Arg(500)->Arg(5000)->Unit(benchmark::kMillisecond);
 
@@ -80,12 +79,12 @@ BENCHMARK(filter_step_field)->Arg(500)->Arg(5000)->Unit(benchmark::kMillisecond)
 void filter_step_beams(benchmark::State& state) {
   BeamModelParams params;
   params.beams = static_cast<std::size_t>(state.range(1));
-  run_filter(state, BeamModel(home(), params, 12.0));
+  run_filter(state, BeamModel(home_grid(), params, 12.0));
 }
 BENCHMARK(filter_step_beams)->Args({500, 60})->Args({500, 360})->Unit(benchmark::kMillisecond);
 
 void field_of_grid(benchmark::State& state) {
-  const OccupancyGrid grid = home();
+  const OccupancyGrid grid = home_grid();
   for (auto _ : state) benchmark::DoNotOptimize(squared_distances(grid));
 }
 BENCHMARK(field_of_grid)->Unit(benchmark::kMillisecond);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/objects/box_votes.hpp"
+#include "core/objects/box_depth.hpp"
 #include "core/objects/object_map.hpp"
 #include "core/objects/simulated_perception.hpp"
 #include "core/random_stream.hpp"

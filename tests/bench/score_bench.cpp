@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/random_stream.hpp"
-#include "eval/score/curve_score.hpp"
 #include "eval/score/distances/distance_score.hpp"
 #include "eval/score/map_snapshot.hpp"
 #include "eval/score/voxel_score.hpp"
 #include "tests/bench/peak_memory.hpp"
+#include "tests/eval/score/sample_sets.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -18,8 +18,9 @@ namespace {
 
 using namespace mapscore;
 using namespace mapscore::eval;
+using mapscore::eval::testing::sample_set_of;
 
-constexpr double kEdge_m = 0.05;
+constexpr double kTileEdge_m = 0.05;
 constexpr int kClasses = 6;
 
 /// A square floor of tiles of five classes, `side` x `side` voxels, and a map of it of the same
@@ -51,13 +52,13 @@ CubeDistance tile_distances(int side) {
       Shape tile;
       tile.kind = ShapeKind::plane;
       tile.instance = class_at(i, j);
-      tile.size = {kTile * kEdge_m / 2, kTile * kEdge_m / 2, 0};
-      tile.T_world_shape.translation() << (i + kTile / 2) * kEdge_m, (j + kTile / 2) * kEdge_m,
-          kEdge_m / 2;
+      tile.size = {kTile * kTileEdge_m / 2, kTile * kTileEdge_m / 2, 0};
+      tile.T_world_shape.translation() << (i + kTile / 2) * kTileEdge_m,
+          (j + kTile / 2) * kTileEdge_m, kTileEdge_m / 2;
       shapes.push_back(tile);
     }
   }
-  return cube_distance(prepare(shapes, Pose::Identity()), table, kEdge_m);
+  return cube_distance(prepare(shapes, Pose::Identity()), table, kTileEdge_m);
 }
 
 Scene make_scene(int side) {
@@ -76,14 +77,15 @@ Scene make_scene(int side) {
       if ((i / kTile + j / kTile) % 2 == 0) continue;
       visible.push_back({key, c, 8});
       for (int s = 0; s < 8; ++s) {
-        const double x = random.uniform() * kEdge_m, y = random.uniform() * kEdge_m;
-        points[c].push_back(low_corner_of(key, kEdge_m) + Eigen::Vector3d(x, y, kEdge_m / 2));
+        const double x = random.uniform() * kTileEdge_m, y = random.uniform() * kTileEdge_m;
+        points[c].push_back(low_corner_of(key, kTileEdge_m) +
+                            Eigen::Vector3d(x, y, kTileEdge_m / 2));
       }
     }
   }
-  scene.surface = SurfaceTruth(std::move(surface), kEdge_m);
-  scene.visible = VisibleTruth(std::move(visible), kEdge_m);
-  scene.samples = SampleSet(points, kEdge_m);
+  scene.surface = SurfaceTruth(std::move(surface), kTileEdge_m);
+  scene.visible = VisibleTruth(std::move(visible), kTileEdge_m);
+  scene.samples = sample_set_of(points, kTileEdge_m);
   scene.distance_of = tile_distances(side);
   return scene;
 }

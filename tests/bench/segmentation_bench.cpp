@@ -19,11 +19,7 @@
 namespace {
 
 using namespace mapscore;
-
-const testing::SyntheticPerson& person() {
-  static const testing::SyntheticPerson kPerson = testing::synthetic_person();
-  return kPerson;
-}
+using mapscore::testing::person;
 
 /// The one detection, its cloud, its points, and the point that growing starts from.
 struct DetectedPerson {

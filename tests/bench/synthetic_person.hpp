@@ -21,4 +21,10 @@ struct SyntheticPerson {
 
 [[nodiscard]] SyntheticPerson synthetic_person();
 
+/// The same, made once.
+inline const SyntheticPerson& person() {
+  static const SyntheticPerson kPerson = synthetic_person();
+  return kPerson;
+}
+
 }  // namespace mapscore::testing

@@ -34,8 +34,9 @@ if(NOT MAPSCORE_SIMULATOR)
 endif()
 
 # A mapscore that is wrong by half a voxel (mutant/rounding_placement.cpp), whichever way a frame is placed. Its
-# object comes before the library's, so the library's is never linked.
+# object comes before the library's, so the library's, which holds nothing else, is never linked.
 set(placement ${PROJECT_SOURCE_DIR}/core/placement/placement.cpp)
+set_source_files_properties(${placement} TARGET_DIRECTORY mapscore_core PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 set(mutant ${CMAKE_CURRENT_BINARY_DIR}/mutant)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${placement})
 file(READ ${placement} text)

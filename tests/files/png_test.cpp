@@ -4,7 +4,6 @@
 #include "files/png.hpp"
 
 #include "core/random_stream.hpp"
-#include "files/png_size.hpp"
 #include "tests/support/expect_error.hpp"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "tests/support/plate_recording.hpp"
 
 #include "eval/recording/recording.hpp"
-#include "eval/recording/recording_writer.hpp"
+#include "tests/support/tiny_recording.hpp"
 
 #include <cmath>
 
@@ -66,7 +66,7 @@ Frame plate_frame() {
 
 void write_plate_recording(const std::filesystem::path& folder) {
   eval::RecordingWriter writer(folder, plate_info());
-  writer.write(plate_frame());
+  write_frame(writer, plate_frame());
   writer.write_shapes(
       {facing_robot("plate", kPlate, kPlate_m, 0.1), facing_robot("wall", kWall, kWall_m, 1.0)});
   writer.finish();

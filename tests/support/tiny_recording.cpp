@@ -3,8 +3,6 @@
 
 #include "tests/support/tiny_recording.hpp"
 
-#include "eval/recording/recording_writer.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -158,9 +156,16 @@ std::vector<Frame> tiny_frames() {
   return frames;
 }
 
+void write_frame(eval::RecordingWriter& writer, const Frame& frame) {
+  Frame numbered = frame;
+  numbered.depth_index = frame.index;
+  writer.write_color(numbered);
+  writer.write_depth(numbered);
+}
+
 void write_tiny_recording(const std::filesystem::path& folder) {
   eval::RecordingWriter writer(folder, tiny_info());
-  for (const Frame& frame : tiny_frames()) writer.write(frame);
+  for (const Frame& frame : tiny_frames()) write_frame(writer, frame);
   writer.write_shapes(tiny_shapes());
   writer.finish();
 }

@@ -6,6 +6,7 @@
 #include "core/frame.hpp"
 #include "core/geometry/shape.hpp"
 #include "eval/recording/recording.hpp"
+#include "eval/recording/recording_writer.hpp"
 
 #include <filesystem>
 #include <vector>
@@ -21,6 +22,8 @@ namespace mapscore::testing {
 [[nodiscard]] std::vector<Frame> tiny_frames();
 /// Crate and wall in the world frame, in this order.
 [[nodiscard]] std::vector<Shape> tiny_shapes();
+/// Writes both sides of a frame, at one stamp, both numbered `frame.index`.
+void write_frame(eval::RecordingWriter& writer, const Frame& frame);
 /// Writes the recording to `folder`, which must not exist.
 void write_tiny_recording(const std::filesystem::path& folder);
 

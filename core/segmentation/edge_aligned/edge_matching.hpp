@@ -14,9 +14,6 @@
 
 namespace mapscore {
 
-/// Weight of edges that face against the outline they lie on: something stands in front there.
-inline constexpr float kOtherWay = 0.7F;
-
 [[nodiscard]] inline Eigen::Vector2f direction_of(Outward way) {
   switch (way) {
     case Outward::right:
@@ -71,6 +68,7 @@ struct EdgeMatch {
   match.gradient = {(1 - b) * (top[1] - top[0]) + b * (low[1] - low[0]),
                     (1 - a) * (low[0] - top[0]) + a * (low[1] - top[1])};
   match.facing = match.gradient.dot(outward);
+  constexpr auto kOtherWay = static_cast<float>(OutlineField::kOtherWay);
   match.weight = strength * (match.facing > 0 ? match.facing : -kOtherWay * match.facing) *
                  std::exp(-0.5F * match.residual * match.residual / (sigma_px * sigma_px));
   return match;

@@ -15,7 +15,6 @@
 namespace mapscore {
 namespace {
 
-constexpr float kCoarse = 4.0F;  // pixels a cell of the coarse maps
 constexpr std::size_t kCoarseEdges = 800, kFineEdges = 4000;
 constexpr float kStepPx = 4.0F;   // between turns that are tried
 constexpr float kStepM = 0.005F;  // between shifts that are tried
@@ -96,7 +95,7 @@ class Aligner {
     for (std::size_t n = 0; n < edges_.size(); n += stride) {
       const ProjectedEdge& edge = edges_[n];
       const Eigen::Vector2f at = project_(a.rotation * edge.p + a.translation);
-      const float u = at.x() / kCoarse, v = at.y() / kCoarse;
+      const float u = at.x() / OutlineField::kCell_px, v = at.y() / OutlineField::kCell_px;
       if (!(u >= 0 && v >= 0 && u < static_cast<float>(any.cols) &&
             v < static_cast<float>(any.rows)))
         continue;
@@ -202,7 +201,8 @@ class Aligner {
       const Match m = match(edges_[n], a, sigma);
       if (m.weight <= 0) continue;
       const Eigen::Vector2f foot = project_(m.p) - (m.residual + a.offset_px) * m.gradient;
-      const int u = static_cast<int>(foot.x() / kCoarse), v = static_cast<int>(foot.y() / kCoarse);
+      const int u = static_cast<int>(foot.x() / OutlineField::kCell_px),
+                v = static_cast<int>(foot.y() / OutlineField::kCell_px);
       if (foot.x() < 0 || foot.y() < 0 || u >= votes_[0].cols || v >= votes_[0].rows) continue;
       const bool same_way = m.gradient.dot(edges_[n].outward) > 0;
       votes_[same_way ? edges_[n].way : edges_[n].way ^ 1U](v, u) += weight * m.weight;

@@ -12,7 +12,7 @@ namespace mapscore {
 namespace {
 
 constexpr std::int32_t kUnits = 1 << 16;  // a pixel
-constexpr std::int32_t kStep = 62587, kDiagonal = 89738;
+constexpr std::int32_t kStraight = 62587, kDiagonal = 89738;
 constexpr std::int32_t kUnknown = 1 << 29;  // 8192 pixels
 
 /// Sets to 0 the ways of the pixels on a rim; `ways` begin at column 0.
@@ -37,7 +37,7 @@ void start_at_rim(const cv::Mat1w& owner, int v, std::int32_t* ways) {
 void step_across(const std::int32_t* neighbour, std::int32_t* ways, int columns) {
   for (int u = 0; u < columns; ++u) {
     const std::int32_t diagonal = std::min(neighbour[u - 1], neighbour[u + 1]) + kDiagonal;
-    ways[u] = std::min(ways[u], std::min(neighbour[u] + kStep, diagonal));
+    ways[u] = std::min(ways[u], std::min(neighbour[u] + kStraight, diagonal));
   }
 }
 
@@ -65,7 +65,7 @@ void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance) {
     step_across(rows[1 - v % 2].data() + 1, ways, columns);
     start_at_rim(owner, v, ways);
     std::int32_t before = kUnknown;
-    for (int u = 0; u < columns; ++u) before = ways[u] = std::min(ways[u], before + kStep);
+    for (int u = 0; u < columns; ++u) before = ways[u] = std::min(ways[u], before + kStraight);
     std::transform(ways, ways + columns, distance[v], std::bit_cast<float, std::int32_t>);
   }
   for (auto& row : rows) std::fill(row.begin(), row.end(), kUnknown);
@@ -74,7 +74,7 @@ void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance) {
     std::transform(distance[v], distance[v] + columns, ways, std::bit_cast<std::int32_t, float>);
     step_across(rows[1 - v % 2].data() + 1, ways, columns);
     std::int32_t before = kUnknown;
-    for (int u = columns - 1; u >= 0; --u) before = ways[u] = std::min(ways[u], before + kStep);
+    for (int u = columns - 1; u >= 0; --u) before = ways[u] = std::min(ways[u], before + kStraight);
     write_distances(owner[v], ways, distance[v], columns);
   }
 }

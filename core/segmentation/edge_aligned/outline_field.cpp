@@ -14,9 +14,6 @@
 namespace mapscore {
 namespace {
 
-constexpr int kCoarse = 4;         // pixels a cell of the coarse maps
-constexpr double kOtherWay = 0.7;  // weight of outlines that face the other way: occluded ones
-
 cv::Mat1w painted(const std::vector<Detection>& detections, int width_px, int height_px) {
   cv::Mat1w owner(height_px, width_px, std::uint16_t{0});
   for (std::size_t n = 0; n < detections.size(); ++n) {
@@ -53,10 +50,12 @@ const std::uint16_t* next_of(const std::uint16_t* from, const std::uint16_t* end
 std::array<cv::Mat1f, 4> counted(const cv::Mat1w& masks, int& length_px) {
   std::array<cv::Mat1f, 4> cells;
   for (cv::Mat1f& map : cells)
-    map = cv::Mat1f(masks.rows / kCoarse + 1, masks.cols / kCoarse + 1, 0.0F);
+    map = cv::Mat1f(masks.rows / OutlineField::kCell_px + 1,
+                    masks.cols / OutlineField::kCell_px + 1, 0.0F);
   const auto count = [&](Outward way, int v, int u) {
     ++length_px;
-    cells[static_cast<std::size_t>(way)](v / kCoarse, u / kCoarse) += 1.0F;
+    cells[static_cast<std::size_t>(way)](v / OutlineField::kCell_px, u / OutlineField::kCell_px) +=
+        1.0F;
   };
   if (masks.empty()) return cells;
   const int last = masks.cols - 1;
@@ -98,11 +97,11 @@ std::array<cv::Mat1b, 4> coarse_maps(const std::array<cv::Mat1f, 4>& cells) {
   std::array<cv::Mat1b, 4> maps;
   std::array<cv::Mat1f, 4> blurred;
   for (std::size_t way = 0; way < 4; ++way) {
-    cv::Mat1f limited = cv::min(cells[way] / static_cast<double>(kCoarse), 1.0F);
+    cv::Mat1f limited = cv::min(cells[way] / static_cast<double>(OutlineField::kCell_px), 1.0F);
     cv::GaussianBlur(limited, blurred[way], {5, 5}, 1.0);
   }
   for (std::size_t way = 0; way < 4; ++way) {
-    const cv::Mat1f both = blurred[way] + kOtherWay * blurred[way ^ 1U];
+    const cv::Mat1f both = blurred[way] + OutlineField::kOtherWay * blurred[way ^ 1U];
     both.convertTo(maps[way], CV_8U, 255.0 / 0.4);
   }
   return maps;

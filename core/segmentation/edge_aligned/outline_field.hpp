@@ -23,12 +23,15 @@ struct OutlineField {
   /// How well an edge that faces Outward d fits at quarter size, 0 to 255: 255 on outlines that
   /// face the same way, less within 8 pixels and for those that face the other way.
   std::array<cv::Mat1b, 4> coarse;
-  /// Number of outline elements that face each way, by cell of 4 x 4 pixels. An element is a pair
+  /// Number of outline elements that face each way, by cell. An element is a pair
   /// of neighbouring pixels on either side of an outline, counted for each owner.
   std::array<cv::Mat1f, 4> elements;
   int length_px = 0;  ///< number of all outline elements
 
   static constexpr float kFar = 1e4F;
+  /// Weight of what faces against the outline it lies on: something stands in front there.
+  static constexpr double kOtherWay = 0.7;
+  static constexpr int kCell_px = 4;  ///< edge of a cell of `coarse` and `elements`
 };
 
 /// Grows all masks together by up to `reach_px` steps along rows and columns: each background pixel

@@ -25,8 +25,11 @@ template <Choice Any>
 class ChoiceFlags {
  public:
   /// `start`: the choice where no flag is given; its parameters are the defaults of its kind.
-  ChoiceFlags(CLI::App& verb, std::string flag, Any start, const std::string& group = "Options")
-      : flag_(std::move(flag)), start_(std::move(start)) {
+  ChoiceFlags(std::string flag, Any start) : flag_(std::move(flag)), start_(std::move(start)) {}
+  ChoiceFlags(const ChoiceFlags&) = delete;
+  ChoiceFlags& operator=(const ChoiceFlags&) = delete;
+
+  void add_to(CLI::App& verb, const std::string& group = "Options") {
     const std::vector<std::string> kinds = kinds_of(start_);
     verb.add_option(flag_, kind_, fmt::format("{} [{}]", fmt::join(kinds, ", "), kind_of(start_)))
         ->group(group)
@@ -35,8 +38,6 @@ class ChoiceFlags {
       std::visit([&](const auto& of_kind) { add_parameters(verb, of_kind, group); },
                  kind_of(kind) == kind_of(start_) ? start_ : kind);
   }
-  ChoiceFlags(const ChoiceFlags&) = delete;
-  ChoiceFlags& operator=(const ChoiceFlags&) = delete;
 
   /// Whether any of the flags was given.
   [[nodiscard]] bool given() const {

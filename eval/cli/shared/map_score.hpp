@@ -3,18 +3,45 @@
 
 #pragma once
 
-#include "eval/cli/shared/map_input.hpp"
+#include "core/classes.hpp"
 #include "eval/cli/shared/truth_source.hpp"
+#include "eval/map_files/legend.hpp"
 #include "eval/report/table.hpp"
 #include "eval/score/confusion.hpp"
+#include "eval/score/instances/instance_pieces.hpp"
 #include "eval/score/instances/instance_score.hpp"
+#include "eval/score/map_snapshot.hpp"
 #include "eval/score/occupancy_score.hpp"
+
+#include <CLI/CLI.hpp>
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace mapscore::eval {
+
+/// Flags that say how a map's file is to be read.
+struct MapFlags {
+  std::string file, legend, transform;
+  bool geometry = false, resample = false, skip_nan = false, trust_frame = false;
+
+  void add_to(CLI::App& verb);
+};
+
+/// A map on the lattice of the truth.
+struct InputMap {
+  MapSnapshot snapshot{{}};
+  std::vector<NumberedVoxel> numbers;  ///< of objects; empty where the file has none
+  bool geometry = false;               ///< without classes: occupied voxels are of kSurfaceClass
+  std::vector<Leftover> leftovers;     ///< labels that mean nothing
+  std::string placing;                 ///< in words, how it came onto the lattice
+};
+
+/// Reads the map, gives its labels their meaning in `table` and brings it onto the lattice of edge
+/// `edge_m`. Throws Error with where and how to mend it.
+[[nodiscard]] InputMap read_input_map(const MapFlags& flags, const ClassTable& table,
+                                      double edge_m);
 
 /// Everything that is counted of one map.
 struct MapScore {
@@ -29,7 +56,9 @@ struct MapScore {
   std::string note;                          ///< for the user, on where the map lies; often empty
 };
 
-/// Scores a map against a truth. Throws Error when the map lies in another frame.
+/// Scores a map against a truth. Throws Error with the bounds of both when fewer than one occupied
+/// voxel in a hundred lies on or beside a surface: then the map lies in another frame. Below one in
+/// four it says so in a note. A map without occupied voxels passes.
 [[nodiscard]] MapScore score_input(const InputMap& map, const MapFlags& flags, double threshold,
                                    TruthSource& source, int jobs);
 

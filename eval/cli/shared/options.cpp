@@ -3,9 +3,12 @@
 
 #include "eval/cli/shared/options.hpp"
 
+#include "core/error.hpp"
+#include "eval/study/picture_view.hpp"
+
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <set>
 
 namespace mapscore::eval {
 
@@ -16,11 +19,6 @@ void StudyFlags::add_to(CLI::App& verb) {
                   "Override a key: --set faults.pose.sigma_xy_m=0.02; may be repeated")
       ->allow_extra_args(false);
   verb.add_option("-o,--output", results, "Folder of the results [results/NAME]");
-}
-
-std::filesystem::path StudyFlags::results_folder(const Study& study) const {
-  return results.empty() ? std::filesystem::path("results") / study.name
-                         : std::filesystem::path(results);
 }
 
 CLI::Validator finite_within(double low, double high) {
@@ -48,6 +46,66 @@ void WorkFlags::add_to(CLI::App& verb) {
       ->check(CLI::Range(1, 1024));
   add_memory_flag(verb, memory_bytes);
   verb.add_flag("-q,--quiet", quiet, "No progress on standard error");
+}
+
+void ViewFlag::add_to(CLI::App& verb) {
+  verb.add_option("--view", numbers,
+                  "Draw pictures from an eye towards a target (world, metres), and with a vertical "
+                  "field of view in degrees [an overview, and where most errors are]")
+      ->expected(6, 7)
+      ->type_name("EX EY EZ TX TY TZ [VFOV]");
+}
+
+std::optional<sim::View> ViewFlag::view() const {
+  if (numbers.empty()) return std::nullopt;
+  try {
+    return view_of_numbers(numbers);
+  } catch (const Error& error) {
+    throw Error(std::string("--view: ") + error.what());
+  }
+}
+
+void add_format_flag(CLI::App& verb, std::string& format) {
+  verb.add_option("--format", format, "text, csv or json [text]")
+      ->check(CLI::IsMember({"text", "csv", "json"}));
+}
+
+std::string formatted(const Table& table, const std::string& format) {
+  if (format == "csv") return to_csv(table);
+  return format == "json" ? to_json(table) : to_text(table);
+}
+
+void check_outputs(const std::vector<OutputFile>& outputs) {
+  namespace fs = std::filesystem;
+  std::set<fs::path> named;
+  for (const auto& [flag, file, ending] : outputs) {
+    if (file.empty()) continue;
+    const auto refuse = [&, name = flag, path = file](const std::string& why) {
+      throw Error(fmt::format("{}: {}: {}", name, path.string(), why));
+    };
+    if (!ending.empty() && file.extension() != ending)
+      refuse(fmt::format("is written as {}; give the file this ending", ending));
+    const fs::path whole = fs::absolute(file).lexically_normal();
+    std::error_code none;
+    if (fs::is_directory(whole, none)) refuse("is a folder; give the name of a file");
+    if (!fs::is_directory(whole.parent_path(), none))
+      refuse("its folder is not there; make it, or give another");
+    if (!named.insert(whole).second) refuse("two flags name this file; give each its own");
+  }
+}
+
+std::list<FolderLock> lock_outputs(const std::vector<std::filesystem::path>& files) {
+  namespace fs = std::filesystem;
+  std::set<fs::path> folders;
+  for (const fs::path& file : files) {
+    if (file.empty()) continue;
+    std::error_code missing;
+    const fs::path folder = fs::canonical(fs::absolute(file).parent_path(), missing);
+    if (!missing) folders.insert(folder);
+  }
+  std::list<FolderLock> locks;
+  for (const fs::path& folder : folders) locks.emplace_back(folder);
+  return locks;
 }
 
 }  // namespace mapscore::eval

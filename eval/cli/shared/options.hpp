@@ -3,12 +3,17 @@
 
 #pragma once
 
+#include "eval/report/table.hpp"
 #include "eval/study/study.hpp"
+#include "files/folder_lock.hpp"
+#include "sim/render/renderer.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <cstddef>
 #include <filesystem>
+#include <list>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -24,7 +29,10 @@ struct StudyFlags {
   void add_to(CLI::App& verb);
   [[nodiscard]] Study load() const { return load_study(file, overrides); }
   /// `-o`, or results/NAME below the working folder.
-  [[nodiscard]] std::filesystem::path results_folder(const Study& study) const;
+  [[nodiscard]] std::filesystem::path results_folder(const Study& study) const {
+    return results.empty() ? std::filesystem::path("results") / study.name
+                           : std::filesystem::path(results);
+  }
 };
 
 /// A finite number within limits, both included; CLI::Range would let NaN pass.
@@ -41,5 +49,35 @@ struct WorkFlags {
 
   void add_to(CLI::App& verb);
 };
+
+/// `--view EX EY EZ TX TY TZ [VFOV]`: where pictures are drawn from.
+struct ViewFlag {
+  std::vector<double> numbers;
+
+  void add_to(CLI::App& verb);
+  /// None when the flag is not given. Throws Error when it says no view.
+  [[nodiscard]] std::optional<sim::View> view() const;
+};
+
+/// `--format`: text, csv or json.
+void add_format_flag(CLI::App& verb, std::string& format);
+[[nodiscard]] std::string formatted(const Table& table, const std::string& format);
+
+/// A file that a flag names, to be written when the work is done.
+struct OutputFile {
+  std::string flag;
+  std::filesystem::path file;  ///< empty: not asked for
+  std::string ending;          ///< that it must have, as ".ot"; empty: any
+};
+
+/// Refuses before the work what could not be written after it: throws Error unless each file has
+/// its ending, lies in a folder that is there and is no folder itself, and no two are the same.
+void check_outputs(const std::vector<OutputFile>& outputs);
+
+/// Locks on the folders of files that belong together, so that two runs into one place leave the
+/// files of one of them and never a mixture; waits for a run that holds one. Empty names and
+/// folders that are not there are left out. Folders are locked in the order of their paths, so that
+/// no two runs wait for each other.
+[[nodiscard]] std::list<FolderLock> lock_outputs(const std::vector<std::filesystem::path>& files);
 
 }  // namespace mapscore::eval

@@ -15,6 +15,8 @@ namespace {
 
 /// Names of figures and the columns that show them.
 using Columns = std::vector<std::pair<const char*, const char*>>;
+/// Metrics of each class that is shown, then pooled and macro, by their names.
+using Groups = std::vector<std::pair<std::string, std::vector<Metric>>>;
 
 std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{:.3f}", *value) : "-";
@@ -32,15 +34,6 @@ std::vector<const SemanticClass*> shown_classes(const MapScore& score) {
   return shown;
 }
 
-/// The shown classes, then pooled and macro.
-std::vector<std::string> groups_of(const MapScore& score) {
-  std::vector<std::string> groups;
-  for (const SemanticClass* c : shown_classes(score)) groups.push_back(c->name);
-  groups.emplace_back(kPooled);
-  groups.emplace_back(kMacro);
-  return groups;
-}
-
 std::vector<std::string> figures(const std::string& group, const std::vector<Metric>& metrics,
                                  const Columns& columns) {
   std::vector<std::string> row{group};
@@ -49,24 +42,36 @@ std::vector<std::string> figures(const std::string& group, const std::vector<Met
   return row;
 }
 
-/// Metrics of a group. A scene has no samples, so nothing says how complete a map of it is: neither
-/// then is there an F-score at a distance.
-std::vector<Metric> metrics_in(const MapScore& score, const std::string& group) {
-  std::vector<Metric> metrics = tidy_metrics(score.counts, score.table, group);
-  if (!score.sampled)
+/// A scene has no samples, so nothing says how complete a map of it is: neither then is there an
+/// F-score at a distance.
+Groups voxel_groups(const MapScore& score) {
+  Groups groups;
+  for (const SemanticClass* c : shown_classes(score)) groups.push_back({c->name, {}});
+  groups.push_back({std::string(kPooled), {}});
+  groups.push_back({std::string(kMacro), {}});
+  for (auto& [group, metrics] : groups) {
+    metrics = tidy_metrics(score.counts, score.table, group);
     for (Metric& metric : metrics)
-      if (metric.name.rfind("f_", 0) == 0) metric.value.reset();
-  std::erase_if(metrics, [](const Metric& metric) { return metric.name.rfind("box", 0) == 0; });
-  return metrics;
+      if (!score.sampled && metric.name.starts_with("f_")) metric.value.reset();
+    std::erase_if(metrics, [](const Metric& metric) { return metric.name.starts_with("box"); });
+  }
+  return groups;
 }
 
-Table table_of(const char* caption, const MapScore& score, const Columns& columns) {
-  Table table;
-  table.caption = {caption};
-  table.columns = {"class"};
+Groups instance_groups(const MapScore& score) {
+  Groups groups;
+  for (const SemanticClass& c : score.table.classes)
+    if (c.detect) groups.emplace_back(c.name, score.instances[c.id].metrics());
+  groups.emplace_back(kPooled, pool_detected_instances(score.instances, score.table).metrics());
+  groups.emplace_back(kMacro, macro_instance_metrics(score.instances, score.table));
+  return groups;
+}
+
+Table table_of(std::vector<std::string> caption, const Groups& groups, const Columns& columns) {
+  Table table{std::move(caption), {"class"}, {}};
   for (const auto& [name, title] : columns) table.columns.emplace_back(title);
-  for (const std::string& group : groups_of(score))
-    table.rows.push_back(figures(group, metrics_in(score, group), columns));
+  for (const auto& [group, metrics] : groups)
+    table.rows.push_back(figures(group, metrics, columns));
   return table;
 }
 
@@ -75,29 +80,6 @@ void append_counts(const ClassCounts& c, std::vector<std::string>& row) {
        {c.predicted, c.true_predicted, c.false_near, c.false_leak, c.false_floating, c.visible,
         c.found, c.missed_mislabelled, c.missed_unlabelled, c.missed_unmapped})
     row.push_back(std::to_string(count));
-}
-
-/// Metrics of instances by group, as for voxels.
-std::vector<std::pair<std::string, std::vector<Metric>>> instance_groups(const MapScore& score) {
-  std::vector<std::pair<std::string, std::vector<Metric>>> groups;
-  for (const SemanticClass& c : score.table.classes)
-    if (c.detect) groups.emplace_back(c.name, score.instances[c.id].metrics());
-  groups.emplace_back(kPooled, pool_detected_instances(score.instances, score.table).metrics());
-  groups.emplace_back(kMacro, macro_instance_metrics(score.instances, score.table));
-  return groups;
-}
-
-Table instances_table(const MapScore& score) {
-  const Columns columns{{"pq", "PQ"},           {"sq", "SQ"},       {"rq", "RQ"},
-                        {"ap_25", "AP 25"},     {"ap_50", "AP 50"}, {"ap_75", "AP 75"},
-                        {"ap_mean", "AP 50-95"}};
-  Table table;
-  table.caption = {"instances: PQ of pairs with IoU above 0.5; AP by least IoU"};
-  table.columns = {"class"};
-  for (const auto& [name, title] : columns) table.columns.emplace_back(title);
-  for (const auto& [group, metrics] : instance_groups(score))
-    table.rows.push_back(figures(group, metrics, columns));
-  return table;
 }
 
 std::vector<std::string> answers_of(const ClassTable& table, std::size_t columns) {
@@ -111,9 +93,7 @@ std::vector<std::string> answers_of(const ClassTable& table, std::size_t columns
 /// Rows and columns that hold nothing are left out.
 Table confusion_table(const ConfusionMatrix& matrix, const ClassTable& table, const char* caption) {
   const std::vector<std::string> answers = answers_of(table, matrix.columns());
-  Table cells;
-  cells.caption = {caption};
-  cells.columns = {"what is there"};
+  Table cells{{caption}, {"what is there"}, {}};
   for (std::size_t column = 0; column < matrix.columns(); ++column)
     if (matrix.column_sum(column) > 0) cells.columns.push_back(answers[column]);
   for (std::size_t row = 0; row < matrix.class_count(); ++row) {
@@ -126,10 +106,27 @@ Table confusion_table(const ConfusionMatrix& matrix, const ClassTable& table, co
   return cells;
 }
 
+Table probabilities_table(const MapScore& score, const Groups& groups) {
+  Table table = table_of({"probabilities, over all thresholds",
+                          "the best threshold is chosen on this very map, so F1 there flatters"},
+                         groups, {{"ap", "AP"}, {"brier", "Brier"}, {"ece", "ECE"}});
+  table.columns.insert(table.columns.end(), {"best threshold", "F1 there"});
+  for (std::vector<std::string>& row : table.rows) {
+    ClassCurve curve = pool_detected(score.counts, score.table).curve;
+    for (const SemanticClass& c : score.table.classes)
+      if (c.name == row.front()) curve = score.counts[c.id].curve;
+    const auto best = best_f1_threshold(curve);
+    row.push_back(number(best));
+    row.push_back(number(best ? point_at(curve, best).f1 : std::nullopt));
+  }
+  std::fill_n(table.rows.back().rbegin(), 2, "-");  // macro has no curve
+  return table;
+}
+
 Table occupancy_table(const OccupancyCounts& counts) {
-  Table table;
-  table.caption = {"free, occupied, unknown: voxels in view of some frame, by what the map says"};
-  table.columns = {"truly", "occupied", "free", "not in the map"};
+  Table table{{"free, occupied, unknown: voxels in view of some frame, by what the map says"},
+              {"truly", "occupied", "free", "not in the map"},
+              {}};
   for (const auto& [name, row] :
        {std::pair{"occupied", counts.occupied}, std::pair{"free", counts.free}})
     table.rows.push_back({name, std::to_string(row.occupied), std::to_string(row.free),
@@ -156,7 +153,7 @@ void add_tidy(Table& table, const ConfusionMatrix& matrix, const ClassTable& cla
 }  // namespace
 
 Table class_table(const MapScore& score) {
-  Table table = table_of("", score,
+  Table table = table_of({}, voxel_groups(score),
                          {{"precision", "precision"},
                           {"recall", "recall"},
                           {"f1", "F1"},
@@ -164,7 +161,6 @@ Table class_table(const MapScore& score) {
                           {"f1_t1", "F1 tol. 1"},
                           {"f_2cm", "F at 2 cm"},
                           {"ap", "AP"}});
-  table.caption.clear();
   table.columns.insert(table.columns.end(),
                        {"predicted", "true", "near", "leak", "floating", "visible", "found",
                         "mislabelled", "unlabelled", "unmapped"});
@@ -177,8 +173,9 @@ Table class_table(const MapScore& score) {
 }
 
 std::vector<Table> detail_tables(const MapScore& score) {
+  const Groups groups = voxel_groups(score);
   std::vector<Table> tables{
-      table_of("distances: F-score at 1 to 10 cm; accuracy and completeness in metres", score,
+      table_of({"distances: F-score at 1 to 10 cm; accuracy and completeness in metres"}, groups,
                {{"f_1cm", "F at 1 cm"},
                 {"f_2cm", "2 cm"},
                 {"f_5cm", "5 cm"},
@@ -187,22 +184,17 @@ std::vector<Table> detail_tables(const MapScore& score) {
                 {"accuracy_p95_m", "95 %"},
                 {"completeness_mean_m", "completeness"},
                 {"completeness_p95_m", "95 % "}}),
-      table_of("probabilities, over all thresholds", score,
-               {{"ap", "AP"}, {"brier", "Brier"}, {"ece", "ECE"}})};
-  for (std::size_t n = 0; n + 1 < tables.back().rows.size(); ++n) {
-    const std::string& group = tables.back().rows[n].front();
-    ClassCurve curve = pool_detected(score.counts, score.table).curve;
-    for (const SemanticClass& c : score.table.classes)
-      if (c.name == group) curve = score.counts[c.id].curve;
-    const auto best = best_f1_threshold(curve);
-    tables.back().rows[n].push_back(number(best));
-    tables.back().rows[n].push_back(number(best ? point_at(curve, best).f1 : std::nullopt));
-  }
-  tables.back().rows.back().insert(tables.back().rows.back().end(), {"-", "-"});
-  tables.back().columns.insert(tables.back().columns.end(), {"best threshold", "F1 there"});
-  tables.back().caption.push_back(
-      "the best threshold is chosen on this very map, so F1 there flatters");
-  if (!score.instances.empty()) tables.push_back(instances_table(score));
+      probabilities_table(score, groups)};
+  if (!score.instances.empty())
+    tables.push_back(table_of({"instances: PQ of pairs with IoU above 0.5; AP by least IoU"},
+                              instance_groups(score),
+                              {{"pq", "PQ"},
+                               {"sq", "SQ"},
+                               {"rq", "RQ"},
+                               {"ap_25", "AP 25"},
+                               {"ap_50", "AP 50"},
+                               {"ap_75", "AP 75"},
+                               {"ap_mean", "AP 50-95"}}));
   tables.push_back(confusion_table(
       score.confusion, score.table,
       "confusion of voxels: visible ones by what is predicted there; background: predicted where "
@@ -212,10 +204,8 @@ std::vector<Table> detail_tables(const MapScore& score) {
 }
 
 Table tidy_table(const MapScore& score) {
-  Table table;
-  table.columns = {"class", "metric", "value"};
-  for (const std::string& group : groups_of(score))
-    add_tidy(table, group, metrics_in(score, group));
+  Table table{{}, {"class", "metric", "value"}, {}};
+  for (const auto& [group, metrics] : voxel_groups(score)) add_tidy(table, group, metrics);
   if (!score.instances.empty())
     for (const auto& [group, metrics] : instance_groups(score)) add_tidy(table, group, metrics);
   if (score.occupancy) add_tidy(table, "all", occupancy_metrics(*score.occupancy));
@@ -239,8 +229,7 @@ std::vector<Table> label_tables(const ConfusionMatrix& matrix, const ClassTable&
 }
 
 Table tidy_label_table(const ConfusionMatrix& matrix, const ClassTable& table) {
-  Table tidy;
-  tidy.columns = {"class", "metric", "value"};
+  Table tidy{{}, {"class", "metric", "value"}, {}};
   add_tidy(tidy, "all", label_metrics(matrix));
   for (const SemanticClass& c : table.classes)
     add_tidy(tidy, c.name, label_class_metrics(matrix, c.id));

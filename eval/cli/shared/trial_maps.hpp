@@ -4,7 +4,7 @@
 #pragma once
 
 #include "eval/lab/bench.hpp"
-#include "eval/report/pictures/trial.hpp"
+#include "eval/report/pictures/pictures.hpp"
 
 #include <vector>
 

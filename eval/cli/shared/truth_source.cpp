@@ -4,16 +4,50 @@
 #include "eval/cli/shared/truth_source.hpp"
 
 #include "core/error.hpp"
-#include "eval/cli/shared/options.hpp"
-#include "eval/cli/shared/truth_size.hpp"
+#include "eval/lab/truth_cache.hpp"
 #include "eval/render/study_recording.hpp"
 #include "eval/results/study_store.hpp"
+#include "eval/study/grid.hpp"
+#include "eval/truth/truth_cost.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <fstream>
+#include <limits>
 #include <numbers>
 
 namespace mapscore::eval {
+namespace {
+
+/// Memory that programs can have without others being swapped out, as Linux tells it; infinite on a
+/// system that does not.
+double available_bytes() {
+  std::ifstream memory("/proc/meminfo");
+  for (std::string word; memory >> word;)
+    if (double kib = 0; word == "MemAvailable:" && memory >> kib) return 1024 * kib;
+  return std::numeric_limits<double>::infinity();
+}
+
+void check_truth_size(const TruthCost& cost, double edge_m, bool yes) {
+  if (!yes) refuse_too_large(cost, edge_m, available_bytes());
+}
+
+/// The time given by the flags, if any.
+std::optional<double> time_of(const LatticeFlags& flags, const Recording& recording) {
+  if (!flags.frame) return flags.at_s;
+  if (flags.at_s) throw Error("--frame: stands beside --at_s; both say a time, keep one");
+  if (*flags.frame >= recording.frame_count())
+    throw Error(fmt::format("--frame: {} is not in the recording; it has frames 0 to {}",
+                            *flags.frame, recording.frame_count() - 1));
+  return recording.depth_stamp_s(recording.depth_of(*flags.frame));
+}
+
+}  // namespace
+
+void add_yes_flag(CLI::App& verb, bool& yes) {
+  verb.add_flag("--yes", yes, "Make a truth that takes much memory without asking");
+}
 
 void LatticeFlags::add_to(CLI::App& verb) {
   verb.add_option("--voxel_m", voxel_m, "Voxel edge in metres [0.05]")
@@ -39,15 +73,6 @@ void LatticeFlags::add_without_voxel_to(CLI::App& verb) {
   verb.add_option("--frames", frames,
                   "Frames of the recording that count: 3,7,9 or first:end:step, from 0, without "
                   "end [all]");
-}
-
-std::optional<double> LatticeFlags::time_in(const Recording& recording) const {
-  if (!frame) return at_s;
-  if (at_s) throw Error("--frame: stands beside --at_s; both say a time, keep one");
-  if (*frame >= recording.frame_count())
-    throw Error(fmt::format("--frame: {} is not in the recording; it has frames 0 to {}", *frame,
-                            recording.frame_count() - 1));
-  return recording.depth_stamp_s(recording.depth_of(*frame));
 }
 
 MapFrame LatticeFlags::map_frame() const {
@@ -78,7 +103,7 @@ TruthSource::TruthSource(const std::string& source, const LatticeFlags& lattice,
                 ": the recording has no truth/; only maps of rendered recordings can be scored");
   if (lattice.frames) selection_ = FrameSelection(*lattice.frames);
   table_ = recording_->info().table;
-  shapes_ = shapes_of(*recording_).at(lattice.time_in(*recording_));
+  shapes_ = shapes_of(*recording_).at(time_of(lattice, *recording_));
   frames_.emplace(*recording_,
                   Channels{.color = false, .label = false, .depth = true, .depth_label = true},
                   work.memory_bytes);
@@ -88,10 +113,6 @@ void TruthSource::detect(const std::vector<std::string>& classes) {
   table_ = detected_table(classes, std::move(table_));
 }
 
-std::vector<int> TruthSource::frames() const {
-  return recording_ ? selection_.of(recording_->frame_count()) : std::vector<int>{};
-}
-
 LatticeTruth TruthSource::surfaces(const ClassTable& table, const TruthOptions& options,
                                    bool whole_view) const {
   const MapFrame map_frame = lattice_.map_frame();
@@ -99,7 +120,7 @@ LatticeTruth TruthSource::surfaces(const ClassTable& table, const TruthOptions& 
       truth_cost(shapes_, map_frame.T_map_world(), {map_frame.edge_m, options.epsilon_m});
   if (whole_view) cost.bytes += cost.whole_view;
   check_truth_size(cost, map_frame.edge_m, lattice_.yes);
-  return make_surface_truth(shapes_, table, map_frame, options, jobs_);
+  return {surfaces_of(shapes_, table, map_frame, options.epsilon_m, jobs_), {}};
 }
 
 SurfaceTruth TruthSource::surface() const {
@@ -124,6 +145,20 @@ OccupancyTruth TruthSource::occupancy(const SurfaceTruth& surface) {
   return make_occupancy_truth(*frames_, frames(), recording_->info().calibration,
                               lattice_.map_frame().T_map_world(), surface, lattice_.min_samples,
                               jobs_);
+}
+
+void check_truth_size(const Study& study, const Recording& recording, std::size_t trials,
+                      bool yes) {
+  Study finest = study;
+  for (const Cell& cell : cells(study))
+    if (const Study at = resolve(study, cell); at.voxel_m < finest.voxel_m || cell.index == 0)
+      finest = at;
+  const MapFrame frame = map_frame(finest, 0);
+  TruthCost cost = truth_cost(shapes_of(recording).shapes, frame.T_map_world(),
+                              {finest.voxel_m, finest.score.epsilon_m});
+  const std::size_t lattices = study.map_origin_m ? 1 : static_cast<std::size_t>(study.seeds);
+  cost.bytes *= static_cast<double>(std::min({lattices, trials, TruthCache::kLeastLattices}));
+  check_truth_size(cost, finest.voxel_m, yes);
 }
 
 }  // namespace mapscore::eval

@@ -8,15 +8,20 @@
 #include "eval/cli/shared/options.hpp"
 #include "eval/lab/lattice_truth.hpp"
 #include "eval/lab/map_frame.hpp"
+#include "eval/study/study.hpp"
 #include "eval/truth/occupancy_truth.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace mapscore::eval {
+
+/// `--yes`: a truth is made however much memory it takes.
+void add_yes_flag(CLI::App& verb, bool& yes);
 
 /// Flags that say on which lattice the truth is taken, and of what.
 struct LatticeFlags {
@@ -35,9 +40,6 @@ struct LatticeFlags {
   /// All but --voxel_m, for maps that have their own.
   void add_without_voxel_to(CLI::App& verb);
   [[nodiscard]] MapFrame map_frame() const;
-  /// The time given by the flags, if any. Throws Error for both `--at_s` and `--frame`, and for a
-  /// frame that the recording does not have.
-  [[nodiscard]] std::optional<double> time_in(const Recording& recording) const;
 };
 
 /// A scene or a recording, opened once, of which truths are made by any class table.
@@ -46,8 +48,6 @@ class TruthSource {
   /// `source`: an MJCF file or a recording's folder. Throws Error when it is neither, or a
   /// recording without truth.
   TruthSource(const std::string& source, const LatticeFlags& lattice, const WorkFlags& work);
-  TruthSource(const TruthSource&) = delete;
-  TruthSource& operator=(const TruthSource&) = delete;
 
   /// Detects these classes in place of the source's own; {"all"}: every one. Throws Error naming a
   /// class that is not there.
@@ -58,7 +58,9 @@ class TruthSource {
   /// Nothing for a scene, which no camera saw.
   [[nodiscard]] const Recording* recording() const { return recording_ ? &*recording_ : nullptr; }
   /// Indices of the recording's frames that count; none for a scene.
-  [[nodiscard]] std::vector<int> frames() const;
+  [[nodiscard]] std::vector<int> frames() const {
+    return recording_ ? selection_.of(recording_->frame_count()) : std::vector<int>{};
+  }
 
   /// The surfaces of the source's own classes, without any view.
   [[nodiscard]] SurfaceTruth surface() const;
@@ -82,5 +84,10 @@ class TruthSource {
   std::optional<Recording> recording_;
   std::optional<FrameCache> frames_;
 };
+
+/// Throws Error, stating the cost, when the finest truth of a study would take too much memory
+/// (refuse_too_large); never with `yes`. `trials`: how many it scores, which say how many lattices
+/// are held at once.
+void check_truth_size(const Study& study, const Recording& recording, std::size_t trials, bool yes);
 
 }  // namespace mapscore::eval

@@ -3,7 +3,7 @@
 
 #include "eval/map_files/clouds/cloud_builder.hpp"
 
-#include "eval/map_files/refusal.hpp"
+#include "files/refusal.hpp"
 
 #include <fmt/format.h>
 
@@ -31,8 +31,8 @@ CloudBuilder::CloudBuilder(const std::filesystem::path& file, const CloudMeaning
 }
 
 void CloudBuilder::refuse_at(PointPlace place, const std::string& what) const {
-  if (place.is_line) refuse(file_, place.number, what);
-  refuse(file_, fmt::format("point {}: {}", place.number, what));
+  if (place.is_line) refuse(file_, place.number, "{}", what);
+  refuse(file_, "point {}: {}", place.number, what);
 }
 
 std::uint32_t CloudBuilder::whole(double number, const char* what, PointPlace place) const {
@@ -92,10 +92,8 @@ MapFile CloudBuilder::finish() {
   const std::size_t all = map_.points.size() + skipped_;
   if (all == 0) refuse(file_, "the map is empty");
   if (skipped_ > 0 && not_finite_ == NotFinite::refuse)
-    refuse(file_, fmt::format("{} of {} points are not finite; leave them out with --skip_nan",
-                              skipped_, all));
-  if (map_.points.empty())
-    refuse(file_, fmt::format("the map is empty: none of its {} points is finite", all));
+    refuse(file_, "{} of {} points are not finite; leave them out with --skip_nan", skipped_, all);
+  if (map_.points.empty()) refuse(file_, "the map is empty: none of its {} points is finite", all);
   return std::move(map_);
 }
 

@@ -3,11 +3,9 @@
 
 #include "eval/map_files/clouds/cloud_fields.hpp"
 
-#include "eval/map_files/refusal.hpp"
-#include "files/lower_case.hpp"
+#include "files/refusal.hpp"
+#include "files/text.hpp"
 #include "files/text_rows.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
@@ -35,7 +33,7 @@ void refuse_doubled(std::span<const CloudField> fields, const std::filesystem::p
   std::set<std::string_view> seen;
   for (const CloudField& field : fields)
     if (field.name != "_" && !seen.insert(field.name).second)
-      refuse(file, fmt::format("field {} stands twice; rename one", shown(field.name)));
+      refuse(file, "field {} stands twice; rename one", excerpt(field.name));
 }
 
 }  // namespace
@@ -44,7 +42,7 @@ CloudMeanings::CloudMeanings(std::span<const CloudField> fields,
                              const std::filesystem::path& file) {
   refuse_doubled(fields, file);
   const auto set = [&](Meaning meaning, Names names) {
-    columns_[static_cast<std::size_t>(meaning)] = first_of(fields, names);
+    at(columns_, meaning) = first_of(fields, names);
   };
   set(Meaning::x, {"x"});
   set(Meaning::y, {"y"});
@@ -56,17 +54,17 @@ CloudMeanings::CloudMeanings(std::span<const CloudField> fields,
   take_label_or_colour(fields);
 
   for (const auto& column : columns_)
-    if (column && !fields[*column].single)
-      refuse(file, fmt::format("field {} is a list; it needs one number a point",
-                               shown(fields[*column].name)));
-  const auto packed = column(Meaning::packed_colour);
-  if (packed && size_of(fields[*packed].type) != 4)
-    refuse(file, fmt::format("field {} is {} bytes wide; a packed colour has 4",
-                             shown(fields[*packed].name), size_of(fields[*packed].type)));
+    if (column && !fields[*column].single())
+      refuse(file, "field {} is a list; it needs one number a point",
+             excerpt(fields[*column].name));
+  const auto packed = at(columns_, Meaning::packed_colour);
+  if (packed && fields[*packed].type.size != 4)
+    refuse(file, "field {} is {} bytes wide; a packed colour has 4", excerpt(fields[*packed].name),
+           fields[*packed].type.size);
 }
 
 void CloudMeanings::take_label_or_colour(std::span<const CloudField> fields) {
-  auto& label = columns_[static_cast<std::size_t>(Meaning::label)];
+  auto& label = at(columns_, Meaning::label);
   label = first_of(fields, {"label", "class", "class_id", "semantic", "scalar_label",
                             "scalar_class", "classification", "scalar_classification", "category"});
   if (label) return;
@@ -78,14 +76,14 @@ void CloudMeanings::take_label_or_colour(std::span<const CloudField> fields) {
       };
       const auto red = channel("red"), green = channel("green"), blue = channel("blue");
       if (!red || !green || !blue) continue;
-      columns_[static_cast<std::size_t>(Meaning::red)] = red;
-      columns_[static_cast<std::size_t>(Meaning::green)] = green;
-      columns_[static_cast<std::size_t>(Meaning::blue)] = blue;
-      real_colours_ = is_real(fields[*red].type);
+      at(columns_, Meaning::red) = red;
+      at(columns_, Meaning::green) = green;
+      at(columns_, Meaning::blue) = blue;
+      real_colours_ = fields[*red].type.is_real;
       return;
     }
   }
-  columns_[static_cast<std::size_t>(Meaning::packed_colour)] = first_of(fields, {"rgb", "rgba"});
+  at(columns_, Meaning::packed_colour) = first_of(fields, {"rgb", "rgba"});
 }
 
 std::optional<Meaning> CloudMeanings::meaning(std::size_t column) const {
@@ -95,12 +93,11 @@ std::optional<Meaning> CloudMeanings::meaning(std::size_t column) const {
 }
 
 double number_at(const char* bytes, Meaning meaning, ScalarType type, bool swapped) {
-  const bool packed = meaning == Meaning::packed_colour;
-  return scalar_at(bytes, packed ? ScalarType::uint32 : type, swapped);
+  return (meaning == Meaning::packed_colour ? kScalar<std::uint32_t> : type).at(bytes, swapped);
 }
 
 std::optional<double> number_of(std::string_view word, Meaning meaning, ScalarType type) {
-  if (meaning != Meaning::packed_colour || !is_real(type)) return parse_real(word);
+  if (meaning != Meaning::packed_colour || !type.is_real) return parse_real(word);
   const auto packed = parse_float(word);
   // Its bits went when it was printed; the point may still be one to leave out.
   if (packed && std::isnan(*packed)) return std::numeric_limits<double>::quiet_NaN();

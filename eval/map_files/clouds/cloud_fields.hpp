@@ -3,22 +3,53 @@
 
 #pragma once
 
-#include "eval/map_files/clouds/scalar_type.hpp"
-
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace mapscore::eval {
+
+/// Type of one number in a point cloud file.
+struct ScalarType {
+  std::size_t size;  ///< bytes
+  bool is_real;
+  /// The number that lies at `bytes`; `swapped`: in the other byte order than this machine's.
+  /// 64-bit integers beyond 2^53 are rounded.
+  double (*at)(const char* bytes, bool swapped);
+};
+
+template <class Scalar>
+[[nodiscard]] double scalar_at(const char* bytes, bool swapped) {
+  std::array<char, sizeof(Scalar)> own;
+  std::memcpy(own.data(), bytes, sizeof(Scalar));
+  if (swapped) std::reverse(own.begin(), own.end());
+  Scalar value;
+  std::memcpy(&value, own.data(), sizeof(Scalar));
+  return static_cast<double>(value);
+}
+
+template <class Scalar>
+inline constexpr ScalarType kScalar{sizeof(Scalar), std::is_floating_point_v<Scalar>,
+                                    scalar_at<Scalar>};
 
 /// A named column of a point cloud, as .ply and .pcd have them.
 struct CloudField {
   std::string name;
-  ScalarType type = ScalarType::float32;
-  bool single = true;  ///< one number a point; lists and arrays are passed over
+  ScalarType type;
+  std::size_t count = 1;                       ///< numbers a point, of a .pcd
+  std::optional<ScalarType> length_type = {};  ///< of a list, of a .ply
+
+  [[nodiscard]] std::size_t bytes() const { return count * type.size; }
+  /// One number a point; lists and arrays are passed over.
+  [[nodiscard]] bool single() const { return count == 1 && !length_type; }
 };
 
 /// What a column says of a point.
@@ -27,10 +58,7 @@ inline constexpr std::size_t kMeanings = 10;
 
 /// Numbers of one point, by meaning; those that the file does not have stay 0.
 using PointNumbers = std::array<double, kMeanings>;
-[[nodiscard]] inline double& at(PointNumbers& numbers, Meaning meaning) {
-  return numbers[static_cast<std::size_t>(meaning)];
-}
-[[nodiscard]] inline double at(const PointNumbers& numbers, Meaning meaning) {
+[[nodiscard]] auto& at(auto& numbers, Meaning meaning) {
   return numbers[static_cast<std::size_t>(meaning)];
 }
 
@@ -41,10 +69,7 @@ class CloudMeanings {
   /// and not one number a point, a packed colour of other than 4 bytes.
   CloudMeanings(std::span<const CloudField> fields, const std::filesystem::path& file);
 
-  [[nodiscard]] std::optional<std::size_t> column(Meaning meaning) const {
-    return columns_[static_cast<std::size_t>(meaning)];
-  }
-  [[nodiscard]] bool has(Meaning meaning) const { return column(meaning).has_value(); }
+  [[nodiscard]] bool has(Meaning meaning) const { return at(columns_, meaning).has_value(); }
   /// Of a column; nothing for those to pass over.
   [[nodiscard]] std::optional<Meaning> meaning(std::size_t column) const;
   /// Red, green and blue are in [0, 1] rather than 0 to 255.

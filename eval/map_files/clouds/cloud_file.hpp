@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "core/mapping/semantic_map.hpp"
 
 #include <Eigen/Core>
 #include <filesystem>
@@ -16,5 +17,13 @@ namespace mapscore::eval {
 /// in the points' frame. Whole or not at all. Throws Error naming the file.
 void write_cloud(const std::filesystem::path& file, std::span<const Eigen::Vector3d> points,
                  ClassId class_id, InstanceId instance);
+
+/// Writes the occupied voxels of a map whose best class has at least `threshold`, as binary
+/// little-endian .ply points at their centres: float x y z (metres, frame map), uchar red green
+/// blue (of the class), uint label (class id), float probability; ascending by key, as read_ply
+/// takes them. Whole or not at all. Throws Error where a class is not in the table, and unless the
+/// file ends in .ply and can be written.
+void write_voxel_ply(const std::filesystem::path& file, const SemanticMap& map,
+                     const ClassTable& table, double threshold);
 
 }  // namespace mapscore::eval

@@ -1,15 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/map_files/clouds/ply_file.hpp"
-
 #include "eval/map_files/clouds/cloud_builder.hpp"
-#include "eval/map_files/clouds/ply_header.hpp"
-#include "eval/map_files/refusal.hpp"
+#include "eval/map_files/clouds/cloud_headers.hpp"
 #include "files/file_bytes.hpp"
+#include "files/refusal.hpp"
+#include "files/text.hpp"
 #include "files/text_rows.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
@@ -17,35 +14,17 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr const char* kVertex = "vertex";
-
 /// A property on the way through an element's rows, and what it means.
 struct Step {
-  PlyProperty property;
+  CloudField property;
   std::optional<Meaning> meaning;
 };
-
-std::vector<CloudField> fields_of(const PlyElement& element) {
-  std::vector<CloudField> fields;
-  for (const PlyProperty& property : element.properties)
-    fields.push_back({property.name, property.type, !property.is_list});
-  return fields;
-}
-
-std::vector<Step> steps_of(const PlyElement& element, const CloudMeanings* meanings) {
-  std::vector<Step> steps;
-  for (std::size_t column = 0; column < element.properties.size(); ++column) {
-    steps.push_back(
-        {element.properties[column], meanings ? meanings->meaning(column) : std::nullopt});
-  }
-  return steps;
-}
 
 /// Fewest bytes that a row can take.
 std::size_t least_bytes(const PlyElement& element, bool ascii) {
   std::size_t bytes = 0;
-  for (const PlyProperty& property : element.properties)
-    bytes += ascii ? 2 : size_of(property.is_list ? property.length_type : property.type);
+  for (const CloudField& property : element.properties)
+    bytes += ascii ? 2 : property.length_type.value_or(property.type).size;
   return bytes;
 }
 
@@ -54,9 +33,9 @@ void refuse_more_than_fits(const PlyElement& element, bool ascii, std::size_t le
   const std::size_t least = least_bytes(element, ascii);
   const std::size_t room = least == 0 ? element.count : (left + (ascii ? 1 : 0)) / least;
   if (element.count > room)
-    refuse(file, fmt::format("truncated: the header announces {} of element {}, the file has room "
-                             "for {} at most",
-                             element.count, shown(element.name), room));
+    refuse(file,
+           "truncated: the header announces {} of element {}, the file has room for {} at most",
+           element.count, excerpt(element.name), room);
 }
 
 class BinaryBody {
@@ -69,23 +48,21 @@ class BinaryBody {
 
   void row(const std::vector<Step>& steps, PointNumbers& numbers) {
     for (const Step& step : steps) {
-      if (step.property.is_list) {
-        skip_list(step.property);
-      } else {
-        const char* value = take(size_of(step.property.type));
-        if (step.meaning)
-          at(numbers, *step.meaning) =
-              number_at(value, *step.meaning, step.property.type, swapped_);
+      const CloudField& property = step.property;
+      if (property.length_type) {
+        skip_list(property);
+        continue;
       }
+      const char* value = take(property.type.size);
+      if (step.meaning)
+        at(numbers, *step.meaning) = number_at(value, *step.meaning, property.type, swapped_);
     }
   }
   [[nodiscard]] PointPlace place(std::size_t row) const { return {row + 1, false}; }
 
   void finish() const {
     if (left() > 0)
-      refuse(file_, fmt::format("{} bytes follow the last element; the header does not announce "
-                                "them",
-                                left()));
+      refuse(file_, "{} bytes follow the last element; the header does not announce them", left());
   }
 
  private:
@@ -96,11 +73,10 @@ class BinaryBody {
     return taken;
   }
 
-  void skip_list(const PlyProperty& list) {
-    const double length = scalar_at(take(size_of(list.length_type)), list.length_type, swapped_);
-    if (length < 0.0)
-      refuse(file_, fmt::format("a list of {} has length {}", shown(list.name), length));
-    take(static_cast<std::size_t>(length) * size_of(list.type));
+  void skip_list(const CloudField& list) {
+    const double length = list.length_type->at(take(list.length_type->size), swapped_);
+    if (length < 0.0) refuse(file_, "a list of {} has length {}", excerpt(list.name), length);
+    take(static_cast<std::size_t>(length) * list.type.size);
   }
 
   std::string_view bytes_;
@@ -120,10 +96,10 @@ class AsciiBody {
     if (!lines_.next_words(words_)) refuse(file_, "truncated: it ends before its last element");
     std::size_t word = 0;
     for (const Step& step : steps) {
-      if (step.property.is_list) {
+      if (step.property.length_type) {
         const auto length = parse_count(word_at(word++));
         if (!length || *length > words_.size() - word)
-          refuse_line(fmt::format("the list of {} is broken", shown(step.property.name)));
+          refuse_line("the list of {} is broken", excerpt(step.property.name));
         word += *length;
       } else {
         const std::string_view text = word_at(word++);
@@ -132,7 +108,7 @@ class AsciiBody {
       }
     }
     if (word != words_.size())
-      refuse_line(fmt::format("{} numbers, the header announces {}", words_.size(), word));
+      refuse_line("{} numbers, the header announces {}", words_.size(), word);
   }
   [[nodiscard]] PointPlace place(std::size_t /*row*/) const { return {lines_.number(), true}; }
 
@@ -142,17 +118,18 @@ class AsciiBody {
   }
 
  private:
-  [[noreturn]] void refuse_line(const std::string& what) const {
-    refuse(file_, lines_.number(), what);
+  template <class... Args>
+  [[noreturn]] void refuse_line(fmt::format_string<Args...> what, Args&&... args) const {
+    refuse(file_, lines_.number(), what, std::forward<Args>(args)...);
   }
   [[nodiscard]] std::string_view word_at(std::size_t word) const {
     if (word >= words_.size())
-      refuse_line(fmt::format("only {} numbers, fewer than the header announces", words_.size()));
+      refuse_line("only {} numbers, fewer than the header announces", words_.size());
     return words_[word];
   }
   [[nodiscard]] double number(std::string_view word, Meaning meaning, ScalarType type) const {
     const auto value = number_of(word, meaning, type);
-    if (!value) refuse_line(fmt::format("{} is no number", shown(word)));
+    if (!value) refuse_line("{} is no number", excerpt(word));
     return *value;
   }
 
@@ -163,7 +140,7 @@ class AsciiBody {
 };
 
 const PlyElement& vertices_of(const PlyHeader& header, const std::filesystem::path& file) {
-  const auto found = std::ranges::find(header.elements, kVertex, &PlyElement::name);
+  const auto found = std::ranges::find(header.elements, "vertex", &PlyElement::name);
   if (found == header.elements.end()) refuse(file, "no element 'vertex', hence no points");
   return *found;
 }
@@ -173,7 +150,7 @@ MapFile read_body(Body& body, const PlyHeader& header, NotFinite not_finite,
                   const std::filesystem::path& file) {
   const bool ascii = header.format == PlyFormat::ascii;
   const PlyElement& vertices = vertices_of(header, file);
-  const CloudMeanings meanings(fields_of(vertices), file);
+  const CloudMeanings meanings(vertices.properties, file);
   refuse_more_than_fits(vertices, ascii, body.left(), file);
   CloudBuilder cloud(file, meanings, not_finite, vertices.count);
 
@@ -181,7 +158,9 @@ MapFile read_body(Body& body, const PlyHeader& header, NotFinite not_finite,
     const bool points = &element == &vertices;
     if (element.properties.empty()) continue;
     refuse_more_than_fits(element, ascii, body.left(), file);
-    const std::vector<Step> steps = steps_of(element, points ? &meanings : nullptr);
+    std::vector<Step> steps;
+    for (const CloudField& property : element.properties)
+      steps.push_back({property, points ? meanings.meaning(steps.size()) : std::nullopt});
     PointNumbers numbers{};
     for (std::size_t row = 0; row < element.count; ++row) {
       body.row(steps, numbers);

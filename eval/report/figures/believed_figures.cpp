@@ -6,7 +6,6 @@
 #include "eval/lab/pose_sources.hpp"
 #include "eval/localization/localization_score.hpp"
 #include "eval/report/figures/trajectory_picture.hpp"
-#include "eval/report/pictures/trial.hpp"
 
 #include <fmt/format.h>
 
@@ -77,12 +76,6 @@ std::string errors_text(const std::string& name, const LocalizationScore& score)
   return text + ". ";
 }
 
-std::string name_of(PoseSource source) {
-  std::string name(names_of(source)[static_cast<std::size_t>(source)]);
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
 }  // namespace
 
 std::vector<std::filesystem::path> draw_believed(const Study& study, const Recording& recording,
@@ -100,7 +93,8 @@ std::vector<std::filesystem::path> draw_believed(const Study& study, const Recor
     task.config = config;
     task.seed_index = choice.seed_index;
     const BelievedTrajectory believed = believed_trajectory(recording, task);
-    const std::string name = name_of(config.localization.source);
+    std::string name = leaf_text(config, kSourceKey);
+    std::ranges::replace(name, '_', ' ');
     const LocalizationScore score = score_localization(believed, recording);
     if (score.converged_s) lines.push_back(drawn(recording, name, believed, *score.converged_s));
     notes.caption += errors_text(name, score);
@@ -108,7 +102,7 @@ std::vector<std::filesystem::path> draw_believed(const Study& study, const Recor
   if (study.scene)
     for (const auto& [x, y, yaw] : study.trajectory.waypoints_m_deg)
       notes.waypoints_map.emplace_back(x, y);
-  return draw_trajectories(grid_of(recording, configs.front()), lines, notes, folder);
+  return draw(trajectory_figure(grid_of(recording, configs.front()), lines, notes), folder);
 }
 
 }  // namespace mapscore::eval

@@ -16,7 +16,8 @@ namespace mapscore::eval {
 /// to be, on the grid used for localisation, with each source's errors in the caption. Sources: all
 /// values of a sweep over `localization.source`, else the study's own; `gaussian` and `truth` are
 /// not drawn. Other swept leaves and the seed: as in `choice`. Draws and returns nothing when no
-/// source is left or the recording has no scans. Throws Error as PoseSources, draw_trajectories.
+/// source is left or the recording has no scans. Throws Error as PoseSources, trajectory_figure,
+/// draw.
 [[nodiscard]] std::vector<std::filesystem::path> draw_believed(const Study& study,
                                                                const Recording& recording,
                                                                const PictureChoice& choice,

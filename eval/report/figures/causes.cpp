@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/figures/causes.hpp"
-
 #include "eval/report/colours.hpp"
 #include "eval/report/figures/curves.hpp"
-#include "eval/report/figures/tics.hpp"
+#include "eval/report/figures/figures.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
@@ -13,8 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
-#include <vector>
 
 namespace mapscore::eval {
 namespace {
@@ -69,26 +65,23 @@ class CauseFigure {
   }
 
   [[nodiscard]] FigureSheet finish() {
-    for (Panel& panel : sheet_.panels) panel.settings.push_back(y_settings(panel));
+    for (std::size_t p = 0; p < sheet_.panels.size(); ++p)
+      sheet_.panels[p].settings.push_back(y_settings(greatest_[sides_[p]]));
     for (const Side& side : kSides)
       for (const Cause& cause : side.causes)
-        sheet_.legend.push_back(
-            fmt::format("NaN with boxes fs solid 1 noborder lc rgb '{}' title {}",
-                        hex_of(cause.colour), gnuplot_quoted(cause.name)));
+        sheet_.add_legend("boxes fs solid 1 noborder lc rgb '" + hex_of(cause.colour) + "'",
+                          cause.name);
     sheet_.caption = study_caption(summary_) +
                      " Counts pooled over classes and seeds. near: within a voxel of the own "
-                     "surface; leak: on another "
-                     "surface; floating: elsewhere. mislabelled: another class is predicted there; "
-                     "unlabelled: in the map "
-                     "below the threshold; unmapped: not in the map.";
+                     "surface; leak: on another surface; floating: elsewhere. mislabelled: another "
+                     "class is predicted there; unlabelled: in the map below the threshold; "
+                     "unmapped: not in the map.";
     return std::move(sheet_);
   }
 
  private:
   /// One scale for all panels of a side.
-  [[nodiscard]] std::string y_settings(const Panel& panel) const {
-    const double greatest =
-        greatest_[sides_.at(static_cast<std::size_t>(&panel - sheet_.panels.data()))];
+  [[nodiscard]] std::string y_settings(double greatest) const {
     const double headroom = layout_.columns().size() > 1 ? 1.2 : 1.02;  // for the label inside
     const double top = std::clamp(std::ceil(20.0 * headroom * greatest) / 20.0, 0.05, 1.2);
     return fmt::format("set yrange [0:{:.2f}]; set ytics {}", top,
@@ -109,10 +102,7 @@ class CauseFigure {
 
   void add_panel(const Side& side, std::size_t column, const std::vector<Curve>& curves,
                  const std::string& title, const std::string& y_label, bool last_row) {
-    Panel panel;
-    panel.title = title;
-    panel.y_label = y_label;
-    panel.x_label = last_row && !layout_.bars() ? layout_.x().title() : "";
+    Panel panel{title, last_row && !layout_.bars() ? layout_.x().title() : "", y_label};
     const bool empty = add_block(side, column, curves) == 0;  // gnuplot finds no range by itself
     panel.settings = {
         "set style data histograms",
@@ -125,9 +115,9 @@ class CauseFigure {
       panel.settings.push_back(
           fmt::format("set label 1 {} at graph 0.03,0.93 left font ',6.5'", gnuplot_quoted(head)));
     for (std::size_t c = 0; c < side.causes.size(); ++c)
-      panel.elements.push_back(fmt::format("data index {} using {}{} lc rgb '{}' notitle",
-                                           blocks_ - 1, c + 2, layout_.named() ? "" : ":xtic(1)",
-                                           hex_of(side.causes[c].colour)));
+      panel.elements.push_back(
+          fmt::format("data index {} using {}{} lc rgb '{}' notitle", sheet_.blocks - 1, c + 2,
+                      layout_.named() ? "" : ":xtic(1)", hex_of(side.causes[c].colour)));
     sides_.push_back(side.whole == kSides.front().whole ? 0 : 1);
     sheet_.panels.push_back(std::move(panel));
   }
@@ -136,27 +126,29 @@ class CauseFigure {
   std::size_t add_block(const Side& side, std::size_t column, const std::vector<Curve>& curves) {
     std::size_t bars = 0;
     const std::string& head = layout_.columns()[column];
-    sheet_.data += fmt::format("{}# {}; {}{}\n# {}", blocks_++ > 0 ? "\n\n" : "",
-                               curves.size() == 1 ? curves.front().name : "all methods", side.label,
-                               head.empty() ? "" : "; " + head, layout_.x().name);
-    for (const Cause& cause : side.causes) sheet_.data += fmt::format(" \"{}\"", cause.name);
+    std::string names = layout_.x().name;
+    for (const Cause& cause : side.causes) names += fmt::format(" \"{}\"", cause.name);
+    sheet_.start_block(
+        fmt::format("{}; {}{}", curves.size() == 1 ? curves.front().name : "all methods",
+                    side.label, head.empty() ? "" : "; " + head),
+        names);
     for (std::size_t x = 0; x < layout_.x().at.size(); ++x)
       for (const Curve& curve : curves)
         if (const auto trial = layout_.trial(curve, column, x)) bars += add_bar(side, x, *trial);
-    sheet_.data += '\n';
     return bars;
   }
 
   /// Whether the bar has a height: its whole is not 0.
   bool add_bar(const Side& side, std::size_t x, std::size_t trial) {
     const ClassCounts counts = pool_detected(summary_.trials[trial].pooled, summary_.table);
-    sheet_.data += '\n' + gnuplot_column(layout_.x().values[x]);
+    sheet_.data += gnuplot_column(layout_.x().values[x]);
     double height = 0.0;
     for (const Cause& cause : side.causes) {
       const auto share = ratio(counts.*cause.count, counts.*side.whole);
       height += share.value_or(0.0);
-      sheet_.data += share ? fmt::format(" {:.9g}", *share) : " -";
+      sheet_.data += ' ' + figure_number(share);
     }
+    sheet_.data += '\n';
     double& greatest = greatest_[side.whole == kSides.front().whole ? 0 : 1];
     greatest = std::max(greatest, height);
     return counts.*side.whole > 0;
@@ -165,7 +157,6 @@ class CauseFigure {
   const StudySummary& summary_;
   const StudyLayout& layout_;
   FigureSheet sheet_;
-  int blocks_ = 0;
   std::vector<std::size_t> sides_;    ///< of each panel
   std::array<double, 2> greatest_{};  ///< highest bar of each side
 };

@@ -1,36 +1,54 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/figures/classes.hpp"
-
-#include "eval/report/axes.hpp"
-#include "eval/report/figures/accuracy.hpp"
 #include "eval/report/figures/curves.hpp"
-#include "eval/report/figures/layout.hpp"
-#include "eval/report/figures/tics.hpp"
+#include "eval/report/figures/figures.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
-#include <string>
+#include <functional>
 #include <utility>
-#include <vector>
 
 namespace mapscore::eval {
 namespace {
 
+constexpr std::size_t kClassesShown = 12;
 constexpr double kGroup = 0.8;      ///< width of a group of bars; groups are 1 apart
 constexpr double kBarShare = 0.92;  ///< of a bar's place in its group
-constexpr double kPanelHeight_in = 1.45;
+constexpr double kClassHeight_in = 1.45;
 
 struct Score {
   const char *metric, *title;
 };
 constexpr std::array<Score, 3> kScores{Score{"precision", "precision"}, Score{"recall", "recall"},
                                        Score{"f1", "F1"}};
+
+/// Detected classes with something to see, in the table's order; of more than twelve those with
+/// most visible voxels.
+std::vector<const SemanticClass*> classes_shown(const StudySummary& summary) {
+  const auto visible = [&](const SemanticClass* c) {
+    return summary.trials.empty() ? 0 : summary.trials.front().pooled.at(c->id).visible;
+  };
+  std::vector<const SemanticClass*> shown;
+  for (const SemanticClass& c : summary.table.classes)
+    if (c.detect && visible(&c) > 0) shown.push_back(&c);
+  std::ranges::stable_sort(shown, std::greater<>(), visible);
+  shown.resize(std::min(shown.size(), kClassesShown));
+  std::ranges::sort(shown, {}, &SemanticClass::id);
+  return shown;
+}
+
+/// Says that classes are left out, where some are.
+std::string cut_caption(const StudySummary& summary, std::size_t shown) {
+  const std::size_t detected = detected_names(summary.table).size();
+  return shown < detected
+             ? fmt::format(" {} of {} detected classes, those with most visible voxels.", shown,
+                           detected)
+             : "";
+}
 
 /// Position in the sweep of the first axis with names.
 std::optional<std::size_t> named_axis(const Study& study) {
@@ -51,16 +69,14 @@ class ClassBars {
     sheet_.name = "by_class_by_" + named_.key;
     sheet_.columns = static_cast<int>(kScores.size());
     sheet_.panel_width_in = panel_width_in(sheet_.columns);
-    sheet_.panel_height_in = kPanelHeight_in;
+    sheet_.panel_height_in = kClassHeight_in;
   }
 
   void add_row(const std::string& method, bool first_row) {
     for (const Score& score : kScores) {
-      Panel panel;
-      panel.title = first_row ? score.title : "";
-      panel.y_tic_labels = &score == &kScores.front();
-      if (panel.y_tic_labels) panel.y_label = summary_.study.methods.size() > 1 ? method : "score";
-      panel.settings = settings();
+      const bool first = &score == &kScores.front();
+      const std::string row_title = summary_.study.methods.size() > 1 ? method : "score";
+      Panel panel{first_row ? score.title : "", "", first ? row_title : "", first, settings()};
       add_bars(method, score, panel.elements);
       sheet_.panels.push_back(std::move(panel));
     }
@@ -68,12 +84,10 @@ class ClassBars {
 
   [[nodiscard]] FigureSheet finish() {
     for (std::size_t value = 0; value < named_.values.size(); ++value)
-      sheet_.legend.push_back(
-          fmt::format("NaN with boxes fs solid 0.85 noborder lc rgb '{}' title {}",
-                      palette_colour(value), gnuplot_quoted(named_.values[value])));
-    sheet_.legend.emplace_back("NaN with lines lw 1.2 lc rgb '#000000' title 'lattice ceiling'");
-    sheet_.legend.emplace_back(
-        "NaN with lines lw 1.2 dt (1,2) lc rgb '#444444' title 'registration ceiling'");
+      sheet_.add_legend("boxes fs solid 0.85 noborder lc rgb '" + palette_colour(value) + "'",
+                        named_.values[value]);
+    sheet_.add_legend("lines lw 1.2 lc rgb '#000000'", "lattice ceiling");
+    sheet_.add_legend("lines lw 1.2 dt (1,2) lc rgb '#444444'", "registration ceiling");
     const Study& study = summary_.study;
     sheet_.caption = study_caption(summary_) + " Bars by " + named_.name + other_doses() +
                      (study.methods.size() > 1 ? "" : "; " + study.methods.front().name) +
@@ -128,8 +142,10 @@ class ClassBars {
     for (std::size_t value = 0; value < named_.values.size(); ++value) {
       const auto line = trial(method, value);
       if (!line) continue;
-      const std::string of = fmt::format("data index {}", blocks_);
-      add_block(method, score, value, *line);
+      const std::string of =
+          sheet_.start_block(fmt::format("{}; {}; {}", method, score.metric, named_.text(value)),
+                             "place class value low high registration_ceiling lattice_ceiling");
+      add_rows(score, value, *line);
       elements.push_back(
           fmt::format("{} using 1:3:({:.5f}) with boxes fs solid 0.85 noborder lc rgb '{}' notitle",
                       of, kBarShare * place_, palette_colour(value)));
@@ -146,11 +162,7 @@ class ClassBars {
     elements.insert(elements.end(), whiskers.begin(), whiskers.end());
   }
 
-  void add_block(const std::string& method, const Score& score, std::size_t value,
-                 std::size_t line) {
-    sheet_.data += fmt::format(
-        "{}# {}; {}; {}\n# place class value low high registration_ceiling lattice_ceiling\n",
-        blocks_++ > 0 ? "\n\n" : "", method, score.metric, named_.text(value));
+  void add_rows(const Score& score, std::size_t value, std::size_t line) {
     const double offset = (static_cast<double>(value) + 0.5) * place_ - 0.5 * kGroup;
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       const auto at = [&](const ResultLine& of) {
@@ -172,7 +184,6 @@ class ClassBars {
   std::vector<const SemanticClass*> classes_;
   double place_;  ///< width of a bar with its gap
   FigureSheet sheet_;
-  int blocks_ = 0;
 };
 
 }  // namespace
@@ -184,6 +195,18 @@ std::optional<FigureSheet> class_bars_figure(const StudySummary& summary) {
   for (const MethodSettings& method : summary.study.methods)
     figure.add_row(method.name, &method == &summary.study.methods.front());
   return figure.finish();
+}
+
+std::optional<FigureSheet> class_figure(const StudySummary& summary, const StudyLayout& layout) {
+  const std::vector<const SemanticClass*> classes = classes_shown(summary);
+  if (classes.size() < 2 || layout.named()) return std::nullopt;
+  std::vector<CurveScore> scores;
+  for (const SemanticClass* c : classes)
+    scores.push_back({c->name, "f1", c->name, "F1, " + c->name});
+  return curve_figure(summary, layout, "by_class", scores, "F1",
+                      study_caption(summary) + spread_caption(summary.study) +
+                          " F1 at tolerance 0, counts pooled over seeds." +
+                          cut_caption(summary, classes.size()) + ' ' + kCeilingsCaption);
 }
 
 }  // namespace mapscore::eval

@@ -3,11 +3,10 @@
 
 #include "eval/report/figures/curves.hpp"
 
-#include "eval/report/figures/tics.hpp"
-#include "eval/report/lattice_check.hpp"
-#include "files/text.hpp"
+#include "eval/report/table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +17,7 @@
 namespace mapscore::eval {
 namespace {
 
+constexpr std::size_t kScoresARow = 3;
 constexpr double kXPadding = 0.05;
 /// Width over a name that the curves share; names are 1 apart.
 constexpr double kNamePlace = 0.7;
@@ -83,15 +83,6 @@ std::vector<std::string> number_settings(const FigureAxis& x) {
           fmt::format("set xtics {:.9g}", tic_step(*high - *low))};
 }
 
-/// Said where the ruler itself does not fit; nothing elsewhere.
-std::string lattice_caption(const StudySummary& summary) {
-  LatticeCheck check(summary.table);
-  for (const ResultLine& line : summary.lattice_ceilings)
-    for (const TrialResult& result : line.results) check.add(result.counts);
-  const std::string note = check.note();
-  return note.empty() ? "" : " Note: " + note + '.';
-}
-
 /// Which methods leave points of curves out, since their maps hold no voxel of a detected class.
 std::string empty_maps_caption(const StudySummary& summary) {
   std::string text;
@@ -109,22 +100,155 @@ std::string empty_maps_caption(const StudySummary& summary) {
   return text;
 }
 
+/// Panels of curves, one after the other.
+class CurveFigure {
+ public:
+  CurveFigure(const StudySummary& summary, const StudyLayout& layout, const std::string& stem,
+              std::size_t columns)
+      : summary_(summary), layout_(layout) {
+    sheet_.name = layout.figure_name(stem);
+    sheet_.columns = static_cast<int>(columns);
+    sheet_.panel_width_in = panel_width_in(sheet_.columns);
+  }
+
+  /// `column`: of StudyLayout::columns().
+  void add(const CurveScore& score, std::size_t column, Panel panel) {
+    panel.settings = x_settings();
+    std::set<std::string> drawn_ceilings;
+    std::vector<std::string> ceilings, spreads, lines;
+    const std::string& head = layout_.columns()[column];
+    const std::size_t curves = layout_.curves().size();
+    const double place = kNamePlace / static_cast<double>(curves);
+    for (std::size_t c = 0; c < curves; ++c) {
+      const Curve& curve = layout_.curves()[c];
+      const std::string of =
+          sheet_.start_block(fmt::format("{}; {} {}{}", curve.name, score.group, score.metric,
+                                         head.empty() ? "" : "; " + head),
+                             "x value low high registration_ceiling lattice_ceiling");
+      const auto [registration, lattice] = add_points(score, column, curve);
+      const double offset = (static_cast<double>(c) + 0.5) * place - 0.5 * kNamePlace;
+      const CurveMarks marks = layout_.bars()    ? as_bars(curve, of)
+                               : layout_.named() ? as_points(curve, of, offset, place)
+                                                 : as_line(curve, of);
+      if (layout_.named() || drawn_ceilings.insert("registration" + registration).second)
+        ceilings.push_back(marks.registration);
+      if (drawn_ceilings.insert("lattice" + lattice).second) ceilings.push_back(marks.lattice);
+      if (summary_.study.seeds > 1) spreads.push_back(marks.spread);
+      lines.push_back(marks.line);
+    }
+    auto& order = panel.elements;
+    if (layout_.bars()) order = std::exchange(lines, {});
+    for (const auto* part : {&ceilings, &spreads, &lines})
+      order.insert(order.end(), part->begin(), part->end());
+    sheet_.panels.push_back(std::move(panel));
+  }
+
+  [[nodiscard]] FigureSheet finish(const std::string& caption) {
+    const double low =
+        layout_.bars() ? 0.0 : std::max(0.0, std::floor(10.0 * (least_ - 0.01)) / 10.0);
+    for (Panel& panel : sheet_.panels)
+      panel.settings.push_back(fmt::format("set yrange [{:.2f}:{:.3f}]; set ytics {}", low,
+                                           1.0 + 0.03 * (1.0 - low), low < 0.45 ? 0.2 : 0.1));
+    add_legend();
+    sheet_.caption = caption;
+    return std::move(sheet_);
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::string> x_settings() {
+    const FigureAxis& x = layout_.x();
+    if (x.numeric) return number_settings(x);
+    const double padding = layout_.bars() ? 0.7 : 0.5;
+    const double places = x.at.back() - x.at.front() + 2.0 * padding;
+    const NameTics tics = name_tics(x.values, sheet_.panel_width_in / places);
+    sheet_.x_tics_in = std::max(sheet_.x_tics_in, tics.height_in);
+    return {fmt::format("set xrange [{}:{}]", x.at.front() - padding, x.at.back() + padding),
+            tics.setting};
+  }
+
+  /// Texts of both columns of ceilings, registration first, to draw equal ones once.
+  std::pair<std::string, std::string> add_points(const CurveScore& score, std::size_t column,
+                                                 const Curve& curve) {
+    std::pair<std::string, std::string> ceilings;
+    const auto note = [&](const std::optional<double>& value) {
+      if (value) least_ = std::min(least_, *value);
+      return figure_number(value);
+    };
+    const auto at = [&](const ResultLine& line) {
+      return estimate(line, summary_.table, score.group, score.metric);
+    };
+    for (std::size_t x = 0; x < layout_.x().at.size(); ++x) {
+      const auto trial = layout_.trial(curve, column, x);
+      if (!trial) continue;
+      const Estimate value = at(summary_.trials[*trial]);
+      const std::string registration = note(at(summary_.registration_ceilings[*trial]).pooled);
+      const std::string lattice = note(at(summary_.lattice_ceilings[*trial]).pooled);
+      const std::string place = fmt::format("{:.9g} ", layout_.x().at[x]);
+      sheet_.data +=
+          fmt::format("{}{} {} {} {} {}\n", place, note(value.pooled), note(value.over_seeds.low),
+                      note(value.over_seeds.high), registration, lattice);
+      ceilings.first += place + registration + ' ';
+      ceilings.second += place + lattice + ' ';
+    }
+    return ceilings;
+  }
+
+  void add_legend() {
+    if (!layout_.bars())
+      for (const Curve& curve : layout_.curves())
+        sheet_.add_legend(fmt::format("{} pt {} ps 0.9 lw 1.4 dt {} lc rgb '{}'",
+                                      layout_.named() ? "points" : "linespoints", curve.point,
+                                      layout_.named() ? 1 : curve.dash, curve.colour),
+                          curve.name);
+    sheet_.add_legend(std::string(layout_.bars() ? "points pt 2 ps 2 " : "lines ") + kLatticeStyle,
+                      "lattice ceiling");
+    sheet_.add_legend(fmt::format("{} lc rgb '#666666'", layout_.bars() ? "points pt 1 ps 2 lw 1.5"
+                                                                        : "lines lw 1.2 dt (1,3)"),
+                      "registration ceiling");
+  }
+
+  const StudySummary& summary_;
+  const StudyLayout& layout_;
+  FigureSheet sheet_;
+  double least_ = 1.0;
+};
+
 }  // namespace
 
+FigureSheet curve_figure(const StudySummary& summary, const StudyLayout& layout,
+                         const std::string& stem, const std::vector<CurveScore>& scores,
+                         const std::string& y_label, const std::string& caption) {
+  const std::size_t heads = layout.columns().size(), panels = heads * scores.size();
+  const bool rows = heads > 1;  // a row a score
+  const std::size_t columns = rows ? heads : std::min(kScoresARow, panels);
+  CurveFigure figure(summary, layout, stem, columns);
+  for (std::size_t i = 0; i < panels; ++i) {
+    const CurveScore& score = scores[i / heads];
+    const bool first = i % columns == 0, last_row = i + columns >= panels;
+    Panel panel;
+    panel.title = !rows ? score.title : i < columns ? layout.columns()[i] : "";
+    if (last_row && !layout.bars()) panel.x_label = layout.x().title();
+    if (first) panel.y_label = rows ? score.row_title : y_label;
+    panel.y_tic_labels = first;
+    figure.add(score, i % heads, std::move(panel));
+  }
+  return figure.finish(caption);
+}
+
 std::string figure_number(const std::optional<double>& value) {
-  return value ? fmt::format("{:.9g}", *value) : "-";
+  return cell_text(value, "{:.9g}");
 }
 
 std::string study_caption(const StudySummary& summary) {
   const Study& study = summary.study;
-  std::string detected;
-  for (const SemanticClass& c : summary.table.classes)
-    if (c.detect) detected += (detected.empty() ? "" : ", ") + c.name;
+  // Said where the ruler itself does not fit.
+  const std::string note = summary.lattice_note();
   return fmt::format("{}: {}; voxels of {:.6g} cm; detected: {}; each {} scored; {} seed{}.{}{}",
-                     study.name, source_of(study), 100.0 * study.voxel_m, detected,
+                     study.name, source_of(study), 100.0 * study.voxel_m,
+                     fmt::join(detected_names(summary.table), ", "),
                      study.score.unit == ScoreUnit::map ? "fused map" : "frame", study.seeds,
                      study.seeds == 1 ? "" : "s", empty_maps_caption(summary),
-                     lattice_caption(summary));
+                     note.empty() ? "" : " Note: " + note + '.');
 }
 
 std::string spread_caption(const Study& study, const char* marks) {
@@ -132,118 +256,6 @@ std::string spread_caption(const Study& study, const char* marks) {
   return study.seeds < kSeedsForInterval
              ? fmt::format(" {}: range of the {} seeds.", marks, study.seeds)
              : fmt::format(" {}: 95 % interval of the mean of {} seeds.", marks, study.seeds);
-}
-
-CurveFigure::CurveFigure(const StudySummary& summary, const StudyLayout& layout, std::string name,
-                         int columns)
-    : summary_(summary), layout_(layout) {
-  sheet_.name = std::move(name);
-  sheet_.columns = columns;
-  sheet_.panel_width_in = panel_width_in(columns);
-}
-
-void CurveFigure::add(const CurvePanel& shown) {
-  Panel panel;
-  panel.title = shown.title;
-  panel.x_label = shown.x_title && !layout_.bars() ? layout_.x().title() : "";
-  panel.y_label = shown.y_label;
-  panel.y_tic_labels = shown.y_tic_labels;
-  panel.settings = x_settings();
-
-  std::set<std::string> drawn_ceilings;
-  std::vector<std::string> ceilings, spreads, lines;
-  const std::size_t curves = layout_.curves().size();
-  const double place = kNamePlace / static_cast<double>(curves);
-  for (std::size_t c = 0; c < curves; ++c) {
-    const Curve& curve = layout_.curves()[c];
-    const std::string of = fmt::format("data index {}", blocks_);
-    const Block block = add_block(shown, curve);
-    const double offset = (static_cast<double>(c) + 0.5) * place - 0.5 * kNamePlace;
-    const CurveMarks marks = layout_.bars()    ? as_bars(curve, of)
-                             : layout_.named() ? as_points(curve, of, offset, place)
-                                               : as_line(curve, of);
-    if (layout_.named() || drawn_ceilings.insert("registration" + block.ceiling[0]).second)
-      ceilings.push_back(marks.registration);
-    if (drawn_ceilings.insert("lattice" + block.ceiling[1]).second)
-      ceilings.push_back(marks.lattice);
-    if (summary_.study.seeds > 1) spreads.push_back(marks.spread);
-    lines.push_back(marks.line);
-  }
-  auto& order = panel.elements;
-  if (layout_.bars()) order = std::exchange(lines, {});
-  for (const auto* part : {&ceilings, &spreads, &lines})
-    order.insert(order.end(), part->begin(), part->end());
-  sheet_.panels.push_back(std::move(panel));
-}
-
-std::vector<std::string> CurveFigure::x_settings() {
-  const FigureAxis& x = layout_.x();
-  if (x.numeric) return number_settings(x);
-  const double padding = layout_.bars() ? 0.7 : 0.5;
-  const double places = x.at.back() - x.at.front() + 2.0 * padding;
-  const NameTics tics = name_tics(x.values, sheet_.panel_width_in / places);
-  sheet_.x_tics_in = std::max(sheet_.x_tics_in, tics.height_in);
-  return {fmt::format("set xrange [{}:{}]", x.at.front() - padding, x.at.back() + padding),
-          tics.setting};
-}
-
-CurveFigure::Block CurveFigure::add_block(const CurvePanel& panel, const Curve& curve) {
-  const std::string& column = layout_.columns()[panel.column];
-  std::string& data = sheet_.data;
-  data += fmt::format("{}# {}; {} {}{}\n# x value low high registration_ceiling lattice_ceiling\n",
-                      blocks_++ > 0 ? "\n\n" : "", curve.name, panel.group, panel.metric,
-                      column.empty() ? "" : "; " + column);
-  Block block;
-  const auto note = [&](const std::optional<double>& value) {
-    if (value) least_ = std::min(least_, *value);
-    return figure_number(value);
-  };
-  for (std::size_t x = 0; x < layout_.x().at.size(); ++x) {
-    const auto trial = layout_.trial(curve, panel.column, x);
-    if (!trial) continue;
-    const auto at = [&](const ResultLine& line) {
-      return estimate(line, summary_.table, panel.group, panel.metric);
-    };
-    const Estimate value = at(summary_.trials[*trial]);
-    const std::string registration = note(at(summary_.registration_ceilings[*trial]).pooled);
-    const std::string lattice = note(at(summary_.lattice_ceilings[*trial]).pooled);
-    data +=
-        fmt::format("{:.9g} {} {} {} {} {}\n", layout_.x().at[x], note(value.pooled),
-                    note(value.over_seeds.low), note(value.over_seeds.high), registration, lattice);
-    const std::string place = fmt::format("{:.9g} ", layout_.x().at[x]);
-    block.ceiling[0] += place + registration + ' ';
-    block.ceiling[1] += place + lattice + ' ';
-  }
-  return block;
-}
-
-std::vector<std::string> CurveFigure::legend() const {
-  std::vector<std::string> legend;
-  if (!layout_.bars())
-    for (const Curve& curve : layout_.curves())
-      legend.push_back(fmt::format("NaN with {} pt {} ps 0.9 lw 1.4 dt {} lc rgb '{}' title {}",
-                                   layout_.named() ? "points" : "linespoints", curve.point,
-                                   layout_.named() ? 1 : curve.dash, curve.colour,
-                                   gnuplot_quoted(curve.name)));
-  legend.push_back(
-      layout_.bars()
-          ? fmt::format("NaN with points pt 2 ps 2 {} title 'lattice ceiling'", kLatticeStyle)
-          : fmt::format("NaN with lines {} title 'lattice ceiling'", kLatticeStyle));
-  legend.push_back(
-      fmt::format("NaN with {} lc rgb '#666666' title 'registration ceiling'",
-                  layout_.bars() ? "points pt 1 ps 2 lw 1.5" : "lines lw 1.2 dt (1,3)"));
-  return legend;
-}
-
-FigureSheet CurveFigure::finish(std::string caption) {
-  const double low =
-      layout_.bars() ? 0.0 : std::max(0.0, std::floor(10.0 * (least_ - 0.01)) / 10.0);
-  for (Panel& panel : sheet_.panels)
-    panel.settings.push_back(fmt::format("set yrange [{:.2f}:{:.3f}]; set ytics {}", low,
-                                         1.0 + 0.03 * (1.0 - low), low < 0.45 ? 0.2 : 0.1));
-  sheet_.legend = legend();
-  sheet_.caption = std::move(caption);
-  return std::move(sheet_);
 }
 
 }  // namespace mapscore::eval

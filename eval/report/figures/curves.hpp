@@ -14,40 +14,26 @@
 namespace mapscore::eval {
 
 /// What one panel of curves shows.
-struct CurvePanel {
+struct CurveScore {
   std::string group;  ///< of StudySummary::groups()
   std::string metric;
-  std::size_t column = 0;  ///< of StudyLayout::columns()
-  std::string title, y_label;
-  bool x_title = true, y_tic_labels = true;
+  std::string title;      ///< above its panel, where scores stand side by side
+  std::string row_title;  ///< left of its row, where it has one
 };
 
-/// Collects panels of curves over the x axis, with spread and ceilings: lines over numbers, points
-/// side by side over names, bars over methods. A block of the data file is one curve of one panel:
+/// Curves over the x axis, with spread and ceilings: lines over numbers, points side by side over
+/// names, bars over methods. A row a score, a column a value of the second axis; where there is
+/// none, three scores a row, with `y_label` left of it. `y` reaches from the least figure, or 0 for
+/// bars, to 1. A block of the data file is one curve of one panel:
 /// `x value low high registration_ceiling lattice_ceiling`, `-` where undefined.
-class CurveFigure {
- public:
-  CurveFigure(const StudySummary& summary, const StudyLayout& layout, std::string name,
-              int columns);
+[[nodiscard]] FigureSheet curve_figure(const StudySummary& summary, const StudyLayout& layout,
+                                       const std::string& stem,
+                                       const std::vector<CurveScore>& scores,
+                                       const std::string& y_label, const std::string& caption);
 
-  void add(const CurvePanel& panel);
-  /// The figure; `y` reaches from the least figure in it, or 0 for bars, to 1.
-  [[nodiscard]] FigureSheet finish(std::string caption);
-
- private:
-  struct Block {
-    std::string ceiling[2];  ///< texts of the columns of ceilings, to draw equal ones once
-  };
-  [[nodiscard]] Block add_block(const CurvePanel& panel, const Curve& curve);
-  [[nodiscard]] std::vector<std::string> x_settings();
-  [[nodiscard]] std::vector<std::string> legend() const;
-
-  const StudySummary& summary_;
-  const StudyLayout& layout_;
-  FigureSheet sheet_;
-  int blocks_ = 0;
-  double least_ = 1.0;
-};
+inline constexpr const char* kCeilingsCaption =
+    "Lattice ceiling: true labels on the depth pixels, true pose. Registration ceiling: the same "
+    "method with every fault at zero.";
 
 /// A figure in the data file: `-` where undefined.
 [[nodiscard]] std::string figure_number(const std::optional<double>& value);

@@ -3,43 +3,46 @@
 
 #include "eval/report/figures/figures.hpp"
 
-#include "core/error.hpp"
 #include "core/whole_file.hpp"
-#include "eval/report/figures/accuracy.hpp"
-#include "eval/report/figures/causes.hpp"
-#include "eval/report/figures/classes.hpp"
-#include "eval/report/figures/layout.hpp"
-#include "eval/report/figures/script.hpp"
-#include "eval/report/figures/threshold.hpp"
+#include "eval/report/figures/curves.hpp"
 #include "eval/report/table.hpp"
 #include "eval/report/tidy_csv.hpp"
 
 #include <sstream>
-#include <string>
-#include <system_error>
 
 namespace mapscore::eval {
 namespace {
 
 namespace fs = std::filesystem;
 
-void make_folder(const fs::path& folder) {
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (problem)
-    throw Error(folder.string() + ": cannot be made (" + problem.message() +
-                "); choose another folder");
-}
-
 fs::path written(const fs::path& file, const std::string& text) {
   write_whole_file(file, text);
   return file;
 }
 
+/// Of the pooled classes, with the same title above a panel and left of a row.
+CurveScore pooled_score(const std::string& metric, const std::string& title) {
+  return {std::string(kPooled), metric, title, title};
+}
+
 }  // namespace
 
+FigureSheet accuracy_figure(const StudySummary& summary, const StudyLayout& layout) {
+  std::vector<CurveScore> scores{pooled_score("precision", "precision"),
+                                 pooled_score("recall", "recall"), pooled_score("f1", "F1")};
+  if (summary.has_metric("f_2cm")) {
+    if (layout.columns().size() == 1) {
+      scores.push_back(pooled_score("precision_2cm", "precision within 2 cm"));
+      scores.push_back(pooled_score("recall_2cm", "recall within 2 cm"));
+    }
+    scores.push_back(pooled_score("f_2cm", "F within 2 cm"));
+  }
+  return curve_figure(summary, layout, "accuracy", scores, "score",
+                      study_caption(summary) + spread_caption(summary.study) +
+                          " Counts pooled over classes and seeds. " + kCeilingsCaption);
+}
+
 std::vector<fs::path> draw_figures(const StudySummary& summary, const fs::path& folder) {
-  make_folder(folder);
   const StudyLayout layout(summary);
   std::vector<FigureSheet> sheets{accuracy_figure(summary, layout), causes_figure(summary, layout)};
   if (auto by_class = class_bars_figure(summary)) sheets.push_back(std::move(*by_class));

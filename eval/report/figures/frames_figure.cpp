@@ -5,7 +5,6 @@
 
 #include "eval/report/figures/curves.hpp"
 #include "eval/score/metrics.hpp"
-#include "files/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,23 +13,24 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <optional>
 
 namespace mapscore::eval {
 namespace {
 
 constexpr double kMilliseconds = 1000.0;
-constexpr double kPanelWidth_in = 6.4, kPanelHeight_in = 1.4;
+constexpr double kFrameWidth_in = 6.4, kFrameHeight_in = 1.4;
 
 /// What one panel shows of a frame, in the order of the data file's columns.
-struct Shown {
+struct FramePanel {
   const char* name;
   const char* y_label;
   const char* settings;
   std::function<std::optional<double>(const FrameFigures&)> value;
 };
 
-std::array<Shown, 4> shown() {
+std::array<FramePanel, 4> frame_panels() {
   return {{{"voxels", "voxels", "set yrange [0:*]",
             [](const FrameFigures& f) { return static_cast<double>(f.predicted); }},
            {"precision", "precision", "set yrange [*:1.005]",
@@ -42,14 +42,11 @@ std::array<Shown, 4> shown() {
 }
 
 std::string caption_of(const Study& study, const ClassTable& table) {
-  std::vector<std::string> detected;
-  for (const SemanticClass& c : table.classes)
-    if (c.detect) detected.push_back(c.name);
   return fmt::format(
       "{}: voxels of {:.6g} cm; detected: {}; each frame by itself against the surfaces of its own "
       "instant, tolerance 0. Time of one thread for registration, segmentation and mapping "
       "together.",
-      study.name, 100.0 * study.voxel_m, fmt::join(detected, ", "));
+      study.name, 100.0 * study.voxel_m, fmt::join(detected_names(table), ", "));
 }
 
 /// Ranges of a panel without a point, which gnuplot finds none for.
@@ -81,11 +78,10 @@ struct Spread {
 Spread spread_of(const std::vector<double>& values) {
   Spread spread;
   if (values.empty()) return spread;
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const auto [least, most] = std::ranges::minmax(values);
   const auto count = static_cast<double>(values.size());
-  double sum = 0.0, squares = 0.0;
-  for (const double value : values) sum += value;
-  spread = {*least, sum / count, *most, 0.0};
+  spread = {least, std::accumulate(values.begin(), values.end(), 0.0) / count, most, 0.0};
+  double squares = 0.0;
   for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
   if (values.size() > 1) spread.deviation = std::sqrt(squares / (count - 1.0));
   return spread;
@@ -112,7 +108,7 @@ std::vector<std::string> row_of(const MethodFrames& method) {
   row.push_back(fmt::format("{:.1f}", spread_of(voxels).mean));
   for (const auto& value : {ratio(all.true_predicted, all.predicted), ratio(all.found, all.visible),
                             f1(all.true_predicted, all.predicted, all.found, all.visible)})
-    row.push_back(value ? fmt::format("{:.3f}", *value) : "-");
+    row.push_back(cell_text(value));
   return row;
 }
 
@@ -126,15 +122,13 @@ FrameFigures figures_of(const FrameResult& frame, const ClassTable& table) {
 
 FigureSheet frames_figure(const Study& study, const ClassTable& table,
                           std::span<const MethodFrames> methods) {
-  const std::array<Shown, 4> panels = shown();
+  const std::array<FramePanel, 4> panels = frame_panels();
   FigureSheet sheet;
   sheet.name = "by_frame";
-  sheet.panel_width_in = kPanelWidth_in;
-  sheet.panel_height_in = kPanelHeight_in;
+  sheet.panel_width_in = kFrameWidth_in;
+  sheet.panel_height_in = kFrameHeight_in;
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    Panel panel;
-    panel.y_label = panels[p].y_label;
-    if (p + 1 == panels.size()) panel.x_label = "time of the recording / s";
+    Panel panel{"", p + 1 == panels.size() ? "time of the recording / s" : "", panels[p].y_label};
     const auto defined = [&](const MethodFrames& method) {
       return std::ranges::any_of(method.frames, [&](const FrameFigures& frame) {
         return panels[p].value(frame).has_value();
@@ -144,20 +138,18 @@ FigureSheet frames_figure(const Study& study, const ClassTable& table,
                                                             : empty_ranges(methods)};
     for (std::size_t m = 0; m < methods.size(); ++m)
       panel.elements.push_back(
-          fmt::format("data index {} using 2:{} with lines lw 1 lc rgb '{}' "
-                      "notitle",
-                      m, p + 3, palette_colour(m)));
+          fmt::format("data index {} using 2:{} with lines lw 1 lc rgb '{}' notitle", m, p + 3,
+                      palette_colour(m)));
     sheet.panels.push_back(std::move(panel));
   }
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    sheet.legend.push_back(fmt::format("NaN with lines lw 2 lc rgb '{}' title {}",
-                                       palette_colour(m), gnuplot_quoted(methods[m].method)));
-    sheet.data += fmt::format("{}# {}\n# frame stamp_s", m > 0 ? "\n\n" : "", methods[m].method);
-    for (const Shown& panel : panels) sheet.data += std::string(" ") + panel.name;
-    sheet.data += '\n';
+    sheet.add_legend("lines lw 2 lc rgb '" + palette_colour(m) + "'", methods[m].method);
+    std::string columns = "frame stamp_s";
+    for (const FramePanel& panel : panels) columns += std::string(" ") + panel.name;
+    sheet.start_block(methods[m].method, columns);
     for (const FrameFigures& frame : methods[m].frames) {
       sheet.data += fmt::format("{} {}", frame.frame, frame.stamp_s);
-      for (const Shown& panel : panels) sheet.data += ' ' + figure_number(panel.value(frame));
+      for (const FramePanel& panel : panels) sheet.data += ' ' + figure_number(panel.value(frame));
       sheet.data += '\n';
     }
   }

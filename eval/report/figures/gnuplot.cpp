@@ -18,27 +18,6 @@ namespace {
 
 constexpr const char* kLog = "gnuplot.log";
 
-/// What the child process does before it becomes gnuplot.
-class SpawnActions {
- public:
-  explicit SpawnActions(const std::filesystem::path& folder) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, kLog, O_WRONLY | O_CREAT | O_TRUNC,
-                                     0644);
-    posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
-  }
-  ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
-  SpawnActions(const SpawnActions&) = delete;
-  SpawnActions& operator=(const SpawnActions&) = delete;
-
-  [[nodiscard]] const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  posix_spawn_file_actions_t actions_;
-};
-
 /// The first line that says something but a warning.
 std::string first_words(const std::filesystem::path& log) {
   std::ifstream stream(log);
@@ -54,10 +33,17 @@ std::string first_words(const std::filesystem::path& log) {
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
   std::string program = "gnuplot", no_startup_files = "-d", argument = script;
   char* arguments[] = {program.data(), no_startup_files.data(), argument.data(), nullptr};
-  const SpawnActions actions(folder);
+  posix_spawn_file_actions_t actions;  // what the child does before it becomes gnuplot
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, kLog, O_WRONLY | O_CREAT | O_TRUNC,
+                                   0644);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
   pid_t child = 0;
-  if (posix_spawnp(&child, program.c_str(), actions.get(), nullptr, arguments, environ) != 0)
-    throw Error("gnuplot: not found; install gnuplot-nox");
+  const int problem = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (problem != 0) throw Error("gnuplot: not found; install gnuplot-nox");
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

@@ -3,8 +3,12 @@
 
 #include "eval/report/figures/layout.hpp"
 
+#include "eval/report/figures/script.hpp"
+#include "files/text.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -34,14 +38,6 @@ std::vector<std::string> tail_texts(const std::vector<FigureAxis>& axes) {
   return texts;
 }
 
-Curve styled(Curve curve, std::size_t method, std::size_t methods, std::size_t order) {
-  const std::size_t colour = methods > 1 ? method : curve.tail;
-  curve.colour = palette_colour(colour);
-  curve.point = kPoints[order % kPoints.size()];
-  curve.dash = methods > 1 ? kDashes[curve.tail % kDashes.size()] : 1;
-  return curve;
-}
-
 FigureAxis axis_of_methods(const Study& study) {
   FigureAxis axis{"method", "", false, {}, {}, "method"};
   for (const MethodSettings& method : study.methods) {
@@ -49,6 +45,40 @@ FigureAxis axis_of_methods(const Study& study) {
     axis.values.push_back(method.name);
   }
   return axis;
+}
+
+constexpr double kTics_pt = 6.5, kLine_in = 0.11, kOneLine_in = 0.16;
+constexpr double kTurned = 0.57;  ///< sine of 35 degrees
+constexpr double kShareOfPlace = 0.97;
+
+/// Letters of the longest line.
+std::size_t longest_line(const std::string& name) {
+  std::size_t longest = 0, line = 0;
+  for (const char letter : name) {
+    line = letter == '\n' ? 0 : line + 1;
+    longest = std::max(longest, line);
+  }
+  return longest;
+}
+
+double width_in(const std::vector<std::string>& names) {
+  std::size_t longest = 0;
+  for (const std::string& name : names) longest = std::max(longest, longest_line(name));
+  return text_width_in(longest, kTics_pt);
+}
+
+/// gnuplot takes a label of a tic with a `%` for a format of numbers.
+std::string without_format(const std::string& name) {
+  std::string doubled;
+  for (const char letter : name) doubled.append(letter == '%' ? 2 : 1, letter);
+  return doubled;
+}
+
+std::string setting_of(const std::vector<std::string>& names, const std::string& turn) {
+  std::string tics;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    tics += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_quoted(without_format(names[i])), i);
+  return fmt::format("set xtics ({}) {} font ',{}'", tics, turn, kTics_pt);
 }
 
 }  // namespace
@@ -70,10 +100,12 @@ StudyLayout::StudyLayout(const StudySummary& summary) : bars_(summary.study.swee
   const std::vector<std::string> tails = tail_texts(axes);
   tails_ = tails.size();
   const std::vector<MethodSettings>& methods = summary.study.methods;
+  const bool several = methods.size() > 1;
   for (std::size_t m = 0; m < methods.size(); ++m)
     for (std::size_t tail = 0; tail < tails.size(); ++tail)
-      curves_.push_back(styled({methods[m].name + tails[tail], methods[m].name, tail, "", 7, 1}, m,
-                               methods.size(), curves_.size()));
+      curves_.push_back(
+          {methods[m].name + tails[tail], methods[m].name, tail, palette_colour(several ? m : tail),
+           kPoints[curves_.size() % kPoints.size()], several ? kDashes[tail % kDashes.size()] : 1});
   for (std::size_t i = 0; i < summary.trials.size(); ++i) {
     const ResultLine& line = summary.trials[i];
     trials_[{line.method, static_cast<std::size_t>(line.cell.index)}] = i;
@@ -90,6 +122,21 @@ std::optional<std::size_t> StudyLayout::trial(const Curve& curve, std::size_t co
   const std::size_t cell = bars_ ? 0 : (x * columns_.size() + column) * tails_ + curve.tail;
   const auto found = trials_.find({curve.method, cell});
   return found == trials_.end() ? std::nullopt : std::optional(found->second);
+}
+
+NameTics name_tics(const std::vector<std::string>& names, double place_in) {
+  const double room_in = kShareOfPlace * place_in;
+  if (width_in(names) <= room_in) return {setting_of(names, "norotate"), kOneLine_in};
+  std::vector<std::string> broken = names;
+  std::ptrdiff_t most_breaks = 0;
+  for (std::string& name : broken) {
+    std::replace(name.begin(), name.end(), ' ', '\n');
+    most_breaks = std::max(most_breaks, std::count(name.begin(), name.end(), '\n'));
+  }
+  if (width_in(broken) <= room_in)
+    return {setting_of(broken, "norotate"),
+            kOneLine_in + kLine_in * static_cast<double>(most_breaks)};
+  return {setting_of(names, "rotate by 35 right"), kLine_in + kTurned * width_in(names)};
 }
 
 }  // namespace mapscore::eval

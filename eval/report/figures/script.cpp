@@ -68,17 +68,15 @@ class Geometry {
     std::size_t longest = 0;
     for (const std::string& entry : sheet.legend) longest = std::max(longest, title_length(entry));
     const double entry_in = kLegendEntry_in + text_width_in(longest, kFont_pt);
-    legend_columns_ = std::clamp(static_cast<int>(width_in_ / entry_in), 1,
-                                 std::max(1, static_cast<int>(sheet.legend.size())));
     const int entries = static_cast<int>(sheet.legend.size());
-    legend_rows_ = (entries + legend_columns_ - 1) / legend_columns_;
-    legend_columns_ = legend_rows_ > 0 ? (entries + legend_rows_ - 1) / legend_rows_ : 1;
+    const int columns = std::clamp(static_cast<int>(width_in_ / entry_in), 1, std::max(1, entries));
+    legend_rows_ = (entries + columns - 1) / columns;
   }
 
   [[nodiscard]] double width_in() const { return width_in_; }
   [[nodiscard]] double height_in() const {
     return kTop_in + rows_ * (sheet_.panel_height_in + row_gap_in()) - row_gap_in() + x_label_in() +
-           x_tics_in() + below_in();
+           sheet_.x_tics_in + below_in();
   }
   [[nodiscard]] const std::vector<std::string>& caption() const { return caption_; }
   [[nodiscard]] int legend_rows() const { return legend_rows_; }
@@ -91,7 +89,7 @@ class Geometry {
   }
   /// Height of the middle of a panel's x label as a share of the sheet.
   [[nodiscard]] double x_label(int panel) const {
-    return (bottom_in(panel / sheet_.columns) - x_tics_in() - kXLabelMiddle_in) / height_in();
+    return (bottom_in(panel / sheet_.columns) - sheet_.x_tics_in - kXLabelMiddle_in) / height_in();
   }
   [[nodiscard]] std::string legend_margins() const {
     return margins(0.05, width_in_ - 0.05, caption_in(), below_in());
@@ -112,18 +110,13 @@ class Geometry {
   }
   [[nodiscard]] double below_in() const { return caption_in() + legend_rows_ * kLegendRow_in; }
   [[nodiscard]] double x_label_in() const {
-    const bool labelled = std::any_of(sheet_.panels.begin(), sheet_.panels.end(),
-                                      [](const Panel& panel) { return !panel.x_label.empty(); });
-    return labelled ? kXLabel_in : kGap_in;
+    const auto labelled = [](const Panel& panel) { return !panel.x_label.empty(); };
+    return std::ranges::any_of(sheet_.panels, labelled) ? kXLabel_in : kGap_in;
   }
-  [[nodiscard]] double row_gap_in() const { return kGap_in + title_gap_in_ + x_tics_in(); }
-  /// Rows below the first that have their own x tics.
-  [[nodiscard]] double x_tics_in() const { return sheet_.x_tics_in; }
+  [[nodiscard]] double row_gap_in() const { return kGap_in + title_gap_in_ + sheet_.x_tics_in; }
   [[nodiscard]] bool has_titles_inside() const {
-    return std::any_of(sheet_.panels.begin() +
-                           std::min<std::ptrdiff_t>(
-                               sheet_.columns, static_cast<std::ptrdiff_t>(sheet_.panels.size())),
-                       sheet_.panels.end(),
+    const auto below = std::min<std::ptrdiff_t>(sheet_.columns, std::ssize(sheet_.panels));
+    return std::any_of(sheet_.panels.begin() + below, sheet_.panels.end(),
                        [](const Panel& panel) { return !panel.title.empty(); });
   }
   [[nodiscard]] bool has_tics_inside() const {
@@ -140,7 +133,7 @@ class Geometry {
   }
 
   const FigureSheet& sheet_;
-  int rows_, legend_columns_ = 1, legend_rows_ = 0;
+  int rows_, legend_rows_ = 0;
   double title_gap_in_, x_gap_in_, width_in_;
   std::vector<std::string> caption_;
 };
@@ -247,6 +240,15 @@ void draw_into(const fs::path& aside, const FigureSheet& sheet) {
 
 }  // namespace
 
+std::string FigureSheet::start_block(const std::string& what, const std::string& names) {
+  data += fmt::format("{}# {}\n# {}\n", blocks > 0 ? "\n\n" : "", what, names);
+  return fmt::format("data index {}", blocks++);
+}
+
+void FigureSheet::add_legend(const std::string& style, const std::string& title) {
+  legend.push_back(fmt::format("NaN with {} title {}", style, gnuplot_quoted(title)));
+}
+
 double panel_width_in(int columns) {
   return std::clamp(kPanels_in / columns, 1.5, 3.3);
 }
@@ -255,7 +257,16 @@ double text_width_in(std::size_t letters, double font_pt) {
   return static_cast<double>(letters) * kLetterWidth * font_pt / kPointsPerInch;
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (problem)
+    throw Error(folder.string() + ": cannot be made (" + problem.message() +
+                "); choose another folder");
+}
+
 std::vector<fs::path> draw(const FigureSheet& sheet, const fs::path& folder) {
+  make_folder(folder);
   const fs::path aside = folder / (sheet.name + ".partial");
   std::error_code ignored;
   fs::remove_all(aside, ignored);

@@ -1,36 +1,26 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/figures/threshold.hpp"
-
 #include "eval/report/figures/curves.hpp"
-#include "files/text.hpp"
+#include "eval/report/figures/figures.hpp"
 
 #include <fmt/format.h>
 
-#include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
+#include <numeric>
 
 namespace mapscore::eval {
 namespace {
 
 constexpr std::size_t kPanelsShown = 3;
-constexpr double kPanelHeight_in = 2.0;
-
-std::string number(const std::optional<double>& value) {
-  return value ? fmt::format("{:.9g}", *value) : "-";
-}
+constexpr double kThresholdHeight_in = 2.0;
 
 /// Values of the x axis that have a panel; all methods share one where nothing is swept.
 std::vector<std::size_t> values_shown(const StudyLayout& layout) {
   if (layout.bars()) return {0};
-  const std::size_t values = layout.x().at.size();
-  if (values > kPanelsShown && !layout.named()) return {0, values / 2, values - 1};
-  std::vector<std::size_t> all(values);
-  for (std::size_t v = 0; v < values; ++v) all[v] = v;
+  std::vector<std::size_t> all(layout.x().at.size());
+  if (all.size() > kPanelsShown && !layout.named()) return {0, all.size() / 2, all.size() - 1};
+  std::iota(all.begin(), all.end(), 0);
   return all;
 }
 
@@ -55,10 +45,9 @@ class ThresholdFigure {
     sheet_.name = std::move(name);
     sheet_.columns = static_cast<int>(values_.size());
     sheet_.panel_width_in = panel_width_in(sheet_.columns);
-    sheet_.panel_height_in = kPanelHeight_in;
+    sheet_.panel_height_in = kThresholdHeight_in;
     for (const Curve& curve : layout.curves())
-      sheet_.legend.push_back(fmt::format("NaN with linespoints {} title {}", style_of(curve),
-                                          gnuplot_quoted(curve.name)));
+      sheet_.add_legend("linespoints " + style_of(curve), curve.name);
   }
 
   [[nodiscard]] static std::string style_of(const Curve& curve) {
@@ -87,12 +76,12 @@ class ThresholdFigure {
 
   /// Starts a block of the data file; returns `data index N`.
   [[nodiscard]] std::string block(const std::string& what, const std::string& columns) {
-    sheet_.data +=
-        fmt::format("{}# {}; {}\n# {}\n", blocks_ > 0 ? "\n\n" : "", head_, what, columns);
-    return fmt::format("data index {}", blocks_++);
+    return sheet_.start_block(head_ + "; " + what, columns);
   }
   void write(const std::string& line) { sheet_.data += line + '\n'; }
-  void explain(const std::string& legend_entry) { sheet_.legend.push_back(legend_entry); }
+  void explain(const std::string& style, const std::string& title) {
+    sheet_.add_legend(style, title);
+  }
 
   [[nodiscard]] FigureSheet finish(const std::string& caption) {
     const std::string& column = layout_.columns()[middle_column(layout_)];
@@ -107,15 +96,14 @@ class ThresholdFigure {
   FigureSheet sheet_;
   std::vector<std::size_t> values_;
   std::string head_;  ///< of the curve and panel that are being filled
-  int blocks_ = 0;
 };
 
 Panel unit_panel(const std::string& x_label, const std::string& y_label) {
-  Panel panel;
-  panel.x_label = x_label;
-  panel.y_label = y_label;
-  panel.settings = {"set xrange [0:1.02]; set xtics 0.2", "set yrange [0:1.02]; set ytics 0.2"};
-  return panel;
+  return {"",
+          x_label,
+          y_label,
+          true,
+          {"set xrange [0:1.02]; set xtics 0.2", "set yrange [0:1.02]; set ytics 0.2"}};
 }
 
 }  // namespace
@@ -125,10 +113,10 @@ FigureSheet precision_recall_figure(const StudySummary& summary, const StudyLayo
   const auto fill = [&](const ClassCounts& counts, const Curve& curve, std::size_t, Panel& panel) {
     const std::string line = figure.block("over the threshold", "recall precision threshold");
     for (const CurvePoint& point : points_of(counts.curve))
-      figure.write(fmt::format("{} {} {:.3f}", number(point.recall), number(point.precision),
-                               point.threshold));
+      figure.write(fmt::format("{} {} {:.3f}", figure_number(point.recall),
+                               figure_number(point.precision), point.threshold));
     const std::string mark = figure.block("at the working threshold", "recall precision");
-    figure.write(number(recall(counts)) + ' ' + number(precision(counts)));
+    figure.write(figure_number(recall(counts)) + ' ' + figure_number(precision(counts)));
     panel.elements.push_back(fmt::format("{} using 1:2 with lines lw 1.4 dt {} lc rgb '{}' notitle",
                                          line, curve.dash, curve.colour));
     panel.elements.push_back(
@@ -156,8 +144,9 @@ FigureSheet reliability_figure(const StudySummary& summary, const StudyLayout& l
         for (const ReliabilityBin& bin : bins) voxels += bin.voxels;
         for (const ReliabilityBin& bin : bins)
           figure.write(fmt::format("{:.1f} {:.1f} {} {} {} {}", bin.low, bin.high, bin.voxels,
-                                   number(ratio(bin.voxels, voxels)), number(bin.mean_probability),
-                                   number(bin.share_true)));
+                                   figure_number(ratio(bin.voxels, voxels)),
+                                   figure_number(bin.mean_probability),
+                                   figure_number(bin.share_true)));
         panel.elements.push_back(fmt::format("{} using 5:6 with linespoints {} notitle", block,
                                              ThresholdFigure::style_of(curve)));
         const double offset = 0.1 / kReliabilityBins + (static_cast<double>(c) + 0.5) * bar;
@@ -171,7 +160,7 @@ FigureSheet reliability_figure(const StudySummary& summary, const StudyLayout& l
   figure.add_row(lower, false, [&](const ClassCounts&, const Curve&, std::size_t, Panel& panel) {
     panel.elements.push_back(bars[next++]);
   });
-  figure.explain("NaN with lines lw 0.8 dt (4,3) lc rgb '#666666' title 'as true as probable'");
+  figure.explain("lines lw 0.8 dt (4,3) lc rgb '#666666'", "as true as probable");
   return figure.finish(
       "Voxels with a class by their probability, in bins of a tenth. Below the diagonal the map is "
       "surer than it should be, above it less sure.");

@@ -5,7 +5,6 @@
 
 #include "core/error.hpp"
 #include "eval/report/figures/layout.hpp"
-#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -127,18 +126,13 @@ class TrajectoryFigure {
         "set border 15; set tics out; unset grid; set ylabel offset 0.2,0", kPalette};
   }
 
-  /// Starts a block of the data file; returns `data index N`.
-  [[nodiscard]] std::string block(const std::string& what, const std::string& columns) {
-    sheet_.data += fmt::format("{}# {}\n# {}\n", blocks_ > 0 ? "\n\n" : "", what, columns);
-    return fmt::format("data index {}", blocks_++);
-  }
   void write(const Eigen::Vector2d& p) {
     sheet_.data += fmt::format("{:.4f} {:.4f}\n", p.x(), p.y());
   }
 
   void add_grid() {
-    const std::string of =
-        block("grid", "a line a row, from the least y: 0 occupied, 1 neither, 2 unknown, 3 free");
+    const std::string of = sheet_.start_block(
+        "grid", "a line a row, from the least y: 0 occupied, 1 neither, 2 unknown, 3 free");
     for (long row = y_.first; row < y_.end; ++row) {
       for (long column = x_.first; column < x_.end; ++column) {
         const GridCell cell = grid_.cell_of({x_.centre(column), y_.centre(row)});
@@ -154,21 +148,19 @@ class TrajectoryFigure {
   void add_lines() {
     for (std::size_t t = 0; t < trajectories_.size(); ++t) {
       if (trajectories_[t].points_map.empty()) continue;
-      const std::string of = block(trajectories_[t].name, "x y");
+      const std::string of = sheet_.start_block(trajectories_[t].name, "x y");
       for (const Eigen::Vector2d& p : trajectories_[t].points_map) write(p);
       const std::string style =
-          t == 0 ? fmt::format("lw 3.4 lc rgb '{}'", colour(t))
-                 : fmt::format("lw 1.5 dt {} lc rgb '{}'", t == 1 ? "1" : "(7,3)", colour(t));
-      panel_.elements.push_back(fmt::format("{} using 1:2 with lines {} notitle", of, style));
-      sheet_.legend.push_back(
-          fmt::format("NaN with lines {} title {}", style, gnuplot_quoted(trajectories_[t].name)));
+          t == 0 ? fmt::format("lines lw 3.4 lc rgb '{}'", colour(t))
+                 : fmt::format("lines lw 1.5 dt {} lc rgb '{}'", t == 1 ? "1" : "(7,3)", colour(t));
+      plot(of, style, trajectories_[t].name);
     }
   }
 
   void add_ellipses(std::size_t t) {
     if (trajectories_[t].beliefs.empty()) return;
     const std::string what = trajectories_[t].name + ", 2 sigma";
-    const std::string of = block(what, "x y first_axis_m second_axis_m angle_deg");
+    const std::string of = sheet_.start_block(what, "x y first_axis_m second_axis_m angle_deg");
     for (const PoseEstimate& belief : trajectories_[t].beliefs) {
       PlanarEllipse e = two_sigma_ellipse(belief);
       e.first_axis_m = std::max(e.first_axis_m, kThinnestM);
@@ -181,38 +173,36 @@ class TrajectoryFigure {
         "{0} using 1:2:3:4:5 with ellipses fs transparent solid 0.2 border lc rgb '{1}' lw 0.8 lc "
         "rgb '{1}' notitle",
         of, colour(t)));
-    sheet_.legend.push_back(fmt::format(
-        "NaN with boxes fs transparent solid 0.2 border lc rgb '{0}' lc rgb '{0}' title "
-        "{1}",
-        colour(t), gnuplot_quoted(what)));
+    sheet_.add_legend(
+        fmt::format("boxes fs transparent solid 0.2 border lc rgb '{0}' lc rgb '{0}'", colour(t)),
+        what);
   }
 
   void add_waypoints() {
     if (notes_.waypoints_map.empty()) return;
-    const std::string of = block("waypoints", "x y");
+    const std::string of = sheet_.start_block("waypoints", "x y");
     for (const Eigen::Vector2d& p : notes_.waypoints_map) write(p);
-    mark(of, "pt 6 ps 1.0 lw 1.2 lc rgb '#333333'", "waypoint");
+    plot(of, "points pt 6 ps 1.0 lw 1.2 lc rgb '#333333'", "waypoint");
   }
 
   /// Start and end of the first trajectory, white below so that they stand out.
   void add_ends() {
     if (trajectories_.empty() || trajectories_.front().points_map.empty()) return;
     const std::vector<Eigen::Vector2d>& points = trajectories_.front().points_map;
-    const std::string start = block("start", "x y");
+    const std::string start = sheet_.start_block("start", "x y");
     write(points.front());
     panel_.elements.push_back(start +
                               " using 1:2 with points pt 7 ps 2.1 lc rgb '#FFFFFF' notitle");
-    mark(start, "pt 7 ps 1.5 lc rgb '#E69F00'", "start");
-    const std::string end = block("end", "x y");
+    plot(start, "points pt 7 ps 1.5 lc rgb '#E69F00'", "start");
+    const std::string end = sheet_.start_block("end", "x y");
     write(points.back());
     panel_.elements.push_back(end + " using 1:2 with points pt 5 ps 2.0 lc rgb '#FFFFFF' notitle");
-    mark(end, "pt 5 ps 1.4 lc rgb '#CC79A7'", "end");
+    plot(end, "points pt 5 ps 1.4 lc rgb '#CC79A7'", "end");
   }
 
-  void mark(const std::string& of, const std::string& style, const std::string& name) {
-    panel_.elements.push_back(fmt::format("{} using 1:2 with points {} notitle", of, style));
-    sheet_.legend.push_back(
-        fmt::format("NaN with points {} title {}", style, gnuplot_quoted(name)));
+  void plot(const std::string& of, const std::string& style, const std::string& name) {
+    panel_.elements.push_back(fmt::format("{} using 1:2 with {} notitle", of, style));
+    sheet_.add_legend(style, name);
   }
 
   [[nodiscard]] std::string caption() const {
@@ -230,7 +220,6 @@ class TrajectoryFigure {
   FigureSheet sheet_;
   Panel panel_;
   Cells x_{}, y_{};
-  int blocks_ = 0;
 };
 
 }  // namespace
@@ -255,19 +244,6 @@ FigureSheet trajectory_figure(const OccupancyGrid& grid,
                               std::span<const DrawnTrajectory> trajectories,
                               const TrajectoryNotes& notes) {
   return TrajectoryFigure(grid, trajectories, notes).finish();
-}
-
-std::vector<std::filesystem::path> draw_trajectories(const OccupancyGrid& grid,
-                                                     std::span<const DrawnTrajectory> trajectories,
-                                                     const TrajectoryNotes& notes,
-                                                     const std::filesystem::path& folder) {
-  const FigureSheet sheet = trajectory_figure(grid, trajectories, notes);
-  std::error_code problem;
-  std::filesystem::create_directories(folder, problem);
-  if (problem)
-    throw Error(folder.string() + ": cannot be made (" + problem.message() +
-                "); choose another folder");
-  return draw(sheet, folder);
 }
 
 }  // namespace mapscore::eval

@@ -4,11 +4,10 @@
 #pragma once
 
 #include "core/localization/occupancy_grid.hpp"
-#include "core/localization/pose_estimate.hpp"
+#include "core/localization/planar_pose.hpp"
 #include "eval/report/figures/script.hpp"
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,12 +50,5 @@ struct PlanarEllipse {
 [[nodiscard]] FigureSheet trajectory_figure(const OccupancyGrid& grid,
                                             std::span<const DrawnTrajectory> trajectories,
                                             const TrajectoryNotes& notes);
-
-/// Draws it into a folder, which is made where it is not there: NAME.png, NAME.pdf, and the script
-/// and numbers that they are made of. Returns the PNG and the PDF. Throws Error as above, and as
-/// draw() does.
-[[nodiscard]] std::vector<std::filesystem::path> draw_trajectories(
-    const OccupancyGrid& grid, std::span<const DrawnTrajectory> trajectories,
-    const TrajectoryNotes& notes, const std::filesystem::path& folder);
 
 }  // namespace mapscore::eval

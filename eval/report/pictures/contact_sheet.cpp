@@ -7,7 +7,7 @@
 #include "eval/lab/trial_run.hpp"
 #include "eval/report/axes.hpp"
 #include "eval/report/pictures/caption.hpp"
-#include "eval/report/pictures/trial.hpp"
+#include "eval/report/pictures/pictures.hpp"
 #include "eval/results/plan.hpp"
 #include "eval/study/leaf_yaml.hpp"
 
@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace mapscore::eval {
@@ -152,16 +151,12 @@ void draw_depth_scale(cv::Mat3b& sheet, cv::Rect place, const Calibration& calib
   write_text(sheet, high, {place.x + place.width - right + 8, middle}, kText_px);
 }
 
-struct Column {
-  std::string title;
-  std::vector<cv::Mat3b> pictures;
-};
-
-std::vector<Column> columns_of(const std::vector<Frame>& frames, const ClassTable& table,
-                               const Calibration& truth, const std::optional<LargestFault>& fault) {
-  std::vector<Column> columns{
-      {"colour", {}}, {"depth", {}}, {"labels", {}}, {"registered, no fault", {}}};
-  if (fault) columns.push_back({fault->name, {}});
+std::vector<CaptionedColumn> columns_of(const std::vector<Frame>& frames, const ClassTable& table,
+                                        const Calibration& truth,
+                                        const std::optional<LargestFault>& fault) {
+  std::vector<CaptionedColumn> columns{
+      {"colour", {}, {}}, {"depth", {}, {}}, {"labels", {}, {}}, {"registered, no fault", {}, {}}};
+  if (fault) columns.push_back({fault->name, {}, {}});
   for (const Frame& frame : frames) {
     columns[0].pictures.push_back(frame.color);
     columns[1].pictures.push_back(depth_picture(frame.depth, truth));
@@ -172,8 +167,8 @@ std::vector<Column> columns_of(const std::vector<Frame>& frames, const ClassTabl
   return columns;
 }
 
-cv::Mat3b put_together(const std::vector<Column>& columns, const std::vector<Frame>& frames,
-                       const Calibration& calibration) {
+cv::Mat3b put_together(const std::vector<CaptionedColumn>& columns,
+                       const std::vector<Frame>& frames, const Calibration& calibration) {
   const int count = static_cast<int>(columns.size()), rows = static_cast<int>(frames.size());
   const int width = (kSheet_px - kRowLabel_px) / count - kGap_px;
   const int height = width * calibration.color.height_px / calibration.color.width_px;
@@ -181,7 +176,7 @@ cv::Mat3b put_together(const std::vector<Column>& columns, const std::vector<Fra
                   kRowLabel_px + count * (width + kGap_px), cv::Vec3b::all(255));
   for (int c = 0; c < count; ++c) {
     const int x = kRowLabel_px + c * (width + kGap_px);
-    const Column& column = columns[static_cast<std::size_t>(c)];
+    const CaptionedColumn& column = columns[static_cast<std::size_t>(c)];
     write_text(sheet, column.title, {x + 2, kTitle_px / 2}, kText_px + 1);
     for (int r = 0; r < rows; ++r) {
       const cv::Rect place(x, kTitle_px + r * (height + kGap_px), width, height);
@@ -208,7 +203,7 @@ cv::Mat3b contact_sheet(const Study& study, const ClassTable& table, const Recor
     frames.push_back(recording.read(fullest_frame(recording, table, first, end), {.color = true}));
   }
   const Calibration& truth = recording.info().calibration;
-  const std::vector<Column> columns =
+  const std::vector<CaptionedColumn> columns =
       columns_of(frames, table, truth, largest_fault(study, recording));
   std::vector<LegendEntry> legend;
   for (const SemanticClass& c : table.classes)

@@ -9,8 +9,6 @@
 
 #include <opencv2/core.hpp>
 
-#include <filesystem>
-
 namespace mapscore::eval {
 
 /// Four frames of a recording, one a row: the fullest with objects of each quarter of the drive.

@@ -3,14 +3,30 @@
 
 #include "eval/report/pictures/judgement.hpp"
 
+#include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "eval/report/colours.hpp"
 #include "eval/score/voxel_window.hpp"
+#include "files/point_ply.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
+#include <cstdint>
 #include <utility>
 
 namespace mapscore::eval {
 namespace {
+
+struct Look {
+  const char* name;
+  Colour colour;
+};
+/// Of each verdict.
+constexpr std::array<Look, kVerdicts.size()> kLooks{{{"true", kTrueColour},
+                                                     {"near", kNearColour},
+                                                     {"leak", kLeakColour},
+                                                     {"floating", kFloatingColour},
+                                                     {"missed", kMissedColour}}};
 
 Verdict verdict_of(const PredictedVoxel& voxel, const SurfaceTruth& surface) {
   const auto in_surface = [&](const VoxelKey& key) {
@@ -24,35 +40,11 @@ Verdict verdict_of(const PredictedVoxel& voxel, const SurfaceTruth& surface) {
 }  // namespace
 
 const char* name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::right:
-      return "true";
-    case Verdict::near:
-      return "near";
-    case Verdict::leak:
-      return "leak";
-    case Verdict::floating:
-      return "floating";
-    case Verdict::missed:
-      return "missed";
-  }
-  return "?";
+  return kLooks.at(static_cast<std::size_t>(verdict)).name;
 }
 
 Colour colour_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::right:
-      return kTrueColour;
-    case Verdict::near:
-      return kNearColour;
-    case Verdict::leak:
-      return kLeakColour;
-    case Verdict::floating:
-      return kFloatingColour;
-    case Verdict::missed:
-      return kMissedColour;
-  }
-  return {};
+  return kLooks.at(static_cast<std::size_t>(verdict)).colour;
 }
 
 std::vector<JudgedVoxel> judge(const MapSnapshot& map, double threshold,
@@ -85,9 +77,24 @@ JudgedMap judged_map(std::string name, std::string title, const MapSnapshot& map
   return judged;
 }
 
-std::int64_t count(const std::vector<JudgedVoxel>& voxels, Verdict verdict) {
-  return std::count_if(voxels.begin(), voxels.end(),
-                       [&](const JudgedVoxel& voxel) { return voxel.verdict == verdict; });
+std::string error_ply_bytes(const JudgedMap& map) {
+  std::string legend = "verdict";
+  for (const Verdict verdict : kVerdicts)
+    legend += fmt::format(" {} {}", static_cast<int>(verdict), name_of(verdict));
+  PointPly ply(map.voxels.size(),
+               {"uchar red", "uchar green", "uchar blue", "ushort class", "uchar verdict"}, legend);
+  for (const JudgedVoxel& voxel : map.voxels) {
+    const Colour colour = colour_of(voxel.verdict);
+    ply.add(centre_of(voxel.key, map.edge_m), colour.r, colour.g, colour.b, voxel.class_id,
+            static_cast<std::uint8_t>(voxel.verdict));
+  }
+  return ply.bytes();
+}
+
+void write_error_ply(const std::filesystem::path& file, const JudgedMap& map) {
+  if (file.extension() != ".ply")
+    throw Error(file.string() + ": errors are written as .ply; give the file this ending");
+  write_whole_file(file, error_ply_bytes(map));
 }
 
 }  // namespace mapscore::eval

@@ -12,7 +12,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -62,7 +62,13 @@ struct JudgedMap {
                                    const VisibleTruth& visible, const ClassTable& table,
                                    const Pose& T_map_world);
 
-/// How many voxels have a verdict.
-[[nodiscard]] std::int64_t count(const std::vector<JudgedVoxel>& voxels, Verdict verdict);
+/// The judged voxels as points for CloudCompare and MeshLab: binary little-endian PLY, a vertex a
+/// voxel in the order of `map.voxels`: float x y z (the centre, metres, frame map), uchar red green
+/// blue (the verdict's colour), ushort class, uchar verdict (0 true, 1 near, 2 leak, 3 floating, 4
+/// missed). A voxel that was missed under another class stands twice.
+[[nodiscard]] std::string error_ply_bytes(const JudgedMap& map);
+
+/// Writes them aside, then renames. Throws Error unless the file ends in .ply and can be written.
+void write_error_ply(const std::filesystem::path& file, const JudgedMap& map);
 
 }  // namespace mapscore::eval

@@ -16,19 +16,27 @@
 
 namespace mapscore::eval {
 
-/// Voxels as cubes in the world, a little smaller than they are so that neighbours can be told
-/// apart: visible ones of the truth and predicted ones in the colours of their classes, and all
-/// verdicts.
-[[nodiscard]] std::vector<sim::Cube> truth_cubes(const JudgedMap& map, const ClassTable& table);
-[[nodiscard]] std::vector<sim::Cube> class_cubes(const JudgedMap& map, const ClassTable& table);
-[[nodiscard]] std::vector<sim::Cube> error_cubes(const JudgedMap& map);
-
 /// The predicted voxels in the colours of their classes, in the pale scene.
 [[nodiscard]] cv::Mat3b class_picture(const JudgedMap& map, const ClassTable& table,
                                       ScenePainter& painter, const sim::View& view);
 /// True, near, leak, floating and missed voxels in the pale scene.
 [[nodiscard]] cv::Mat3b error_picture(const JudgedMap& map, ScenePainter& painter,
                                       const sim::View& view);
+
+/// Truth, map and errors side by side from one view, in the pale scene: the visible voxels of the
+/// detected classes, the predicted ones, both in the colours of their classes, and the verdicts;
+/// below them a scale in metres where the view looks straight down, and legends with how many
+/// voxels there are. Voxels that things cover are seen through them. Each panel is as wide as the
+/// view.
+[[nodiscard]] cv::Mat3b map_beside_truth(const JudgedMap& map, const ClassTable& table,
+                                         ScenePainter& painter, const sim::View& view);
+
+/// Maps of several voxel sizes from one view, two in a row, in the colours of their classes and
+/// with their titles above them; the last ends with the legend of the classes. In the form of
+/// [R, figure 9].
+[[nodiscard]] cv::Mat3b resolution_picture(const std::vector<JudgedMap>& maps,
+                                           const ClassTable& table, ScenePainter& painter,
+                                           const sim::View& view);
 
 /// Classes and verdicts with how many voxels they have in all, in view or not.
 [[nodiscard]] std::vector<LegendEntry> truth_legend(const JudgedMap& map, const ClassTable& table);

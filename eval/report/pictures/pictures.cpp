@@ -4,10 +4,14 @@
 #include "eval/report/pictures/pictures.hpp"
 
 #include "core/error.hpp"
-#include "eval/report/pictures/map_beside_truth.hpp"
+#include "eval/lab/map_frame.hpp"
+#include "eval/report/axes.hpp"
 #include "eval/report/pictures/map_pictures.hpp"
 #include "eval/report/pictures/view.hpp"
+#include "eval/results/plan.hpp"
 #include "eval/study/picture_view.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -22,6 +26,40 @@ namespace fs = std::filesystem;
 constexpr int kColumn_px = 640;
 /// What the names of the pictures from the views of error_views end in.
 constexpr std::array<const char*, 2> kViewNames{"", "_close"};
+
+std::string wanted_value(const SweepAxis& axis, const PictureChoice& choice) {
+  for (const auto& [path, value] : choice.doses)
+    if (path == axis.path) return value;
+  return axis.values[axis.values.size() / 2];
+}
+
+void check_paths(const Study& study, const PictureChoice& choice) {
+  for (const auto& [path, value] : choice.doses) {
+    const auto axis = std::ranges::find(study.sweep, path, &SweepAxis::path);
+    std::string swept;
+    for (const SweepAxis& a : study.sweep) swept += " " + a.path;
+    if (axis == study.sweep.end())
+      throw Error(fmt::format("{}: the study does not sweep it; swept:{}", path, swept));
+    std::string values;
+    for (const std::string& v : axis->values) values += " " + v;
+    if (std::ranges::find(axis->values, value) == axis->values.end())
+      throw Error(fmt::format("{}: the study has no value {}; values:{}", path, value, values));
+  }
+}
+
+/// ASCII, since OpenCV writes nothing else.
+std::string title_of(const Study& study, const TrialSpec& spec, std::optional<int> frame) {
+  std::string title = spec.method;
+  for (const auto& [path, value] : spec.cell.doses) {
+    std::string text = figure_axis(study, {path, {value}}).text(0);
+    for (const auto& [letter, ascii] : {std::pair{"σ", "sigma"}, {"×", "x"}})
+      if (const std::size_t at = text.find(letter); at != std::string::npos)
+        text.replace(at, std::string(letter).size(), ascii);
+    title += ", " + text;
+  }
+  title += fmt::format(", seed {}", spec.seed_index);
+  return frame ? title + fmt::format(", frame {}", *frame) : title;
+}
 
 std::optional<sim::View> chosen_view(const Study& study, const PictureChoice& choice) {
   if (choice.view || !study.picture_view) return choice.view;
@@ -60,13 +98,6 @@ std::vector<fs::path> paint_all(const std::vector<JudgedMap>& maps, const ClassT
   return files;
 }
 
-/// Time offset of the cell that is shown, seconds.
-double time_offset_s(Study study, const PictureChoice& choice) {
-  for (const auto& [path, value] : chosen_cell(study, choice).doses)
-    if (path == "faults.time_offset_ms") set_leaf(study, path, value);
-  return study.faults.time_offset_ms / 1000.0;
-}
-
 /// The time that a moving scene is drawn at: that of the map, or of the depth image of the frame
 /// that is shown.
 std::optional<double> drawn_time(const Study& study, const ClassTable& table,
@@ -74,10 +105,45 @@ std::optional<double> drawn_time(const Study& study, const ClassTable& table,
   if (recording.info().motion.empty() || study.score.unit == ScoreUnit::map)
     return study.score.at_s;
   const int frame = fullest_frame(recording, table, 0, recording.frame_count());
-  return recording.depth_stamp_s(recording.depth_of(frame, time_offset_s(study, choice)));
+  const double offset_ms = resolve(study, chosen_cell(study, choice)).faults.time_offset_ms;
+  return recording.depth_stamp_s(recording.depth_of(frame, offset_ms / 1000.0));
 }
 
 }  // namespace
+
+Cell chosen_cell(const Study& study, const PictureChoice& choice) {
+  check_paths(study, choice);
+  decltype(Cell::doses) doses;
+  for (const SweepAxis& axis : study.sweep)
+    doses.emplace_back(axis.path, wanted_value(axis, choice));
+  const std::vector<Cell> all = cells(study);
+  const auto cell = std::ranges::find(all, doses, &Cell::doses);
+  if (cell == all.end())
+    throw Error("sweep: the study has no such cell; see `mapscore table RESULTS`");
+  return *cell;
+}
+
+int fullest_frame(const Recording& recording, const ClassTable& table, int first, int end) {
+  int fullest = first;
+  std::int64_t most = -1;
+  for (int index = first; index < end; ++index) {
+    const Frame frame = recording.read(index, {.color = false, .label = true, .depth = false});
+    const std::int64_t pixels =
+        std::count_if(frame.label.begin(), frame.label.end(),
+                      [&](InstanceId id) { return table.detected(table.class_of(id)); });
+    if (pixels > most) fullest = index;
+    most = std::max(most, pixels);
+  }
+  return fullest;
+}
+
+JudgedMap judged_trial(const Study& study, const TrialRun& run, const Task& task,
+                       const ClassTable& table, const TrialSpec& spec, std::optional<int> frame) {
+  const LatticeTruth& truth = run.truth();
+  return judged_map(spec.method, title_of(study, spec, frame), MapSnapshot(run.map().voxels()),
+                    run.threshold(), truth.surface, truth.view.visible, table,
+                    map_frame(task.config, task.seed_index).T_map_world());
+}
 
 Pictures draw_pictures(const Study& study, const ClassTable& table, const Recording& recording,
                        const PictureChoice& choice, const fs::path& folder,

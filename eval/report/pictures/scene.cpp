@@ -10,7 +10,6 @@
 #include "sim/world/motion.hpp"
 #endif
 
-#include <optional>
 #include <utility>
 
 namespace mapscore::eval {
@@ -57,9 +56,6 @@ ScenePainter::ScenePainter(const Study& study, const Recording& recording,
 ScenePainter::ScenePainter(const std::filesystem::path& scene)
     : state_(std::make_unique<State>(world_of_scene(scene))) {}
 
-ScenePainter::ScenePainter(const Recording& recording)
-    : ScenePainter(shapes_at(recording, std::nullopt), recording.info().table) {}
-
 ScenePainter::ScenePainter(std::vector<Shape> shapes, const ClassTable& table)
     : state_(std::make_unique<State>(sim::World::of_shapes(std::move(shapes), table))) {}
 
@@ -86,30 +82,19 @@ cv::Mat3b ScenePainter::paint_classes(sim::View view) {
 
 #else
 
-namespace {
+struct ScenePainter::State {
+  State() {
+    throw Error(
+        "pictures: this mapscore was built without the simulator; build with "
+        "-DMAPSCORE_SIMULATOR=ON");
+  }
+};
 
-[[noreturn]] void refuse() {
-  throw Error(
-      "pictures: this mapscore was built without the simulator; build with "
-      "-DMAPSCORE_SIMULATOR=ON");
-}
-
-}  // namespace
-
-struct ScenePainter::State {};
-
-ScenePainter::ScenePainter(const Study&, const Recording&, std::optional<double>) {
-  refuse();
-}
-ScenePainter::ScenePainter(const std::filesystem::path&) {
-  refuse();
-}
-ScenePainter::ScenePainter(const Recording&) {
-  refuse();
-}
-ScenePainter::ScenePainter(std::vector<Shape>, const ClassTable&) {
-  refuse();
-}
+ScenePainter::ScenePainter(const Study&, const Recording&, std::optional<double>)
+    : state_(std::make_unique<State>()) {}
+ScenePainter::ScenePainter(const std::filesystem::path&) : state_(std::make_unique<State>()) {}
+ScenePainter::ScenePainter(std::vector<Shape>, const ClassTable&)
+    : state_(std::make_unique<State>()) {}
 
 cv::Mat3b ScenePainter::paint(sim::View, std::span<const sim::Cube>) {
   return {};

@@ -27,9 +27,7 @@ class ScenePainter {
                std::optional<double> at_s = std::nullopt);
   /// An MJCF file, with the class file beside it. Throws Error when it is refused.
   explicit ScenePainter(const std::filesystem::path& scene);
-  /// The exact surfaces of a recording, in the muted colours of their classes. Throws Error when it
-  /// has none, or they move.
-  explicit ScenePainter(const Recording& recording);
+  /// Exact surfaces, in the muted colours of their classes.
   ScenePainter(std::vector<Shape> shapes, const ClassTable& table);
   ~ScenePainter();
   ScenePainter(const ScenePainter&) = delete;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,19 +31,19 @@ DistanceTally tally_of(std::size_t count, const ScoreOptions& options, int jobs,
                        const MakeCounter& make_counter) {
   const int used = static_cast<int>(
       std::clamp<std::size_t>((count + kRunItems - 1) / kRunItems, 1, std::max(jobs, 1)));
-  std::vector<DistanceTally> tallies(static_cast<std::size_t>(used),
-                                     DistanceTally(options.distances_m));
+  DistanceTally total(options.distances_m);
+  std::mutex pooling;
   Runs runs(count, kRunItems);
-  run_jobs(used, [&](int job) {
+  run_jobs(used, [&](int) {
     auto counter = make_counter();
     DistanceTally tally(options.distances_m);
     for (Runs::Run run; runs.next(run);) {
       for (std::size_t item = run.first; item < run.last; ++item) counter(item, tally);
     }
-    tallies[static_cast<std::size_t>(job)] = std::move(tally);
+    const std::scoped_lock lock(pooling);
+    total += tally;
   });
-  for (std::size_t t = 1; t < tallies.size(); ++t) tallies.front() += tallies[t];
-  return std::move(tallies.front());
+  return total;
 }
 
 DistanceTally accuracy_of(std::span<const VoxelKey> cubes, ClassId class_id,

@@ -101,9 +101,7 @@ void NearestCube::enter(const VoxelKey& voxel) {
   if (!look_around(voxel, kNear, near_) && !look_around(voxel, kFarther, farther_)) {
     search_tree(voxel);
   }
-  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-    return a.least_squared < b.least_squared;
-  });
+  std::ranges::sort(candidates_, {}, &Candidate::least_squared);
 }
 
 /// True when that was enough. A cube out of reach has an offset of more than `reach` on some axis,
@@ -112,7 +110,7 @@ bool NearestCube::look_around(const VoxelKey& voxel, int reach, VoxelWindow<Voxe
   candidates_.clear();
   double nearest_squared = std::numeric_limits<double>::infinity();
   around.for_each_within_reach(voxel, [&](const VoxelKey& cube) {
-    candidates_.push_back(candidate(cube, voxel));
+    candidates_.emplace_back(cube, voxel);
     nearest_squared = std::min(nearest_squared, candidates_.back().offset.squaredNorm());
   });
   if (nearest_squared >= reach * reach) return false;
@@ -125,9 +123,7 @@ void NearestCube::search_tree(const VoxelKey& voxel) {
   WithinReach reach;
   tree_->get().radiusSearchCustomCallback(here.data(), reach);
   candidates_.clear();
-  for (const std::uint32_t cube : reach.found()) {
-    candidates_.push_back(candidate(cubes_[cube], voxel));
-  }
+  for (const std::uint32_t cube : reach.found()) candidates_.emplace_back(cubes_[cube], voxel);
   keep_nearest(reach.nearest_squared());
 }
 
@@ -136,10 +132,9 @@ void NearestCube::keep_nearest(double squared) {
   std::erase_if(candidates_, [=](const Candidate& c) { return c.least_squared > squared; });
 }
 
-NearestCube::Candidate NearestCube::candidate(const VoxelKey& cube, const VoxelKey& voxel) {
-  const Eigen::Vector3d offset(cube.i - voxel.i, cube.j - voxel.j, cube.k - voxel.k);
-  return {offset, (offset.array().abs() - 1.0).max(0.0).matrix().squaredNorm()};
-}
+NearestCube::Candidate::Candidate(const VoxelKey& cube, const VoxelKey& voxel)
+    : offset(cube.i - voxel.i, cube.j - voxel.j, cube.k - voxel.k),
+      least_squared((offset.array().abs() - 1.0).max(0.0).matrix().squaredNorm()) {}
 
 double NearestCube::distance_m(const Eigen::Vector3d& offset_m) const {
   const Eigen::Vector3d p = offset_m / edge_m_;

@@ -32,12 +32,12 @@ class NearestCube {
   /// A cube that can be nearest: its lattice offset from the entered voxel, and the least squared
   /// distance between the two cubes, in edges.
   struct Candidate {
+    Candidate(const VoxelKey& cube, const VoxelKey& voxel);
     Eigen::Vector3d offset;
     double least_squared;
   };
   struct Tree;
 
-  [[nodiscard]] static Candidate candidate(const VoxelKey& cube, const VoxelKey& voxel);
   [[nodiscard]] bool look_around(const VoxelKey& voxel, int reach, VoxelWindow<VoxelKey>& around);
   void search_tree(const VoxelKey& voxel);
   void keep_nearest(double squared);

@@ -6,6 +6,7 @@
 #include "core/parallel.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace mapscore::eval {
@@ -23,19 +24,6 @@ void move_behind(std::vector<T>&& from, std::vector<T>& to) {
 }
 
 }  // namespace
-
-SampleSet::SampleSet(std::span<const std::vector<Eigen::Vector3d>> points_by_class, double edge_m) {
-  SampleCollector collector(points_by_class.size(), edge_m);
-  for (std::size_t c = 0; c < points_by_class.size(); ++c) {
-    for (const Eigen::Vector3d& p_map : points_by_class[c]) {
-      collector.add(static_cast<ClassId>(c), p_map);
-    }
-  }
-  *this = collector.take();
-}
-
-SampleCollector::SampleCollector(std::size_t class_count, double edge_m)
-    : edge_m_(edge_m), classes_(class_count) {}
 
 void SampleCollector::add(ClassId class_id, const Eigen::Vector3d& p_map) {
   ClassSamples& samples = classes_[class_id];
@@ -60,20 +48,15 @@ SampleSet SampleCollector::take(int jobs) {
   SampleSet set;
   set.edge_m_ = edge_m_;
   set.classes_.resize(classes_.size());
-  Runs classes(classes_.size(), 1);
-  run_jobs(std::min(jobs, static_cast<int>(classes_.size())), [&](int) {
-    for (Runs::Run c; classes.next(c);) {
-      set.classes_[c.first] = grouped(std::exchange(classes_[c.first], {}));
-    }
+  for_each_in_parallel(classes_.size(), jobs, [&](std::size_t c) {
+    set.classes_[c] = grouped(std::exchange(classes_[c], {}));
   });
   return set;
 }
 
 SampleCollector::ClassSamples SampleCollector::grouped(ClassSamples&& runs) {
   using Group = SampleSet::Group;
-  std::sort(runs.groups.begin(), runs.groups.end(), [](const Group& a, const Group& b) {
-    return a.key != b.key ? a.key < b.key : a.first < b.first;
-  });
+  std::ranges::sort(runs.groups, {}, [](const Group& g) { return std::tie(g.key, g.first); });
   ClassSamples samples;
   samples.offsets.reserve(runs.offsets.size());
   for (const Group& run : runs.groups) {

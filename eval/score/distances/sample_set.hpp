@@ -26,11 +26,6 @@ class SampleSet {
     std::size_t first = 0, count = 0;
   };
 
-  SampleSet() = default;
-  /// `points_by_class[c]`: p_map of the samples of class c, metres; `edge_m` > 0: edge of the
-  /// lattice.
-  SampleSet(std::span<const std::vector<Eigen::Vector3d>> points_by_class, double edge_m);
-
   [[nodiscard]] double edge_m() const { return edge_m_; }
   [[nodiscard]] std::size_t class_count() const { return classes_.size(); }
   /// Groups of a class, ordered by key.
@@ -41,9 +36,6 @@ class SampleSet {
   [[nodiscard]] std::span<const Eigen::Vector3f> offsets(ClassId class_id,
                                                          const Group& group) const {
     return std::span(classes_[class_id].offsets).subspan(group.first, group.count);
-  }
-  [[nodiscard]] std::size_t sample_count(ClassId class_id) const {
-    return classes_[class_id].offsets.size();
   }
 
  private:
@@ -63,7 +55,8 @@ class SampleSet {
 class SampleCollector {
  public:
   /// `edge_m` > 0: edge of the lattice.
-  SampleCollector(std::size_t class_count, double edge_m);
+  SampleCollector(std::size_t class_count, double edge_m)
+      : edge_m_(edge_m), classes_(class_count) {}
 
   /// `class_id` below the number of classes; p_map in metres, within 2^20 voxels of the origin.
   void add(ClassId class_id, const Eigen::Vector3d& p_map);

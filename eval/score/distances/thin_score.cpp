@@ -6,10 +6,8 @@
 #include "eval/truth/shapes/shape_tests.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 namespace mapscore::eval {
 namespace {
@@ -17,38 +15,33 @@ namespace {
 constexpr double kSame_m = 1e-9;  // distances that differ by less are equal
 
 /// Widths along the axes of the shape's own frame.
-std::array<double, 3> extents_of(const Shape& shape) {
+Eigen::Vector3d extents_of(const Shape& shape) {
   const Eigen::Vector3d& s = shape.size;
   switch (shape.kind) {
     case ShapeKind::plane:
       return {2 * s.x(), 2 * s.y(), 0.0};
     case ShapeKind::sphere:
-      return {2 * s.x(), 2 * s.x(), 2 * s.x()};
+      return Eigen::Vector3d::Constant(2 * s.x());
     case ShapeKind::capsule:
       return {2 * s.x(), 2 * s.x(), 2 * (s.x() + s.y())};
     case ShapeKind::cylinder:
       return {2 * s.x(), 2 * s.x(), 2 * s.y()};
     case ShapeKind::ellipsoid:
     case ShapeKind::box:
-      return {2 * s.x(), 2 * s.y(), 2 * s.z()};
+      return 2 * s;
     case ShapeKind::mesh:
       break;
   }
-  Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Array3d high = -low;
+  Eigen::AlignedBox3d box;
   for (const Triangle& triangle : shape.triangles)
-    for (const Eigen::Vector3d& corner : triangle) {
-      low = low.min(corner.array());
-      high = high.max(corner.array());
-    }
-  return {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+    for (const Eigen::Vector3d& corner : triangle) box.extend(corner);
+  return box.sizes();
 }
 
 }  // namespace
 
 bool is_thin(const Shape& shape) {
-  const std::array<double, 3> extents = extents_of(shape);
-  return std::count_if(extents.begin(), extents.end(), [](double e) { return e < kThin_m; }) >= 2;
+  return (extents_of(shape).array() < kThin_m).count() >= 2;
 }
 
 CubeDistance distance_to_thin(const std::vector<Shape>& shapes, const ClassTable& table,

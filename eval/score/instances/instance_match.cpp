@@ -10,8 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -23,11 +21,6 @@ struct Shared {
   std::int64_t hits = 0;        ///< |p in V_i|
   std::int64_t in_surface = 0;  ///< |p in S_i|
 };
-
-struct PairHash {
-  std::size_t operator()(std::uint64_t pair) const { return mix_bits(pair); }
-};
-using SharedByPair = std::unordered_map<std::uint64_t, Shared, PairHash>;
 
 std::uint64_t pair_of(std::uint32_t prediction, InstanceId instance) {
   return std::uint64_t{prediction} << 16 | instance;
@@ -50,83 +43,66 @@ void check(const PredictedInstances& predicted, const SurfaceTruth& surface,
   for (const VisibleVoxel& row : visible.voxels()) is_known(row, row.owner);
 }
 
-/// Walks through the predicted voxels once.
-class OverlapCounter {
- public:
-  OverlapCounter(const PredictedInstances& predicted, const VisibleTruth& visible,
-                 const ClassTable& table)
-      : predicted_(predicted),
-        visible_(visible),
-        table_(table),
-        hits_of_class_(predicted.instances.size()),
-        on_class_(predicted.instances.size()) {}
-
-  void count(std::size_t row, std::span<const SurfaceVoxel> surfaces) {
-    const std::uint32_t prediction = predicted_.members[row];
-    const ClassId class_id = predicted_.instances[prediction].class_id;
-    bool on_class = false;
-    for (const SurfaceVoxel& surface : surfaces) {
-      if (table_.class_of(surface.class_id) != class_id) continue;
-      ++shared_[pair_of(prediction, surface.class_id)].in_surface;
-      on_class = true;
-    }
-    on_class_[prediction] += on_class;
-    const auto owner = visible_.owner_of(predicted_.voxels[row]);
-    if (!owner || table_.class_of(*owner) != class_id) return;
-    ++shared_[pair_of(prediction, *owner)].hits;
-    ++hits_of_class_[prediction];
-  }
-
-  [[nodiscard]] bool is_void(std::uint32_t prediction) const {
-    return hits_of_class_[prediction] == 0 &&
-           2 * on_class_[prediction] >= predicted_.instances[prediction].voxels;
-  }
-
-  [[nodiscard]] std::vector<InstancePair> pairs(const std::vector<std::int64_t>& visible) const {
-    std::vector<InstancePair> pairs;
-    for (const auto& [pair, shared] : shared_) {
-      if (shared.hits == 0) continue;
-      const auto prediction = static_cast<std::uint32_t>(pair >> 16);
-      const auto instance = static_cast<InstanceId>(pair & 0xffff);
-      const std::int64_t outside = predicted_.instances[prediction].voxels - shared.in_surface;
-      pairs.push_back({prediction, instance, shared.hits, visible[instance] + outside});
-    }
-    std::sort(pairs.begin(), pairs.end(), [](const InstancePair& a, const InstancePair& b) {
-      return pair_of(a.prediction, a.instance) < pair_of(b.prediction, b.instance);
-    });
-    return pairs;
-  }
-
- private:
-  const PredictedInstances& predicted_;
-  const VisibleTruth& visible_;
-  const ClassTable& table_;
-  SharedByPair shared_;
-  std::vector<std::int64_t> hits_of_class_;  ///< by prediction: voxels in V of its class
-  std::vector<std::int64_t> on_class_;       ///< by prediction: voxels in S of its class
+/// What the predicted instances share with the truth.
+struct Tally {
+  std::unordered_map<std::uint64_t, Shared> shared;  ///< by pair_of
+  std::vector<std::int64_t> hits_of_class;           ///< by prediction: voxels in V of its class
+  std::vector<std::int64_t> on_class;                ///< by prediction: voxels in S of its class
 };
 
-}  // namespace
+/// Walks through the predicted voxels once.
+Tally tally_of(const PredictedInstances& predicted, const SurfaceTruth& surface,
+               const VisibleTruth& visible, const ClassTable& table) {
+  const std::size_t predictions = predicted.instances.size();
+  Tally tally{{}, std::vector<std::int64_t>(predictions), std::vector<std::int64_t>(predictions)};
+  VoxelWindow<SurfaceVoxel> rows(surface.voxels(), 0);
+  for (std::size_t row = 0; row < predicted.voxels.size(); ++row) {
+    const std::uint32_t prediction = predicted.members[row];
+    if (prediction == PredictedInstances::kNone) continue;
+    const ClassId class_id = predicted.instances[prediction].class_id;
+    bool on_class = false;
+    for (const SurfaceVoxel& there : rows.at(predicted.voxels[row])) {
+      if (table.class_of(there.class_id) != class_id) continue;
+      ++tally.shared[pair_of(prediction, there.class_id)].in_surface;
+      on_class = true;
+    }
+    tally.on_class[prediction] += on_class;
+    const auto owner = visible.owner_of(predicted.voxels[row]);
+    if (!owner || table.class_of(*owner) != class_id) continue;
+    ++tally.shared[pair_of(prediction, *owner)].hits;
+    ++tally.hits_of_class[prediction];
+  }
+  return tally;
+}
 
+/// True when the first pair has the greater IoU; exact.
 bool greater_iou(const InstancePair& a, const InstancePair& b) {
   return a.hits * b.whole > b.hits * a.whole;
 }
 
+}  // namespace
+
 InstanceOverlap overlap_of(const PredictedInstances& predicted, const SurfaceTruth& surface,
                            const VisibleTruth& visible, const ClassTable& table) {
   check(predicted, surface, visible, table);
-  OverlapCounter counter(predicted, visible, table);
-  VoxelWindow<SurfaceVoxel> rows(surface.voxels(), 0);
-  for (std::size_t row = 0; row < predicted.voxels.size(); ++row) {
-    if (predicted.members[row] == PredictedInstances::kNone) continue;
-    counter.count(row, rows.at(predicted.voxels[row]));
-  }
+  const Tally tally = tally_of(predicted, surface, visible, table);
   InstanceOverlap overlap;
   overlap.visible.resize(table.instances.size());
   for (const VisibleVoxel& voxel : visible.voxels()) ++overlap.visible[voxel.owner];
-  overlap.pairs = counter.pairs(overlap.visible);
+  for (const auto& [pair, shared] : tally.shared) {
+    if (shared.hits == 0) continue;
+    const auto prediction = static_cast<std::uint32_t>(pair >> 16);
+    const auto instance = static_cast<InstanceId>(pair & 0xffff);
+    const std::int64_t outside = predicted.instances[prediction].voxels - shared.in_surface;
+    overlap.pairs.push_back(
+        {prediction, instance, shared.hits, overlap.visible[instance] + outside});
+  }
+  std::ranges::sort(overlap.pairs, {}, [](const InstancePair& pair) {
+    return pair_of(pair.prediction, pair.instance);
+  });
   for (std::uint32_t p = 0; p < predicted.instances.size(); ++p) {
-    overlap.is_void.push_back(counter.is_void(p));
+    overlap.is_void.push_back(tally.hits_of_class[p] == 0 &&
+                              2 * tally.on_class[p] >= predicted.instances[p].voxels);
   }
   return overlap;
 }
@@ -159,12 +135,10 @@ std::vector<bool> match_by_score(const std::vector<InstancePair>& pairs,
   std::vector<bool> matched;
   for (const std::uint32_t prediction : predictions) {
     const InstancePair* best = nullptr;
-    for (auto pair = std::partition_point(
-             pairs.begin(), pairs.end(),
-             [=](const InstancePair& other) { return other.prediction < prediction; });
-         pair != pairs.end() && pair->prediction == prediction; ++pair) {
-      if (100 * pair->hits < percent * pair->whole || taken.contains(pair->instance)) continue;
-      if (best == nullptr || greater_iou(*pair, *best)) best = &*pair;
+    for (const InstancePair& pair :
+         std::ranges::equal_range(pairs, prediction, {}, &InstancePair::prediction)) {
+      if (100 * pair.hits < percent * pair.whole || taken.contains(pair.instance)) continue;
+      if (best == nullptr || greater_iou(pair, *best)) best = &pair;
     }
     if (best != nullptr) taken.insert(best->instance);
     matched.push_back(best != nullptr);

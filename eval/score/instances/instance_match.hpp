@@ -19,8 +19,6 @@ struct InstancePair {
   std::uint32_t prediction = 0;  ///< index into PredictedInstances::instances
   InstanceId instance = 0;
   std::int64_t hits = 0, whole = 0;
-
-  bool operator==(const InstancePair&) const = default;
 };
 
 /// How the predicted instances lie on the true ones.
@@ -29,9 +27,6 @@ struct InstanceOverlap {
   std::vector<bool> is_void;          ///< by prediction: shows what was never seen; counts nowhere
   std::vector<std::int64_t> visible;  ///< |V_i| by instance id
 };
-
-/// True when the first pair has the greater IoU; exact.
-[[nodiscard]] bool greater_iou(const InstancePair& a, const InstancePair& b);
 
 /// Overlaps of one class each; `surface` and `visible` hold instances as classes
 /// (instance_table(table)), on the lattice of the prediction. Linear in the voxels. Throws Error

@@ -3,11 +3,12 @@
 
 #include "eval/score/instances/instance_pieces.hpp"
 
-#include "eval/truth/key_index.hpp"
+#include "eval/score/metric.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -15,8 +16,7 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr double kNano = 1e9;
-constexpr std::int64_t kNanoPerThousandth = 1'000'000;
+constexpr std::int64_t kBillionthsAThousandth = 1'000'000;
 
 /// Sets of rows; the least row of a set stands for it.
 class DisjointRows {
@@ -82,31 +82,28 @@ PredictedInstances group(const std::vector<PredictedVoxel>& voxels, NumberOf num
     }
     objects.members.back() = entry->second;
     ++objects.instances[entry->second].voxels;
-    sums[entry->second] += std::llround(voxel.probability * kNano);
+    sums[entry->second] += std::llround(voxel.probability * kBillion);
   }
   for (std::size_t n = 0; n < sums.size(); ++n) {
     PredictedInstance& instance = objects.instances[n];
-    instance.score = static_cast<int>(sums[n] / (instance.voxels * kNanoPerThousandth));
+    instance.score = static_cast<int>(sums[n] / (instance.voxels * kBillionthsAThousandth));
   }
   return objects;
 }
 
 /// Gives every object the class of most of its voxels.
 void vote(const std::vector<PredictedVoxel>& voxels, PredictedInstances& objects) {
-  std::vector<std::pair<std::uint32_t, ClassId>> votes;
+  std::map<std::pair<std::uint32_t, ClassId>, std::int64_t> votes;
   for (std::size_t row = 0; row < voxels.size(); ++row) {
     const std::uint32_t member = objects.members[row];
-    if (member != PredictedInstances::kNone) votes.emplace_back(member, voxels[row].class_id);
+    if (member != PredictedInstances::kNone) ++votes[{member, voxels[row].class_id}];
   }
-  std::sort(votes.begin(), votes.end());
-  std::vector<std::ptrdiff_t> most(objects.instances.size(), 0);
-  for (auto first = votes.begin(); first != votes.end();) {
-    const auto last = std::upper_bound(first, votes.end(), *first);
-    if (last - first > most[first->first]) {
-      most[first->first] = last - first;
-      objects.instances[first->first].class_id = first->second;
-    }
-    first = last;
+  std::vector<std::int64_t> most(objects.instances.size(), 0);
+  for (const auto& [vote, count] : votes) {
+    const auto& [member, class_id] = vote;
+    if (count <= most[member]) continue;
+    most[member] = count;
+    objects.instances[member].class_id = class_id;
   }
 }
 
@@ -120,14 +117,12 @@ PredictedInstances pieces_of(const MapSnapshot& map, double threshold) {
 
 PredictedInstances objects_of(const MapSnapshot& map, double threshold,
                               std::span<const NumberedVoxel> numbers) {
-  KeyIndex index(numbers.size());
-  for (std::size_t n = 0; n < numbers.size(); ++n) {
-    index.insert(pack(numbers[n].key), static_cast<std::uint32_t>(n));
-  }
+  std::unordered_map<VoxelKey, std::uint32_t> number_of;
+  for (const NumberedVoxel& voxel : numbers) number_of.emplace(voxel.key, voxel.number);
   const std::vector<PredictedVoxel> voxels = prediction_of(map, threshold);
   PredictedInstances objects = group(voxels, [&](std::uint32_t row) {
-    const std::uint32_t n = index.find(pack(voxels[row].key));
-    return n == KeyIndex::kNone ? 0u : numbers[n].number;
+    const auto found = number_of.find(voxels[row].key);
+    return found == number_of.end() ? 0u : found->second;
   });
   vote(voxels, objects);
   return objects;

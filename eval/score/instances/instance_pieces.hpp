@@ -7,7 +7,6 @@
 #include "core/geometry/voxel.hpp"
 #include "eval/score/map_snapshot.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>

@@ -9,33 +9,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 
 namespace mapscore::eval {
 namespace {
 
-constexpr std::int64_t kNano = 1'000'000'000;
-
 std::int64_t nano(const InstancePair& pair) {
-  return (2 * pair.hits * kNano + pair.whole) / (2 * pair.whole);
-}
-
-/// Sorts by falling score and joins equal ones.
-void tidy(std::vector<InstanceStep>& steps) {
-  std::stable_sort(steps.begin(), steps.end(),
-                   [](const InstanceStep& a, const InstanceStep& b) { return a.score > b.score; });
-  std::vector<InstanceStep> joined;
-  for (const InstanceStep& step : steps) {
-    if (joined.empty() || joined.back().score != step.score) {
-      joined.push_back(step);
-      continue;
-    }
-    joined.back().predicted += step.predicted;
-    for (std::size_t t = 0; t < kInstancePercents.size(); ++t) {
-      joined.back().true_predicted[t] += step.true_predicted[t];
-    }
-  }
-  steps = std::move(joined);
+  return (2 * pair.hits * kBillion + pair.whole) / (2 * pair.whole);
 }
 
 /// The instances of one class: pairs, and predictions by falling score, void ones left out.
@@ -63,18 +44,14 @@ void count_matches(const OneClass& one, InstanceCounts& counts) {
 
 void count_steps(const OneClass& one, const std::vector<PredictedInstance>& instances,
                  InstanceCounts& counts) {
-  for (const std::uint32_t p : one.predictions) {
-    InstanceStep step;
-    step.score = instances[p].score;
-    step.predicted = 1;
-    counts.steps.push_back(step);
-  }
+  std::vector<InstanceStep> steps;
+  for (const std::uint32_t p : one.predictions) steps.push_back({instances[p].score, 1, {}});
   for (std::size_t t = 0; t < kInstancePercents.size(); ++t) {
     const std::vector<bool> found =
         match_by_score(one.pairs, one.predictions, kInstancePercents[t]);
-    for (std::size_t n = 0; n < found.size(); ++n) counts.steps[n].true_predicted[t] = found[n];
+    for (std::size_t n = 0; n < found.size(); ++n) steps[n].true_predicted[t] = found[n];
   }
-  tidy(counts.steps);
+  pool_steps(counts.steps, steps, &InstanceStep::score);
 }
 
 void check_size(const std::vector<InstanceCounts>& counts, const ClassTable& table) {
@@ -86,10 +63,15 @@ void check_size(const std::vector<InstanceCounts>& counts, const ClassTable& tab
 
 }  // namespace
 
+InstanceStep& InstanceStep::operator+=(const InstanceStep& other) {
+  predicted += other.predicted;
+  std::ranges::transform(true_predicted, other.true_predicted, true_predicted.begin(), std::plus{});
+  return *this;
+}
+
 InstanceCounts& InstanceCounts::operator+=(const InstanceCounts& other) {
   add_counts(*this, other);
-  steps.insert(steps.end(), other.steps.begin(), other.steps.end());
-  tidy(steps);
+  pool_steps(steps, other.steps, &InstanceStep::score);
   return *this;
 }
 
@@ -112,13 +94,11 @@ std::vector<InstanceCounts> score_instances(const PredictedInstances& predicted,
     }
   }
   for (const Instance& instance : table.instances) {
-    if (overlap.visible[instance.id] > 0) ++counts[instance.class_id].false_negative;
+    if (table.detected(instance.class_id) && overlap.visible[instance.id] > 0)
+      ++counts[instance.class_id].false_negative;
   }
   for (ClassId c = 0; c < classes.size(); ++c) {
-    if (!table.detected(c)) {
-      counts[c] = {};
-      continue;
-    }
+    if (!table.detected(c)) continue;
     rank(predicted.instances, classes[c].predictions);
     count_matches(classes[c], counts[c]);
     count_steps(classes[c], predicted.instances, counts[c]);
@@ -142,8 +122,8 @@ std::optional<double> instance_ap(const InstanceCounts& counts, std::size_t thre
 
 std::vector<Metric> InstanceCounts::metrics() const {
   const std::int64_t twice = 2 * true_positive + false_positive + false_negative;
-  std::vector<Metric> figures{{"pq", ratio(2 * iou_sum_nano, twice * kNano)},
-                              {"sq", ratio(iou_sum_nano, true_positive * kNano)},
+  std::vector<Metric> figures{{"pq", ratio(2 * iou_sum_nano, twice * kBillion)},
+                              {"sq", ratio(iou_sum_nano, true_positive * kBillion)},
                               {"rq", ratio(2 * true_positive, twice)}};
   std::optional<double> sum;
   for (std::size_t t = 0; t < kInstancePercents.size(); ++t) {

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/classes.hpp"
-#include "eval/score/instance_counts.hpp"
 #include "eval/score/instances/instance_pieces.hpp"
+#include "eval/score/part_counts.hpp"
 #include "eval/truth/surface_truth.hpp"
 #include "eval/truth/visible_truth.hpp"
 

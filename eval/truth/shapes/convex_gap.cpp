@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/truth/shapes/convex_gap.hpp"
-
-#include "eval/truth/shapes/segment_distance.hpp"
+#include "eval/truth/shapes/convex_forms.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -19,10 +17,14 @@ using Eigen::Vector3d;
 constexpr double kGapTolerance_m = 1e-10;
 constexpr int kMaxSteps = 500;
 
-/// Corner of the form's bounding frame: signs of bits 0..2.
-Vector3d corner_of(const OrientedBox& form, int corner) {
-  const Vector3d sign{corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0};
-  return form.centre + form.R * form.half.cwiseProduct(sign);
+/// From the nearest point of the box to p.
+Vector3d excess(const Vector3d& p, const Box& box) {
+  return p - p.cwiseMax(box.min()).cwiseMin(box.max());
+}
+
+/// Corner of the form, numbered along its own axes.
+Vector3d turned_corner(const OrientedBox& form, int corner) {
+  return form.centre + form.R * corner_of(Box(-form.half, form.half), corner);
 }
 
 double squared_distance(const OrientedBox& form, const Vector3d& p) {
@@ -140,6 +142,36 @@ double bounded_gap(const RoundForm& form, const Box& box) {
 
 }  // namespace
 
+// f(t) = |excess(a + t d)|^2 is convex and piecewise quadratic in t; its pieces end where the
+// segment crosses a plane of the box. Half its derivative, g(t) = excess . d, is piecewise linear
+// and does not fall, so the piece in which it changes sign holds the minimum.
+double squared_distance(const Vector3d& a, const Vector3d& b, const Box& box) {
+  const Vector3d d = b - a;
+  const auto slope = [&](double t) { return excess(a + t * d, box).dot(d); };
+  double t_low = 0, t_high = 1, slope_low = slope(0), slope_high = slope(1);
+  if (slope_low >= 0) return excess(a, box).squaredNorm();
+  if (slope_high <= 0) return excess(b, box).squaredNorm();
+
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double plane : {box.min()[axis], box.max()[axis]}) {
+      const double t = d[axis] == 0 ? t_low : (plane - a[axis]) / d[axis];
+      if (t <= t_low || t >= t_high) continue;
+      const double s = slope(t);
+      (s < 0 ? t_low : t_high) = t;
+      (s < 0 ? slope_low : slope_high) = s;
+    }
+  }
+  const double t = t_low + (t_high - t_low) * (slope_low / (slope_low - slope_high));
+  return excess(a + t * d, box).squaredNorm();
+}
+
+double squared_distance(const Vector3d& a, const Vector3d& b, const Vector3d& p) {
+  const Vector3d d = b - a;
+  const double length2 = d.squaredNorm();
+  const double t = length2 == 0 ? 0 : std::clamp((p - a).dot(d) / length2, 0.0, 1.0);
+  return (p - (a + t * d)).squaredNorm();
+}
+
 // Two convex polyhedra are nearest at a corner of one and a face of the other or between two edges.
 // A segment against the box covers the edges and the form's corners.
 double gap(const OrientedBox& form, const Box& box) {
@@ -148,8 +180,8 @@ double gap(const OrientedBox& form, const Box& box) {
     least = std::min(least, squared_distance(form, corner_of(box, corner)));
     for (int bit = 1; bit < 8; bit *= 2) {
       if (corner & bit) continue;
-      least = std::min(
-          least, squared_distance(corner_of(form, corner), corner_of(form, corner | bit), box));
+      least = std::min(least, squared_distance(turned_corner(form, corner),
+                                               turned_corner(form, corner | bit), box));
     }
   }
   return std::sqrt(least);

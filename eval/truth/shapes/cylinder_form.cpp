@@ -103,13 +103,6 @@ double depth(const Cylinder& form, const Vector3d& p) {
   return std::min(form.radius - inner.head<2>().norm(), form.half - std::abs(inner.z()));
 }
 
-bool contains(const Cylinder& form, const Box& box) {
-  for (int corner = 0; corner < 8; ++corner) {
-    if (depth(form, corner_of(box, corner)) <= 0) return false;
-  }
-  return true;
-}
-
 Box bounds_of(const Cylinder& form) {
   const Vector3d axis = form.R.col(2);
   const Vector3d disc = (Vector3d::Ones() - axis.cwiseAbs2()).cwiseMax(0).cwiseSqrt();

@@ -3,8 +3,6 @@
 
 #include "eval/truth/shapes/convex_forms.hpp"
 
-#include <algorithm>
-
 // Forms with flat faces. An axis on which two projections do not overlap proves that the bodies are
 // apart, whatever its length and however it was rounded, so near-parallel edges need no special
 // case: their axes only fail to separate.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "eval/truth/shapes/convex_forms.hpp"
-#include "eval/truth/shapes/segment_distance.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,14 +14,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-template <typename RoundForm>
-bool all_corners_within(const RoundForm& form, const Box& box) {
-  for (int corner = 0; corner < 8; ++corner) {
-    if (depth(form, corner_of(box, corner)) <= 0) return false;
-  }
-  return true;
-}
 
 /// Minimum of x^T Q x over a box, Q positive definite, by active sets. When the minimum over the
 /// free axes lies outside the box, the constrained one lies on a side that it violates: otherwise a
@@ -131,10 +122,6 @@ bool meets(const Capsule& form, const Box& box) {
 
 double depth(const Capsule& form, const Vector3d& p) {
   return form.radius - std::sqrt(squared_distance(form.a, form.b, p));
-}
-
-bool contains(const Capsule& form, const Box& box) {
-  return all_corners_within(form, box);
 }
 
 Box bounds_of(const Capsule& form) {

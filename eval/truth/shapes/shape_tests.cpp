@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 
 #include <string>
-#include <type_traits>
 #include <utility>
 
 namespace mapscore::eval {
@@ -21,16 +20,8 @@ bool form_meets(const PreparedShape& shape, const Box& box) {
 }
 
 bool form_contains(const PreparedShape& shape, const Box& box) {
-  if (!shape.solid() || !shape.bounds().contains(box)) return false;
-  return std::visit(
-      [&](const auto& form) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(form)>, Triangle>) {
-          return false;
-        } else {
-          return contains(form, box);
-        }
-      },
-      shape.form());
+  return shape.solid() && shape.bounds().contains(box) &&
+         std::visit([&](const auto& form) { return contains(form, box); }, shape.form());
 }
 
 bool boundary_meets(const PreparedShape& shape, const Box& box) {

@@ -52,8 +52,8 @@ std::vector<VoxelHit> random_hits(RandomStream& stream) {
 }
 
 template <class Rule>
-class EveryRule : public testing::Test {};
-using Rules = testing::Types<BlendRule, MaxConfidenceRule, VoteRule, BayesRule, Top3Rule>;
+class EveryRule : public ::testing::Test {};
+using Rules = ::testing::Types<BlendRule, MaxConfidenceRule, VoteRule, BayesRule, Top3Rule>;
 TYPED_TEST_SUITE(EveryRule, Rules);
 
 TYPED_TEST(EveryRule, StaysNormalisedOverAHundredThousandUpdates) {
@@ -291,7 +291,7 @@ TEST(FusionInput, RulesOutOfRangeAreRefused) {
   EXPECT_THROW((void)uniform_priors(1), Error);
 }
 
-class Refused : public testing::Test {
+class Refused : public ::testing::Test {
  protected:
   void SetUp() override { map_.fuse(good_, 2, VoteRule{}); }
   void expect_refused(std::vector<VoxelHit> hits, int draws, const FusionRule& rule,

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/random_stream.hpp"
+#include "tests/core/points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@
 namespace mapscore {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
+using testing::Points;
 
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 

@@ -18,7 +18,7 @@
 namespace mapscore {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 using Whole = std::array<std::int64_t, 3>;
 
 TEST(VoxelRay, StraightAndStandingStill) {

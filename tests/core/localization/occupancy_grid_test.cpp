@@ -4,8 +4,6 @@
 #include "core/localization/occupancy_grid.hpp"
 
 #include "core/error.hpp"
-#include "core/localization/distance_transform.hpp"
-#include "core/localization/ray_cast.hpp"
 #include "core/random_stream.hpp"
 
 #include <gtest/gtest.h>

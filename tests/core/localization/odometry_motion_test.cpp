@@ -4,6 +4,7 @@
 #include "core/localization/odometry_motion.hpp"
 
 #include "core/error.hpp"
+#include "tests/support/log_pose.hpp"
 
 #include <gtest/gtest.h>
 

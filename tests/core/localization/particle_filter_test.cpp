@@ -81,7 +81,7 @@ void expect_good(const Quality& quality, const std::string& what) {
 }
 
 // Where walls cross the lattice their offsets within the cells average out: a filter that allows
-// for walls along it (map_sigma) is then too modest, but not too sure.
+// for walls along it (map_covariance) is then too modest, but not too sure.
 void expect_modest(const Quality& quality, const std::string& what) {
   expect_found(quality, what);
   EXPECT_GE(quality.in_band, 0.6) << what;

@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include "core/localization/laser_scan.hpp"
 #include "core/localization/occupancy_grid.hpp"
 #include "core/localization/odometry_motion.hpp"
+#include "core/localization/scan_likelihood.hpp"
 #include "core/random_stream.hpp"
 
 #include <Eigen/Core>

@@ -3,21 +3,22 @@
 
 #include "core/error.hpp"
 #include "core/mapping/semantic_map.hpp"
+#include "tests/core/not_finite.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <sstream>
 #include <string>
 
 namespace mapscore {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
+using testing::kInf;
+using testing::kNan;
+
 const std::string kHeader = "# Octomap OcTree file\nid SemanticOcTree\nsize 17\nres 0.1\ndata\n";
 
 /// The chain of nodes of a map of one voxel, which holds these log-odds and beliefs.
@@ -45,11 +46,11 @@ std::string refusal_of(const std::string& bytes) {
   }
 }
 
-testing::AssertionResult refused(const std::string& bytes, const std::string& why) {
+::testing::AssertionResult refused(const std::string& bytes, const std::string& why) {
   const std::string line = refusal_of(bytes);
   if (line.find(why) == std::string::npos || std::count(line.begin(), line.end(), '\n') > 0)
-    return testing::AssertionFailure() << "says \"" << line << "\", not \"" << why << '"';
-  return testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << "says \"" << line << "\", not \"" << why << '"';
+  return ::testing::AssertionSuccess();
 }
 
 TEST(DamagedMap, OneThatIsWholeIsTaken) {

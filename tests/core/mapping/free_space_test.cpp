@@ -81,7 +81,7 @@ void PrintTo(const Case& c, std::ostream* out) {
     *out << c.max_range_m << " m";
 }
 
-class AgainstOctomap : public testing::TestWithParam<Case> {};
+class AgainstOctomap : public ::testing::TestWithParam<Case> {};
 
 TEST_P(AgainstOctomap, EveryNodeOfTheTreeIsEqualAfterEveryScan) {
   const Case& c = GetParam();
@@ -102,9 +102,9 @@ TEST_P(AgainstOctomap, EveryNodeOfTheTreeIsEqualAfterEveryScan) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scans, AgainstOctomap,
-    testing::Values(Case{0.05, 3.0, 1000, 16, -1}, Case{0.1, 6.0, 1000, 16, -1},
-                    Case{0.05, 3.0, 1000, 16, 1.9}, Case{0.2, 15.0, 300, 24, 7},
-                    Case{0.0625, 3.0, 1000, 12, -1}, Case{0.02, 1.0, 600, 12, -1}));
+    ::testing::Values(Case{0.05, 3.0, 1000, 16, -1}, Case{0.1, 6.0, 1000, 16, -1},
+                      Case{0.05, 3.0, 1000, 16, 1.9}, Case{0.2, 15.0, 300, 24, 7},
+                      Case{0.0625, 3.0, 1000, 12, -1}, Case{0.02, 1.0, 600, 12, -1}));
 
 TEST(SeenSpace, ManySmallScansFromVoxelPlanes) {
   RandomStream stream(12, "carve");

@@ -5,6 +5,7 @@
 #include "core/mapping/semantic_map.hpp"
 #include "core/placement/placement.hpp"
 #include "core/placement/pose_belief.hpp"
+#include "tests/support/log_pose.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@
 namespace mapscore {
 namespace {
 
-constexpr double kEdge = 0.05;
+constexpr double kFineEdge = 0.05;
 const Pose kHere = Pose::Identity();
 
 ObservedObject object(ClassId class_id, std::vector<Eigen::Vector3d> positions,
@@ -37,7 +38,7 @@ TEST(Place, ClassOfMostPositionsWinsAndTiesGoToTheLowerId) {
   const Observation observation{
       object(2, {{0.01, 0.01, 0.01}, {0.02, 0.01, 0.01}, {0.06, 0.01, 0.01}}),
       object(1, {{0.03, 0.01, 0.01}, {0.07, 0.01, 0.01}})};
-  const auto hits = place(observation, {&kHere, 1}, kEdge);
+  const auto hits = place(observation, {&kHere, 1}, kFineEdge);
   ASSERT_EQ(hits.size(), 2u);
   EXPECT_EQ(hits[0].key, (VoxelKey{0, 0, 0}));
   EXPECT_EQ(hits[0].class_id, 2);
@@ -48,14 +49,14 @@ TEST(Place, ClassOfMostPositionsWinsAndTiesGoToTheLowerId) {
 TEST(Place, CountsPositionsOfAllObjectsOfAClassTogether) {
   const Observation observation{object(3, {{0.01, 0, 0}}), object(2, {{0.02, 0, 0}, {0.02, 0, 0}}),
                                 object(3, {{0.03, 0, 0}, {0.04, 0, 0}}, 0.5)};
-  const auto hits = place(observation, {&kHere, 1}, kEdge);
+  const auto hits = place(observation, {&kHere, 1}, kFineEdge);
   ASSERT_EQ(hits.size(), 1u);
   EXPECT_EQ(hits[0].class_id, 3);
   EXPECT_DOUBLE_EQ(hits[0].score_sum, 1.0);
 }
 
 TEST(Place, NegativeCoordinatesFloorDownwards) {
-  const auto hits = place({object(1, {{-0.001, -0.05, 0.05}})}, {&kHere, 1}, kEdge);
+  const auto hits = place({object(1, {{-0.001, -0.05, 0.05}})}, {&kHere, 1}, kFineEdge);
   ASSERT_EQ(hits.size(), 1u);
   EXPECT_EQ(hits[0].key, (VoxelKey{-1, -1, 1}));
 }
@@ -65,7 +66,7 @@ TEST(Place, CountsTheDrawsThatEachClassWon) {
   shifted.translation() = Eigen::Vector3d(0.05, 0, 0);
   const std::vector<Pose> draws{kHere, shifted, shifted};
   const Observation observation{object(1, {{0.01, 0, 0}}), object(2, {{0.06, 0, 0}, {0.06, 0, 0}})};
-  const auto hits = place(observation, draws, kEdge);
+  const auto hits = place(observation, draws, kFineEdge);
   ASSERT_EQ(hits.size(),
             4u);  // voxel 0: class 1 once; voxel 1: class 1 twice, class 2 once; voxel 2: class 2
   EXPECT_EQ(hits[0].draws, 1);
@@ -78,13 +79,13 @@ TEST(Place, CountsTheDrawsThatEachClassWon) {
 }
 
 TEST(Blend, FirstFullHitGivesOneMinusK) {
-  SemanticMap map(kEdge);
+  SemanticMap map(kFineEdge);
   map.fuse(std::vector<VoxelHit>{{{0, 0, 0}, 1, 1, 1.0}}, 1, BlendRule{0.3});
   EXPECT_DOUBLE_EQ(probability(map, {0, 0, 0}, 1), 0.7);
 }
 
 TEST(Blend, ThirtyOfThirtyDrawsGiveExactlyAHalf) {
-  SemanticMap map(kEdge);
+  SemanticMap map(kFineEdge);
   map.fuse(std::vector<VoxelHit>{{{0, 0, 0}, 1, 30, 30.0}, {{1, 0, 0}, 1, 15, 15.0}}, 30,
            BlendRule{0.5});
   EXPECT_EQ(probability(map, {0, 0, 0}, 1), 0.5);
@@ -92,7 +93,7 @@ TEST(Blend, ThirtyOfThirtyDrawsGiveExactlyAHalf) {
 }
 
 TEST(Blend, FollowsTheFormulaByHandOverThreeFrames) {
-  SemanticMap map(kEdge);  // K = 0.8, N = 4
+  SemanticMap map(kFineEdge);  // K = 0.8, N = 4
   const VoxelKey key{3, -2, 7};
   map.fuse(std::vector<VoxelHit>{{key, 1, 4, 4.0}}, 4, BlendRule{0.8});
   map.fuse(std::vector<VoxelHit>{{key, 1, 1, 1.0}, {key, 2, 2, 1.8}}, 4, BlendRule{0.8});
@@ -102,14 +103,14 @@ TEST(Blend, FollowsTheFormulaByHandOverThreeFrames) {
 }
 
 TEST(Blend, VoxelsThatNoDrawHitKeepTheirValue) {
-  SemanticMap map(kEdge);
+  SemanticMap map(kFineEdge);
   map.fuse(std::vector<VoxelHit>{{{0, 0, 0}, 1, 1, 1.0}}, 1, BlendRule{0.5});
   map.fuse(std::vector<VoxelHit>{{{9, 0, 0}, 1, 1, 1.0}}, 1, BlendRule{0.5});
   EXPECT_EQ(probability(map, {0, 0, 0}, 1), 0.5);
 }
 
 TEST(Blend, CountsHitsBeyondTheOctreeAndKeepsTheRest) {
-  SemanticMap map(kEdge);
+  SemanticMap map(kFineEdge);
   map.fuse(std::vector<VoxelHit>{{{40000, 0, 0}, 1, 1, 1.0}, {{40001, 0, 0}, 1, 1, 1.0}}, 1,
            BlendRule{0.5});
   map.fuse(std::vector<VoxelHit>{{{32767, -32768, 0}, 1, 1, 1.0}}, 1, BlendRule{0.5});
@@ -118,11 +119,11 @@ TEST(Blend, CountsHitsBeyondTheOctreeAndKeepsTheRest) {
   EXPECT_EQ(map.voxels()[0].key, (VoxelKey{32767, -32768, 0}));
 }
 
-class MapFile : public testing::Test {
+class MapFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder_);
     for (int i = 0; i < 8; ++i)  // a full block of eight, which pruning would merge
       map_.fuse(std::vector<VoxelHit>{{{i & 1, i >> 1 & 1, i >> 2}, 1, 1, 1.0}}, 1, BlendRule{0.5});
@@ -131,13 +132,13 @@ class MapFile : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path folder_;
-  SemanticMap map_{kEdge};
+  SemanticMap map_{kFineEdge};
 };
 
 TEST_F(MapFile, LoadsWhatWasSaved) {
   map_.save(folder_ / "map.ot");
   const SemanticMap loaded = SemanticMap::load(folder_ / "map.ot");
-  EXPECT_EQ(loaded.edge_m(), kEdge);
+  EXPECT_EQ(loaded.edge_m(), kFineEdge);
   const auto before = map_.voxels(), after = loaded.voxels();
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -198,7 +199,7 @@ TEST_F(MapFile, RefusesNodesBelowTheFinestAndLeavesThatCoverTooMuch) {
 }
 
 TEST_F(MapFile, AnEmptyMapIsSavedLoadedAndExported) {
-  const SemanticMap empty(kEdge);
+  const SemanticMap empty(kFineEdge);
   empty.save(folder_ / "empty.ot");
   EXPECT_TRUE(SemanticMap::load(folder_ / "empty.ot").voxels().empty());
   empty.export_color(folder_ / "colour.ot", ClassTable{}, 0.25);
@@ -237,7 +238,7 @@ Covariance6 sampled_covariance(const PoseBelief& belief, NoiseAt noise_at, Covar
   return sum / kDraws;
 }
 
-class CovarianceAtDistance : public testing::TestWithParam<double> {};
+class CovarianceAtDistance : public ::testing::TestWithParam<double> {};
 
 TEST_P(CovarianceAtDistance, SampledEqualsInjected) {
   PoseBelief belief;
@@ -253,7 +254,7 @@ TEST_P(CovarianceAtDistance, SampledEqualsInjected) {
                   0.03 * sigma[row] * sigma[column]);
 }
 
-INSTANTIATE_TEST_SUITE_P(FromTheOrigin, CovarianceAtDistance, testing::Values(0.0, 10.0));
+INSTANTIATE_TEST_SUITE_P(FromTheOrigin, CovarianceAtDistance, ::testing::Values(0.0, 10.0));
 
 TEST(DrawPoses, NoiseAtOdomTurnsAboutTheOdomOrigin) {
   PoseBelief belief;

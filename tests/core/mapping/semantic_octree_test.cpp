@@ -17,7 +17,13 @@
 namespace mapscore {
 namespace {
 
-using namespace testing;  // carved_map.hpp
+using testing::add;
+using testing::carved_map;
+using testing::kBlend;
+using testing::kEdge;
+using testing::random_view;
+using testing::rows;
+using testing::View;
 
 TEST(SemanticOcTree, ANodeWithoutASurfaceIsSmall) {
   EXPECT_LE(sizeof(SemanticOcTreeNode), 24u);
@@ -131,8 +137,9 @@ TEST(Colour, IsTheMeanInAnyOrder) {
   const Eigen::Vector3d p(0.05, 0.05, 0.05);
   map.add_colours(std::vector<ColouredPoint>{
       {p, {0, 10, 255}}, {p, {1, 20, 255}}, {{5, 5, 5}, {9, 9, 9}}, {{1e9, 0, 0}, {9, 9, 9}}});
-  EXPECT_EQ(map.colour_at({0, 0, 0}), (Colour{1, 15, 255}));
-  EXPECT_EQ(map.colour_at({50, 50, 50}), std::nullopt) << "not in the map";
+  const auto colour = map.tree().search(octree_key({0, 0, 0}))->colour();
+  EXPECT_EQ(colour.mean(), (Colour{1, 15, 255}));
+  EXPECT_EQ(map.tree().search(octree_key({50, 50, 50})), nullptr) << "not in the map";
 }
 
 std::string bytes_of(const SemanticMap& map) {

@@ -11,11 +11,9 @@
 namespace mapscore {
 namespace {
 
-constexpr double kEdge = 0.1;
-
 /// A camera at the map's origin that looks along z and sees a wall 2 m away; no depth in the left
 /// fifth of the image.
-class DecayInView : public testing::Test {
+class DecayInView : public ::testing::Test {
  protected:
   void SetUp() override {
     depth_.colRange(0, 20) = std::uint16_t{0};
@@ -38,7 +36,7 @@ class DecayInView : public testing::Test {
   const std::vector<VoxelKey> keys_{no_depth_, back_,           too_near_, near_,
                                     at_wall_,  behind_by_half_, behind_,   beside_};
   std::vector<VoxelHit> hits_;
-  SemanticMap map_{kEdge};
+  SemanticMap map_{0.1};
 };
 
 TEST_F(DecayInView, DecaysWhatIsInTheFrustumAndNotBehindTheDepthByMoreThanAVoxel) {

@@ -5,8 +5,6 @@
 
 #include "core/error.hpp"
 #include "core/objects/box_depth.hpp"
-#include "core/objects/box_votes.hpp"
-#include "core/objects/frustum.hpp"
 #include "core/objects/object_map.hpp"
 #include "core/random_stream.hpp"
 

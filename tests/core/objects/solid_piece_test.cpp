@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/random_stream.hpp"
+#include "tests/core/points.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 namespace mapscore {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
+using testing::Points;
 
 /// Pieces by comparing every pair of points; the one with most points, ties to the earlier.
 Points plain_piece(const Points& points, double cell_m) {

@@ -4,8 +4,7 @@
 #pragma once
 
 #include "core/geometry/pose.hpp"
-#include "core/placement/observation.hpp"
-#include "core/placement/voxel_hit.hpp"
+#include "core/placement/placement.hpp"
 
 #include <algorithm>
 #include <span>

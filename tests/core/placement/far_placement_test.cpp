@@ -4,17 +4,18 @@
 #include "core/error.hpp"
 #include "core/mapping/semantic_map.hpp"
 #include "core/placement/placement.hpp"
+#include "tests/core/not_finite.hpp"
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <string>
 
 namespace mapscore {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
+using testing::kInf;
+using testing::kNan;
+
 constexpr int kLow = -(1 << 20), kHigh = (1 << 20) - 1;
 
 /// Few draws are placed point by point, many by parts.

@@ -5,6 +5,7 @@
 
 #include "core/placement/pose_belief.hpp"
 #include "core/random_stream.hpp"
+#include "tests/core/not_finite.hpp"
 #include "tests/core/placement/counted_draws.hpp"
 #include "tests/core/placement/plain_draws.hpp"
 
@@ -149,9 +150,8 @@ TEST(ManyDraws, ObjectsOfOneClassCountTogetherAndTheBestScoreStands) {
 /// that many lie on faces, edges and corners of voxels; now and then one that is far, huge or no
 /// number.
 Observation lattice_points(RandomStream& stream, double edge_m, bool with_strays) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const Eigen::Vector3d strays[] = {
-      {kNan, 0, 0}, {0, 1e300, 0}, {33000 * edge_m, 0, 0}, {0, 0, -2e6 * edge_m}};
+      {testing::kNan, 0, 0}, {0, 1e300, 0}, {33000 * edge_m, 0, 0}, {0, 0, -2e6 * edge_m}};
   Observation observation;
   for (int n = 0; n < 4; ++n) {
     ObservedObject object{static_cast<ClassId>(stream.bits() % 3), 0.5 + 0.1 * n, {}};

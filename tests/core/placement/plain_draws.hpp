@@ -5,8 +5,7 @@
 
 #include "core/geometry/pose.hpp"
 #include "core/mapping/semantic_octree.hpp"
-#include "core/placement/observation.hpp"
-#include "core/placement/voxel_hit.hpp"
+#include "core/placement/placement.hpp"
 
 #include <octomap/OcTreeNode.h>
 #include <octomap/OccupancyOcTreeBase.h>

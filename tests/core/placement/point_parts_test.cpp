@@ -3,7 +3,6 @@
 
 #include "core/placement/point_parts.hpp"
 
-#include "core/placement/part_boxes.hpp"
 #include "core/random_stream.hpp"
 
 #include <gtest/gtest.h>

@@ -98,16 +98,16 @@ TEST(DenseCrf, WeightsOfZeroGiveTheFlooredInput) {
   EXPECT_EQ(result.iterations, 1);
 }
 
-struct Variant {
+struct FilterVariant {
   CrfFilter filter;
   bool normalised;
 };
-void PrintTo(const Variant& variant, std::ostream* out) {
+void PrintTo(const FilterVariant& variant, std::ostream* out) {
   *out << (variant.filter == CrfFilter::lattice ? "lattice" : "neighbours")
        << (variant.normalised ? ", normalised" : ", unnormalised");
 }
 
-class CrfFilters : public ::testing::TestWithParam<Variant> {
+class CrfFilters : public ::testing::TestWithParam<FilterVariant> {
  protected:
   [[nodiscard]] static Crf params() {
     Crf made;
@@ -155,10 +155,10 @@ TEST_P(CrfFilters, OrderOfVoxelsDoesNotMatter) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CrfFilters,
-                         ::testing::Values(Variant{CrfFilter::neighbours, true},
-                                           Variant{CrfFilter::neighbours, false},
-                                           Variant{CrfFilter::lattice, true},
-                                           Variant{CrfFilter::lattice, false}));
+                         ::testing::Values(FilterVariant{CrfFilter::neighbours, true},
+                                           FilterVariant{CrfFilter::neighbours, false},
+                                           FilterVariant{CrfFilter::lattice, true},
+                                           FilterVariant{CrfFilter::lattice, false}));
 
 TEST(DenseCrf, NeighboursEqualThePlainTwin) {
   for (const bool normalised : {true, false}) {
@@ -213,14 +213,16 @@ TEST(DenseCrf, BadInputIsNamed) {
     return message(voxels, params);
   };
   using ::testing::HasSubstr;
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT(with([](auto& v, auto&) { v.centres_m.pop_back(); }), HasSubstr("centres"));
   EXPECT_THAT(with([](auto& v, auto&) { v.colours.clear(); }), HasSubstr("colours"));
   EXPECT_THAT(with([](auto& v, auto&) { v.probability(0, 1) = 0.5f; }), HasSubstr("voxel 1"));
-  EXPECT_THAT(with([](auto& v, auto&) { v.probability(0, 1) = kNan; }), HasSubstr("voxel 1"));
+  EXPECT_THAT(with([](auto& v, auto&) { v.probability(0, 1) = kNotANumber; }),
+              HasSubstr("voxel 1"));
   EXPECT_THAT(with([](auto& v, auto&) { v.probability.col(0) << -1.0f, 2.0f; }),
               HasSubstr("voxel 0"));
-  EXPECT_THAT(with([](auto& v, auto&) { v.centres_m[0].x() = kNan; }), HasSubstr("not finite"));
+  EXPECT_THAT(with([](auto& v, auto&) { v.centres_m[0].x() = kNotANumber; }),
+              HasSubstr("not finite"));
   EXPECT_THAT(with([](auto& v, auto&) { v.centres_m[0].x() = 1e9; }), HasSubstr("larger"));
   EXPECT_THAT(with([](auto& v, auto& p) {
                 v.centres_m[0].x() = 1e9;
@@ -229,7 +231,7 @@ TEST(DenseCrf, BadInputIsNamed) {
               HasSubstr("larger"));
   EXPECT_THAT(with([](auto&, auto& p) { p.smoothness_sigma_m = 0; }),
               HasSubstr("smoothness_sigma_m"));
-  EXPECT_THAT(with([](auto&, auto& p) { p.appearance_weight = kNan; }),
+  EXPECT_THAT(with([](auto&, auto& p) { p.appearance_weight = kNotANumber; }),
               HasSubstr("appearance_weight"));
   EXPECT_THAT(with([](auto&, auto& p) { p.iterations = -1; }), HasSubstr("iterations"));
   EXPECT_EQ(with([](auto&, auto&) {}), "");

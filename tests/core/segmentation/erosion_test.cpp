@@ -45,13 +45,13 @@ cv::Mat1b eroded_plain(const cv::Mat1b& mask, int radius) {
   return result;
 }
 
-bool equal(const cv::Mat1b& a, const cv::Mat1b& b) {
+bool equal_masks(const cv::Mat1b& a, const cv::Mat1b& b) {
   return cv::countNonZero(a != b) == 0;
 }
 
 TEST(Erosion, RadiusZeroChangesNothing) {
   const cv::Mat1b mask = (cv::Mat1b(2, 3) << 255, 0, 255, 0, 255, 255);
-  EXPECT_TRUE(equal(eroded(mask, 0), mask));
+  EXPECT_TRUE(equal_masks(eroded(mask, 0), mask));
 }
 
 TEST(Erosion, RadiusOneTakesTheFourNeighbours) {
@@ -60,7 +60,7 @@ TEST(Erosion, RadiusOneTakesTheFourNeighbours) {
   mask(1, 1) = 0;  // a missing corner costs (2, 1) and (1, 2), which go anyway, not (2, 2)
   cv::Mat1b expected(7, 7, std::uint8_t{0});
   expected(cv::Rect(2, 2, 3, 3)) = 255;
-  EXPECT_TRUE(equal(eroded(mask, 1), expected));
+  EXPECT_TRUE(equal_masks(eroded(mask, 1), expected));
 }
 
 TEST(Erosion, DiscIsClosed) {
@@ -75,12 +75,12 @@ TEST(Erosion, DiscIsClosed) {
 
 TEST(Erosion, MaskGoesOnBeyondTheImagesEdge) {
   const cv::Mat1b whole(6, 8, std::uint8_t{255});
-  EXPECT_TRUE(equal(eroded(whole, 3), whole));
+  EXPECT_TRUE(equal_masks(eroded(whole, 3), whole));
   cv::Mat1b left_half(6, 8, std::uint8_t{0});
   left_half(cv::Rect(0, 0, 4, 6)) = 255;
   cv::Mat1b expected(6, 8, std::uint8_t{0});
   expected(cv::Rect(0, 0, 2, 6)) = 255;
-  EXPECT_TRUE(equal(eroded(left_half, 2), expected));
+  EXPECT_TRUE(equal_masks(eroded(left_half, 2), expected));
 }
 
 TEST(Erosion, AnotherInstanceErodesAsBackgroundDoes) {
@@ -104,7 +104,7 @@ TEST(Erosion, EqualsTheDefinitionOnRandomMasks) {
     if (round % 3 == 0) mask(cv::Rect(0, 0, 23, 4)) = 0;
     if (round % 4 == 0) mask(cv::Rect(15, 0, 8, 17)) = 0;
     for (const int radius : {1, 2, 3, 5, 30})
-      ASSERT_TRUE(equal(eroded(mask, radius), eroded_plain(mask, radius)))
+      ASSERT_TRUE(equal_masks(eroded(mask, radius), eroded_plain(mask, radius)))
           << "round " << round << ", radius " << radius;
   }
 }
@@ -113,7 +113,7 @@ TEST(Erosion, RadiiBeyondTheImageAreItsDiagonal) {
   cv::Mat1b whole(30, 40, std::uint8_t{255}), corner = whole.clone();
   corner(0, 0) = 0;
   for (const int radius_px : {49, 50, 51, 100000, std::numeric_limits<int>::max()}) {
-    EXPECT_TRUE(equal(eroded(whole, radius_px), whole)) << "there the mask goes on";
+    EXPECT_TRUE(equal_masks(eroded(whole, radius_px), whole)) << "there the mask goes on";
     EXPECT_EQ(cv::countNonZero(eroded(corner, radius_px)), 0) << radius_px;
   }
   EXPECT_EQ(cv::countNonZero(eroded(corner, 48)), 2) << "at (39, 28) and (39, 29)";

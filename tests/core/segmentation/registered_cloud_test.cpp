@@ -30,7 +30,7 @@ cv::Mat1w flat(const CameraModel& camera, double z_m) {
                    static_cast<std::uint16_t>(std::lround(z_m * kDepthUnitsPerMetre)));
 }
 
-bool equal(const cv::Mat1i& a, const cv::Mat1i& b) {
+bool equal_sources(const cv::Mat1i& a, const cv::Mat1i& b) {
   return a.size() == b.size() && cv::countNonZero(a != b) == 0;
 }
 
@@ -155,8 +155,8 @@ class RandomRegistration : public ::testing::TestWithParam<int> {
 };
 
 TEST_P(RandomRegistration, EqualsThePlainForm) {
-  EXPECT_TRUE(
-      equal(register_depth(depth_, pair_).sources(), testing::register_plain(depth_, pair_)));
+  EXPECT_TRUE(equal_sources(register_depth(depth_, pair_).sources(),
+                            testing::register_plain(depth_, pair_)));
 }
 
 TEST_P(RandomRegistration, MaskChangesNothingWherePixelsMatter) {
@@ -166,7 +166,7 @@ TEST_P(RandomRegistration, MaskChangesNothingWherePixelsMatter) {
   const cv::Mat1i masked = register_depth(depth_, pair_, wanted).sources();
   cv::Mat1i expected(40, 50, kNone);
   full.copyTo(expected, wanted);
-  EXPECT_TRUE(equal(masked, expected));
+  EXPECT_TRUE(equal_sources(masked, expected));
 }
 
 TEST_P(RandomRegistration, NothingWantedGivesNothing) {

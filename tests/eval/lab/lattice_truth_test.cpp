@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/lab/truth_cache.hpp"
 #include "tests/eval/lab/tiny_experiment.hpp"
+#include "tests/eval/score/sample_sets.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -19,11 +20,16 @@
 namespace mapscore::eval {
 namespace {
 
+using testing::sample_count;
+
 class TinyTruth : public testing::TinyExperiment {
  protected:
   [[nodiscard]] LatticeTruth truth(const TruthOptions& options, const MapFrame& map_frame = {},
                                    int jobs = 1) {
-    return make_lattice_truth(recording(), table(), frames_, map_frame, options, jobs);
+    LatticeTruth made{
+        surfaces_of(recording().read_shapes(), table(), map_frame, options.epsilon_m, jobs), {}};
+    made.view = make_view(recording(), table(), frames_, map_frame, options, made.surface, jobs);
+    return made;
   }
   [[nodiscard]] FrameCache& frames() { return frames_; }
 
@@ -42,10 +48,10 @@ TEST_F(TinyTruth, SeesAllFramesTogetherOrOne) {
   TruthCache cache(recording(), table(), frames(), 1);
   std::size_t most = 0;
   for (int frame = 0; frame < 4; ++frame) {
-    const auto one = cache.of_frame({}, {}, frame);
+    const auto one = cache.get({}, {.depth_image = frame});
     const LatticeTruth selected = truth({.frames = FrameSelection(std::to_string(frame))});
     EXPECT_TRUE(same_visible(one->view.visible, selected.view.visible));
-    EXPECT_EQ(cache.of_frame({}, {}, frame), one);
+    EXPECT_EQ(cache.get({}, {.depth_image = frame}), one);
     for (const VisibleVoxel& voxel : one->view.visible.of(1))
       EXPECT_TRUE(fused.surface.contains(voxel.key, 1));
     most = std::max(most, one->view.visible.count(1));
@@ -70,7 +76,7 @@ bool same_samples(const SampleSet& a, const SampleSet& b) {
 
 TEST_F(TinyTruth, DoesNotDependOnJobs) {
   const LatticeTruth one = truth({}, {}, 1);
-  EXPECT_GT(one.view.samples.sample_count(1), 0u);
+  EXPECT_GT(sample_count(one.view.samples, 1), 0u);
   for (const int jobs : {2, 3, 4, 9}) {
     const LatticeTruth many = truth({}, {}, jobs);
     EXPECT_TRUE(std::ranges::equal(one.surface.voxels(), many.surface.voxels()));
@@ -137,7 +143,7 @@ TEST_F(TinyTruth, OfAnySubsetOfFramesEqualsAPlainRecountAtOddLattices) {
         ASSERT_EQ(visible.voxels().size(), plain.visible.size()) << text;
         for (const VisibleVoxel& voxel : visible.voxels())
           EXPECT_EQ(std::pair(voxel.owner, voxel.samples), plain.visible.at(voxel.key));
-        EXPECT_EQ(made.view.samples.sample_count(1), plain.samples.at(1));
+        EXPECT_EQ(sample_count(made.view.samples, 1), plain.samples.at(1));
         if (min_samples == 1) sizes.insert(visible.voxels().size());
       }
     }
@@ -151,7 +157,7 @@ TEST_F(TinyTruth, RefusesFramesThatAreNotThere) {
 }
 
 TEST_F(TinyTruth, OfAWholeSceneSeesAllItsSurfaceWithoutSamples) {
-  const LatticeTruth made = make_surface_truth(recording().read_shapes(), table(), {}, {}, 1);
+  const LatticeTruth made{surfaces_of(recording().read_shapes(), table(), {}, 0.0005, 1), {}};
   EXPECT_TRUE(made.view.visible.voxels().empty());
   const ViewTruth whole = whole_surface_view(made.surface, table().classes.size());
   EXPECT_TRUE(same_visible(whole.visible, whole_surface(made.surface)));
@@ -210,8 +216,8 @@ TEST_F(TinyTruth, CacheKeepsTruthsOfInstancesApart) {
   EXPECT_EQ(cache.of_instances({}, {}), instances);
   // Here each class has one instance, of its own id.
   EXPECT_TRUE(same_visible(instances->view.visible, classes->view.visible));
-  EXPECT_GT(classes->view.samples.sample_count(1), 0u);
-  EXPECT_EQ(instances->view.samples.sample_count(1), 0u);
+  EXPECT_GT(sample_count(classes->view.samples, 1), 0u);
+  EXPECT_EQ(sample_count(instances->view.samples, 1), 0u);
 }
 
 TEST_F(TinyTruth, CacheServesManyThreads) {

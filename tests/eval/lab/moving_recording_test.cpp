@@ -9,7 +9,7 @@
 #include "eval/lab/truth_cache.hpp"
 #include "eval/render/study_recording.hpp"
 #include "files/file_bytes.hpp"
-#include "sim/render/renderer.hpp"
+#include "tests/sim/render/rendered_frames.hpp"
 #include "tests/support/tiny_recording.hpp"
 
 #include <fmt/format.h>
@@ -124,9 +124,8 @@ TEST_F(MovingRecording, TruthOfAFrameIsThatOfTheScenePosedByHandVoxelByVoxel) {
   std::size_t different = 0;
   for (int frame = 0; frame < recording.frame_count(); ++frame) {
     const SceneSurfaces by_hand = posed(kTurn_rad * recording.depth_stamp_s(frame));
-    const LatticeTruth expected =
-        make_surface_truth(by_hand.shapes, by_hand.table, map_frame, {}, 1);
-    const auto truth = cache.of_frame(map_frame, {}, frame);
+    const SurfacesAt expected = surfaces_of(by_hand.shapes, by_hand.table, map_frame, 0.0005, 1);
+    const auto truth = cache.get(map_frame, {.depth_image = frame});
     ASSERT_TRUE(std::ranges::equal(truth->surface.voxels(), expected.surface.voxels())) << frame;
     EXPECT_GT(truth->view.visible.count(1), 20u);
     for (int n = 0; n < 50; ++n) {
@@ -134,7 +133,7 @@ TEST_F(MovingRecording, TruthOfAFrameIsThatOfTheScenePosedByHandVoxelByVoxel) {
       EXPECT_NEAR(truth->distance_to_class(key, 1), expected.distance_to_class(key, 1), 1e-9);
     }
     different += std::ranges::equal(truth->surface.voxels(),
-                                    cache.of_frame(map_frame, {}, 0)->surface.voxels())
+                                    cache.get(map_frame, {.depth_image = 0})->surface.voxels())
                      ? 0
                      : 1;
   }
@@ -147,8 +146,7 @@ TEST_F(MovingRecording, LatticeCeilingByFrameIsNextToOne) {
   const Study by_frame = study("swing.csv", "score: {unit: frame, instances: true}\n");
   FrameCache frames(recording, {.depth = true, .depth_label = true}, 1 << 24);
   TruthCache truths(recording, recording.info().table, frames, 1);
-  const Task task =
-      task_of(by_frame, trials(by_frame).at(0), Labels::truth, recording.content_hash());
+  const Task task = task_of(by_frame, trials(by_frame)[0], Labels::truth, recording.content_hash());
   PoseSources poses(recording);
   TrialRun run(task, recording, recording.info().table, truths, poses);
   for (int frame = 0; frame < recording.frame_count(); ++frame) run.advance(*frames.get(frame));
@@ -178,8 +176,8 @@ TEST_F(MovingRecording, MapsNeedATimeWithinTheRecording) {
   EXPECT_THAT(refused({.at_s = 1.1}), ::testing::HasSubstr("give a time from 0 to 1 s"));
   EXPECT_THAT(refused({}), ::testing::Not(::testing::HasSubstr("\n")));
   const auto later = cache.get({}, {.at_s = 0.61});
-  EXPECT_TRUE(
-      std::ranges::equal(later->surface.voxels(), cache.of_frame({}, {}, 3)->surface.voxels()));
+  EXPECT_TRUE(std::ranges::equal(later->surface.voxels(),
+                                 cache.get({}, {.depth_image = 3})->surface.voxels()));
   EXPECT_THROW((void)study("swing.csv", "score: {unit: frame, at_s: 1}\n"), Error);
 }
 
@@ -212,17 +210,17 @@ TEST_F(MovingRecording, RefusesDamagedPosesInOneLine) {
 TEST_F(MovingRecording, ColourAndDepthHaveInstantsOfTheirOwn) {
   const sim::World world = world_of(study("swing.csv"));
   sim::Renderer moving(world, false);
-  const sim::Instant color{0.25, planar_pose(0.3, 0.1, 0.03)}, depth{0.9, planar_pose(0.2, 0, 0)};
-  const Frame frame = moving.render(7, color, depth);
+  const sim::StampedPose color{0.25, planar_pose(0.3, 0.1, 0.03)},
+      depth{0.9, planar_pose(0.2, 0, 0)};
+  const Frame frame = sim::testing::frame_at(moving, color, depth);
   sim::Renderer early(world.at(0.25), false), late(world.at(0.9), false);
-  const Frame then = early.render(0, 0, color.T_world_base);
-  const Frame later = late.render(0, 0, depth.T_world_base);
+  const Frame then = sim::testing::frame_at(early, color.T_world_base);
+  const Frame later = sim::testing::frame_at(late, depth.T_world_base);
   EXPECT_EQ(cv::norm(frame.color, then.color, cv::NORM_L1), 0);
   EXPECT_EQ(cv::norm(frame.label, then.label, cv::NORM_L1), 0);
   EXPECT_EQ(cv::norm(frame.depth, later.depth, cv::NORM_L1), 0);
   EXPECT_EQ(cv::norm(frame.depth_label, later.depth_label, cv::NORM_L1), 0);
   EXPECT_GT(cv::norm(frame.label, later.label, cv::NORM_L1), 0);
-  EXPECT_EQ(frame.index, 7);
   EXPECT_EQ(frame.stamp_s, 0.9);
 }
 

@@ -4,6 +4,7 @@
 #include "eval/lab/object_run.hpp"
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "eval/lab/runner.hpp"
 #include "tests/eval/lab/tiny_experiment.hpp"
 
@@ -103,13 +104,13 @@ TEST_F(TinyObjects, KnownObjectsEnterTheKeyByTheirContentNotTheirPath) {
     file.objects = {crate_at({x_m, 0.9, 0.5})};
     file.objects.front().id = 1;
     const std::string path = (folder() / name).string();
-    write_objects(path, file, table());
-    return plan(study_of("perception: {simulated: {objects: " + path + "}}\n")).tasks.at(0).key;
+    write_whole_file(path, object_text(file, table()));
+    return plan(study_of("perception: {simulated: {objects: " + path + "}}\n")).tasks[0].key;
   };
   const std::string first = key("a.yaml", 3.0);
   EXPECT_EQ(key("b.yaml", 3.0), first);
   EXPECT_NE(key("a.yaml", 2.9), first);
-  EXPECT_NE(plan(study_of("perception: {simulated: {}}\n")).tasks.at(0).key, first);
+  EXPECT_NE(plan(study_of("perception: {simulated: {}}\n")).tasks[0].key, first);
 }
 
 TEST_F(TinyObjects, SimulatedPerceptionOfAFileSeesItsObjects) {
@@ -117,7 +118,7 @@ TEST_F(TinyObjects, SimulatedPerceptionOfAFileSeesItsObjects) {
   file.objects = {crate_at({3.0, 0.9, 0.5})};  // a piece of the wall
   file.objects.front().id = 1;
   const std::string path = (folder() / "known.yaml").string();
-  write_objects(path, file, table());
+  write_whole_file(path, object_text(file, table()));
   const ObjectFile seen = mapped("perception: {simulated: {objects: " + path + "}}\n");
   ASSERT_EQ(seen.objects.size(), 1u);
   EXPECT_NEAR(seen.objects.front().box.centre().x(), 3.0, 0.1);

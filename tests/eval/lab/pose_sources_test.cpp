@@ -3,9 +3,9 @@
 
 #include "eval/lab/pose_sources.hpp"
 
-#include "core/localization/ray_cast.hpp"
+#include "core/localization/occupancy_grid.hpp"
 #include "eval/lab/map_frame.hpp"
-#include "eval/localization/believed_file.hpp"
+#include "eval/localization/believed_trajectory.hpp"
 #include "eval/recording/grid_file.hpp"
 #include "eval/recording/recording_writer.hpp"
 #include "eval/truth/floor_grid.hpp"
@@ -46,7 +46,7 @@ class PoseSourcesTest : public ::testing::Test {
     return sources.beliefs(task(lines), {0, 1, 2, 3});
   }
   [[nodiscard]] static Task task(const std::string& lines) {
-    return plan_of(study_of(lines), "recording").tasks.at(0);
+    return plan_of(study_of(lines), "recording").tasks[0];
   }
   [[nodiscard]] Pose true_pose(int frame) const { return recording_.T_world_base_of_depth(frame); }
 
@@ -55,7 +55,7 @@ class PoseSourcesTest : public ::testing::Test {
     const std::vector<Frame> frames = mapscore::testing::tiny_frames();
     const std::vector<Shape> shapes = home();
     RecordingWriter writer(folder_.path() / name, mapscore::testing::tiny_info());
-    for (const Frame& frame : frames) writer.write(frame);
+    for (const Frame& frame : frames) mapscore::testing::write_frame(writer, frame);
     writer.write_shapes(shapes);
     if (logs) {
       writer.write_odometry(odometry(frames));
@@ -275,9 +275,9 @@ TEST_F(PoseSourcesTest, KeepTheLastSeedsAlone) {
 /// The registration ceiling has no fault, so its pose is the true one.
 TEST_F(PoseSourcesTest, AreTrueInCeilings) {
   const Plan plan = plan_of(study_of(source("particle_filter")), "recording");
-  const PlannedTrial trial = plan.trials.at(0);
-  EXPECT_EQ(plan.tasks.at(trial.registration_ceiling).key, task(kMap).key);
-  EXPECT_EQ(plan.tasks.at(trial.lattice_ceiling).config.localization, LocalizationSettings{});
+  const PlannedTrial trial = plan.trials[0];
+  EXPECT_EQ(plan.tasks[trial.registration_ceiling].key, task(kMap).key);
+  EXPECT_EQ(plan.tasks[trial.lattice_ceiling].config.localization, LocalizationSettings{});
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include "eval/lab/runner.hpp"
 
-#include "eval/results/result_json.hpp"
 #include "tests/eval/lab/tiny_experiment.hpp"
 #include "tests/support/expect_error.hpp"
 

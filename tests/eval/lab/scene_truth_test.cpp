@@ -6,9 +6,9 @@
 #include "eval/truth/distance.hpp"
 #include "eval/truth/sample_counter.hpp"
 #include "eval/truth/surface_truth.hpp"
-#include "sim/render/renderer.hpp"
-#include "tests/sim/world/scene_files.hpp"
+#include "tests/sim/render/rendered_frames.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -75,7 +75,7 @@ SampleCounter samples_around(const World& world, double edge_m, const Pose& T_ma
     const double angle = 2 * std::numbers::pi * n / 12 + 0.05;
     const Pose T_world_base =
         planar_pose(-2.6 * std::cos(angle), -2.6 * std::sin(angle), angle + 0.02 * n);
-    const Frame frame = renderer.render(n, n, T_world_base);
+    const Frame frame = sim::testing::frame_at(renderer, T_world_base);
     samples.add(frame, world.calibration(), world.classes(), T_map_world * frame.T_world_base);
   }
   return samples;
@@ -135,8 +135,8 @@ TEST(SceneTruth, HiddenGroupsAreNeitherTruthNorBury) {
   const std::string classes = "classes: [{name: ball}, {name: case}]\n";
   for (int group = 0; group < 6; ++group) {
     SCOPED_TRACE(group);
-    const World world = load_text(
-        mjcf(std::string(kCased) + "group='" + std::to_string(group) + "'/></body>"), classes);
+    const World world =
+        load_text(mjcf(fmt::format("{}group='{}'/></body>", kCased, group)), classes);
     const bool drawn = group < 3;
     EXPECT_EQ(rows_of_class(world, "case") > 0, drawn);
     EXPECT_EQ(rows_of_class(world, "ball") > 0, !drawn);

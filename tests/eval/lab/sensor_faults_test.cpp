@@ -27,7 +27,7 @@ class SensorFaults : public TinyExperiment {
  protected:
   [[nodiscard]] Task task(const std::string& faults, Labels labels = Labels::detected) const {
     const Study study = with_faults(faults);
-    return task_of(study, trials(study).at(0), labels, recording().content_hash());
+    return task_of(study, trials(study)[0], labels, recording().content_hash());
   }
   [[nodiscard]] TrialResult result(const Task& task) const {
     FrameCache frames(recording(),
@@ -96,7 +96,7 @@ TEST_F(SensorFaults, ConfusedClassesComeIntoTheMap) {
   ClassTable all = table();
   for (SemanticClass& one : all.classes) one.detect = one.id != kBackground;
   const Task confused =
-      task_of(study, trials(study).at(0), Labels::detected, recording().content_hash());
+      task_of(study, trials(study)[0], Labels::detected, recording().content_hash());
   FrameCache frames(recording(),
                     {.color = false, .label = true, .depth = true, .depth_label = true},
                     std::size_t{1} << 24);
@@ -114,12 +114,12 @@ TEST_F(SensorFaults, ConfusedClassesComeIntoTheMap) {
 TEST_F(SensorFaults, CeilingsKnowNothingOfThem) {
   const Study study = with_faults("depth: {preset: astra}, labels: {preset: typical}");
   const Plan noisy = plan(study), plain = plan(study_of(""));
-  const PlannedTrial trial = noisy.trials.at(0);
-  EXPECT_NE(noisy.tasks[trial.task].key, plain.tasks[plain.trials.at(0).task].key);
+  const PlannedTrial trial = noisy.trials[0];
+  EXPECT_NE(noisy.tasks[trial.task].key, plain.tasks[plain.trials[0].task].key);
   EXPECT_EQ(noisy.tasks[trial.registration_ceiling].key,
-            plain.tasks[plain.trials.at(0).registration_ceiling].key);
+            plain.tasks[plain.trials[0].registration_ceiling].key);
   EXPECT_EQ(noisy.tasks[trial.lattice_ceiling].key,
-            plain.tasks[plain.trials.at(0).lattice_ceiling].key);
+            plain.tasks[plain.trials[0].lattice_ceiling].key);
   const Task truth_labels = task("depth: {preset: astra}, labels: {miss: 1}", Labels::truth);
   EXPECT_EQ(result(truth_labels).counts, result(noisy.tasks[trial.lattice_ceiling]).counts);
 }

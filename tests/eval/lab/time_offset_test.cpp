@@ -44,7 +44,7 @@ class TimeOffset : public ::testing::Test {
   };
   static Outcome result(const Recording& recording, const std::string& text) {
     const ClassTable& table = recording.info().table;
-    const Task task = plan_of(study_of(text), "recording").tasks.at(0);
+    const Task task = plan_of(study_of(text), "recording").tasks[0];
     FrameCache frames(recording,
                       {.color = false, .label = true, .depth = true, .depth_label = true},
                       std::size_t{1} << 24);

@@ -34,7 +34,7 @@ class RefinedTrial : public testing::TinyExperiment {
                       std::size_t{1} << 24);
     TruthCache truths(recording(), detected, frames, 1);
     PoseSources poses(recording());
-    const Task task = planned.tasks.at(0);
+    const Task task = planned.tasks[0];
     TrialRun run(task, recording(), detected, truths, poses);
     for (int index = 0; index < recording().frame_count(); ++index) run.advance(*frames.get(index));
     TrialResult result = run.finish();
@@ -78,9 +78,9 @@ TEST_F(RefinedTrial, ReadsColoursWhereAppearanceWeighs) {
 
 TEST_F(RefinedTrial, AnotherRefinementIsAnotherKey) {
   const auto key = [&](const std::string& refinement) {
-    return plan(study_of("", {"methods.direct.refinement=" + refinement})).tasks.at(0).key;
+    return plan(study_of("", {"methods.direct.refinement=" + refinement})).tasks[0].key;
   };
-  EXPECT_EQ(key("{none: {}}"), plan(study_of("")).tasks.at(0).key);
+  EXPECT_EQ(key("{none: {}}"), plan(study_of("")).tasks[0].key);
   EXPECT_NE(key("{crf: {}}"), key("{none: {}}"));
   EXPECT_NE(key("{crf: {iterations: 3}}"), key("{crf: {}}"));
 }

@@ -42,7 +42,7 @@ class PlateTrial : public ::testing::Test {
     return parse_study(mapscore::testing::kPlateStudy, "study.yaml", overrides);
   }
   [[nodiscard]] TrialResult first_trial(const Study& study, Labels labels) const {
-    const Task task = task_of(study, trials(study).at(0), labels, recording_.content_hash());
+    const Task task = task_of(study, trials(study)[0], labels, recording_.content_hash());
     return result_of(task, recording_, recording_.info().table);
   }
   [[nodiscard]] TrialResult direct(const std::vector<std::string>& overrides,
@@ -210,7 +210,7 @@ TEST_F(TinyTrial, DirectIsTheSetOfItsPoints) {
     }
     for (const VoxelKey& key : predicted) on_surface += surface.contains(key, 1) ? 1 : 0;
 
-    const ClassCounts crate = result_of(plan(study).tasks.at(0), recording(), table()).counts.at(1);
+    const ClassCounts crate = result_of(plan(study).tasks[0], recording(), table()).counts.at(1);
     const auto all = static_cast<std::int64_t>(predicted.size());
     EXPECT_EQ(on_surface<all, shift_m> 0);
     EXPECT_GT(visible, 100);
@@ -222,10 +222,10 @@ TEST_F(TinyTrial, DirectIsTheSetOfItsPoints) {
 }
 
 TEST_F(TinyTrial, FramesByThemselvesAddUpToTheirFrames) {
-  const Task task = plan(study_of("score: {unit: frame}\nmap_origin_m: [0, 0, 0]\n")).tasks.at(0);
+  const Task task = plan(study_of("score: {unit: frame}\nmap_origin_m: [0, 0, 0]\n")).tasks[0];
   const TrialResult result = result_of(task, recording(), table());
   EXPECT_EQ(result.accounting.frames, 4);
-  const Task fused = plan(study_of("map_origin_m: [0, 0, 0]\n")).tasks.at(0);
+  const Task fused = plan(study_of("map_origin_m: [0, 0, 0]\n")).tasks[0];
   const TrialResult map = result_of(fused, recording(), table());
   EXPECT_GT(result.counts.at(1).visible, map.counts.at(1).visible);
   EXPECT_EQ(result.accounting.points, map.accounting.points);
@@ -239,7 +239,7 @@ TEST_F(TinyTrial, CurveHoldsTheCountsAtEveryThreshold) {
           plan(study_of(fmt::format("score: {{unit: {}, threshold: {}}}\n"
                                     "faults: {{misregistration: {{magnitude_m: 0.03}}}}\n",
                                     unit, threshold)))
-              .tasks.at(0);
+              .tasks[0];
       const ClassCounts crate = result_of(task, recording(), table()).counts.at(1);
       const CurvePoint point = point_at(crate.curve, threshold);
       EXPECT_EQ(point.predicted, crate.predicted);
@@ -254,23 +254,23 @@ TEST_F(TinyTrial, CurveHoldsTheCountsAtEveryThreshold) {
 }
 
 TEST_F(TinyTrial, DosesOfZeroChangeNothing) {
-  const Task plain = plan(study_of("")).tasks.at(0);
+  const Task plain = plan(study_of("")).tasks[0];
   const Task zero = plan(study_of("faults: {misregistration: {translation_m: [0, 0, 0]}, "
                                   "pose: {sigma_xy_m: 0.3, sigma_scale: 0}}\n"))
-                        .tasks.at(0);
+                        .tasks[0];
   EXPECT_NE(plain.key, zero.key);
   EXPECT_EQ(result_of(plain, recording(), table()).counts,
             result_of(zero, recording(), table()).counts);
 }
 
 TEST_F(TinyTrial, EveryFaultChangesTheCounts) {
-  const Counts plain = result_of(plan(study_of("")).tasks.at(0), recording(), table()).counts;
+  const Counts plain = result_of(plan(study_of("")).tasks[0], recording(), table()).counts;
   for (const char* fault :
        {"misregistration: {magnitude_m: 0.03}", "misregistration: {angle_deg: 2}",
         "misregistration: {focal_error_percent: 5}",
         "misregistration: {principal_point_px: [3, 0]}", "mount: {magnitude_m: 0.05}",
         "pose: {sigma_xy_m: 0.05}", "pose: {sigma_yaw_deg: 3}"}) {
-    const Task task = plan(study_of(std::string("faults: {") + fault + "}\n")).tasks.at(0);
+    const Task task = plan(study_of(std::string("faults: {") + fault + "}\n")).tasks[0];
     EXPECT_NE(result_of(task, recording(), table()).counts, plain) << fault;
   }
 }

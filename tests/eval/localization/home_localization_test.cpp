@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/localization/filter_run.hpp"
+#include "eval/localization/localization_run.hpp"
 #include "eval/localization/localization_score.hpp"
-#include "eval/localization/odometry_run.hpp"
 #include "eval/truth/floor_grid.hpp"
 #include "sim/recorder/recorded_drive.hpp"
 #include "sim/robot/drive_simulation.hpp"
@@ -58,22 +57,22 @@ HomeDrive driven(const std::string& home, const sim::Drive& drive, const Eigen::
   const sim::World world =
       sim::World::load({scenes / (home + ".xml"), std::nullopt, scenes / "robot.xml"}, {});
   const sim::DriveLog log = sim::simulate_drive(world, scenes / "robot.xml", drive);
-  const sim::Lidar lidar(world);
+  const sim::LidarSettings settings;
+  const sim::Lidar lidar(world, settings);
   HomeDrive logs{{}, {}, {}, OccupancyGrid({}), log.distance_m};
-  std::vector<Pose> turns;
+  std::vector<sim::StampedPose> turns;
   for (std::size_t n = 0; n < log.samples.size(); ++n) {  // 50 Hz
     const sim::DriveSample& sample = log.samples[n];
     logs.odometry.push_back({sample.stamp_s, sample.T_odom_base});
     if (n % 10 == 0) logs.scans.scans.push_back({sample.stamp_s, {}});
-    if (n % 10 == 0) turns.push_back(sample.T_world_base);
+    if (n % 10 == 0) turns.push_back({sample.stamp_s, sample.T_world_base});
     if (n % 25 == 0) logs.truth.push_back({sample.stamp_s, sample.T_world_base});
   }
   auto ranges = lidar.scans(turns, kJobs);
   for (std::size_t n = 0; n < ranges.size(); ++n)
     logs.scans.scans[n].ranges_m = std::move(ranges[n]);
-  logs.scans.geometry = {lidar.settings().first_angle_rad, lidar.angle_step_rad(),
-                         lidar.settings().range_min_m, lidar.settings().range_max_m,
-                         lidar.T_base_lidar()};
+  logs.scans.geometry = {settings.first_angle_rad, lidar.angle_step_rad(), settings.range_min_m,
+                         settings.range_max_m, lidar.T_base_lidar()};
   FloorGridOptions options;
   options.height_m = lidar.T_base_lidar().translation().z();
   options.start_m = logs.truth.front().T_world_base.translation().head<2>();

@@ -8,12 +8,18 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace mapscore::testing {
+
+using Points = std::vector<Eigen::Vector3d>;
+using Labels = std::vector<std::uint32_t>;
 
 /// A folder of the running test's own; gone with it.
 class MapFiles : public ::testing::Test {

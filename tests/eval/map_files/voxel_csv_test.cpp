@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/map_files/voxel_csv.hpp"
-
+#include "eval/map_files/map_file.hpp"
 #include "eval/truth/truth_file.hpp"
 #include "files/csv.hpp"
 #include "tests/eval/map_files/cloud_bytes.hpp"
@@ -14,7 +13,7 @@ namespace mapscore::eval {
 namespace {
 
 using testing::expect_error;
-using Labels = std::vector<std::uint32_t>;
+using testing::Labels;
 using Names = std::vector<std::string>;
 using Voxels = std::vector<VoxelKey>;
 

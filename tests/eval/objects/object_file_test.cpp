@@ -4,7 +4,7 @@
 #include "eval/objects/object_file.hpp"
 
 #include "core/error.hpp"
-#include "eval/objects/object_mjcf.hpp"
+#include "core/whole_file.hpp"
 #include "files/file_bytes.hpp"
 #include "tests/support/mutations.hpp"
 #include "tests/support/tiny_recording.hpp"
@@ -81,13 +81,13 @@ TEST(ObjectFile, RoundTrip) {
   const TemporaryFolder folder;
   ObjectFile file = two_objects();
   file.objects[0].model = "models/\"old\"\tchair.obj";
-  write_objects(folder.path() / "objects.yaml", file, table());
+  write_whole_file(folder.path() / "objects.yaml", object_text(file, table()));
   const ObjectFile read = read_objects(folder.path() / "objects.yaml", table());
   EXPECT_EQ(read.map_origin_m, file.map_origin_m);
   EXPECT_EQ(read.map_yaw_deg, file.map_yaw_deg);
   ASSERT_EQ(read.objects.size(), 2u);
   for (std::size_t n = 0; n < 2; ++n) expect_equal(read.objects[n], file.objects[n]);
-  write_objects(folder.path() / "none.yaml", {}, table());
+  write_whole_file(folder.path() / "none.yaml", object_text({}, table()));
   EXPECT_TRUE(read_objects(folder.path() / "none.yaml", table()).objects.empty());
 }
 

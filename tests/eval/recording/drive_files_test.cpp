@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
-#include "eval/recording/odometry_file.hpp"
 #include "eval/recording/scan_file.hpp"
+#include "eval/recording/stamp_list.hpp"
 #include "files/file_bytes.hpp"
 
 #include <gmock/gmock.h>

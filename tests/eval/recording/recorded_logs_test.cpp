@@ -43,7 +43,7 @@ class RecordedLogs : public ::testing::Test {
                                             bool with_scans) const {
     const std::filesystem::path folder = own_.path() / name;
     RecordingWriter writer(folder, testing::tiny_info());
-    for (const Frame& frame : testing::tiny_frames()) writer.write(frame);
+    for (const Frame& frame : testing::tiny_frames()) testing::write_frame(writer, frame);
     writer.write_shapes(testing::tiny_shapes());
     if (with_odometry) writer.write_odometry(odometry());
     if (with_scans) writer.write_scans(scans());
@@ -162,7 +162,7 @@ TEST_F(RecordedLogs, TruthBetweenTheImagesIsKept) {
   const std::filesystem::path folder = own_.path() / "between";
   RecordingWriter writer(folder, testing::tiny_info());
   const std::vector<Frame> frames = testing::tiny_frames();
-  for (const Frame& frame : frames) writer.write(frame);
+  for (const Frame& frame : frames) testing::write_frame(writer, frame);
   writer.write_shapes(testing::tiny_shapes());
   const Pose aside = planar_pose(3.0, -1.0, 0.4);
   writer.add_poses({{frames[0].stamp_s, aside}, {frames[0].stamp_s + 0.1, aside}});

@@ -19,7 +19,7 @@ constexpr std::uint64_t kYamlMutations = 3000, kListMutations = 600;
 struct DamagedRecording : ::testing::Test {
   DamagedRecording() {
     RecordingWriter writer(folder_, testing::tiny_info());
-    for (const Frame& frame : testing::tiny_frames()) writer.write(frame);
+    for (const Frame& frame : testing::tiny_frames()) testing::write_frame(writer, frame);
     std::vector<Shape> shapes = testing::tiny_shapes();
     Shape mesh;
     mesh.kind = ShapeKind::mesh;

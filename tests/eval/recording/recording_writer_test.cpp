@@ -22,6 +22,7 @@ using mapscore::testing::TemporaryFolder;
 using mapscore::testing::tiny_frames;
 using mapscore::testing::tiny_info;
 using mapscore::testing::tiny_shapes;
+using mapscore::testing::write_frame;
 using mapscore::testing::write_tiny_recording;
 
 class Writer : public ::testing::Test {
@@ -44,8 +45,9 @@ TEST_F(Writer, AFailedFrameLeavesNothingBehind) {
     RecordingWriter writer(out_, tiny_info());
     fs::create_symlink("/dev/full", partial_ / "depth/000000.png");
     expect_error("depth/000000.png: cannot write (No space left",
-                 [&] { writer.write(tiny_frames()[0]); });
-    for (const int index : {1, 2, 3}) writer.write(tiny_frames()[static_cast<std::size_t>(index)]);
+                 [&] { write_frame(writer, tiny_frames()[0]); });
+    for (const int index : {1, 2, 3})
+      write_frame(writer, tiny_frames()[static_cast<std::size_t>(index)]);
     writer.write_shapes(tiny_shapes());
     expect_error("writing depth image 0 failed", [&] { writer.finish(); });
   }
@@ -56,7 +58,7 @@ TEST_F(Writer, AFailedFrameLeavesNothingBehind) {
 TEST_F(Writer, WithoutFinishNothingIsLeft) {
   {
     RecordingWriter writer(out_, tiny_info());
-    writer.write(tiny_frames()[0]);
+    write_frame(writer, tiny_frames()[0]);
     EXPECT_TRUE(fs::exists(partial_ / "color/000000.png"));
   }
   EXPECT_TRUE(fs::is_empty(folder_.path()));
@@ -89,11 +91,12 @@ TEST_F(Writer, WhatACrashLeftIsReplaced) {
 TEST_F(Writer, ASecondWriterOfTheSameFolderIsRefusedAndHarmsNothing) {
   {
     RecordingWriter first(out_, tiny_info());
-    first.write(tiny_frames()[0]);
+    write_frame(first, tiny_frames()[0]);
     expect_error("out: another process is recording into it; wait for it",
                  [&] { RecordingWriter second(out_, tiny_info()); });
     EXPECT_TRUE(fs::exists(partial_ / "color/000000.png"));
-    for (const int index : {1, 2, 3}) first.write(tiny_frames()[static_cast<std::size_t>(index)]);
+    for (const int index : {1, 2, 3})
+      write_frame(first, tiny_frames()[static_cast<std::size_t>(index)]);
     first.write_shapes(tiny_shapes());
     first.finish();
   }
@@ -124,7 +127,7 @@ TEST_F(Writer, ThreadsAndOrderDoNotChangeTheBytes) {
     std::vector<std::jthread> threads;
     for (int i = 3; i >= 0; --i)
       threads.emplace_back(
-          [&writer, i] { writer.write(tiny_frames()[static_cast<std::size_t>(i)]); });
+          [&writer, i] { write_frame(writer, tiny_frames()[static_cast<std::size_t>(i)]); });
   }
   writer.finish();
   for (const auto& entry : fs::recursive_directory_iterator(out_)) {
@@ -141,7 +144,7 @@ TEST_F(Writer, FrameCountIsThatOfTheFramesWritten) {
   info.frame_count = 0;
   RecordingWriter writer(out_, info);
   writer.write_shapes(tiny_shapes());
-  for (int i : {0, 1}) writer.write(tiny_frames()[static_cast<std::size_t>(i)]);
+  for (int i : {0, 1}) write_frame(writer, tiny_frames()[static_cast<std::size_t>(i)]);
   writer.finish();
   EXPECT_EQ(Recording::open(out_).info().frame_count, 2);
 }
@@ -152,14 +155,14 @@ TEST_F(Writer, FinishRefusesWhatIsNotWhole) {
   info.frame_count = 0;
   RecordingWriter writer(out_, info);
   expect_error("no frames were written", [&] { writer.finish(); });
-  writer.write(frames[0]);
+  write_frame(writer, frames[0]);
   expect_error("surfaces were not written", [&] { writer.finish(); });
   writer.write_shapes(tiny_shapes());
-  writer.write(frames[2]);
+  write_frame(writer, frames[2]);
   expect_error("color images 0 to 2 are not all there", [&] { writer.finish(); });
   Frame late = frames[1];
   late.stamp_s = 1.0;
-  writer.write(late);
+  write_frame(writer, late);
   expect_error("stamp of color image 2 does not come after", [&] { writer.finish(); });
   EXPECT_FALSE(fs::exists(out_));
 }
@@ -167,24 +170,24 @@ TEST_F(Writer, FinishRefusesWhatIsNotWhole) {
 TEST_F(Writer, AnnouncedFramesMustCome) {
   RecordingWriter writer(out_, tiny_info());
   writer.write_shapes(tiny_shapes());
-  writer.write(tiny_frames()[0]);
+  write_frame(writer, tiny_frames()[0]);
   expect_error("1 frames were written, 4 were announced", [&] { writer.finish(); });
 }
 
 TEST_F(Writer, RefusesFramesThatDoNotFit) {
   RecordingWriter writer(out_, tiny_info());
   Frame frame = tiny_frames()[0];
-  writer.write(frame);
-  expect_error("color image 0 was written twice", [&] { writer.write(frame); });
+  write_frame(writer, frame);
+  expect_error("color image 0 was written twice", [&] { write_frame(writer, frame); });
   frame.index = 1;
   frame.depth = cv::Mat1w(3, 3);
-  expect_error("frame 1: depth is 3 x 3, its camera 64 x 48", [&] { writer.write(frame); });
+  expect_error("frame 1: depth is 3 x 3, its camera 64 x 48", [&] { write_frame(writer, frame); });
   frame = tiny_frames()[2];
   frame.depth_label.release();
-  expect_error("frame 2: depth_label is 0 x 0", [&] { writer.write(frame); });
+  expect_error("frame 2: depth_label is 0 x 0", [&] { write_frame(writer, frame); });
   frame = tiny_frames()[3];
   frame.T_world_base.translation().x() = std::numeric_limits<double>::infinity();
-  expect_error("color image 3: stamp or pose is not finite", [&] { writer.write(frame); });
+  expect_error("color image 3: stamp or pose is not finite", [&] { write_frame(writer, frame); });
   std::vector<Shape> shapes = tiny_shapes();
   shapes[0].instance = 3;
   expect_error("instance 3 is not in the class table", [&] { writer.write_shapes(shapes); });

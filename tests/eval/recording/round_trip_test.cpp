@@ -20,6 +20,7 @@ using mapscore::testing::TemporaryFolder;
 using mapscore::testing::tiny_frames;
 using mapscore::testing::tiny_info;
 using mapscore::testing::tiny_shapes;
+using mapscore::testing::write_frame;
 using mapscore::testing::write_tiny_recording;
 
 bool same(const cv::Mat& a, const cv::Mat& b) {
@@ -236,7 +237,7 @@ TEST(Recording, WithoutTruthItIsReadButGivesNone) {
   RecordingWriter writer(folder.path() / "real", info);
   for (Frame frame : tiny_frames()) {
     frame.depth_label.release();
-    writer.write(frame);
+    write_frame(writer, frame);
   }
   writer.finish();
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "real/truth"));

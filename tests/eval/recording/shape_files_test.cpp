@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/recording/shape_table.hpp"
-#include "eval/recording/triangle_ply.hpp"
+#include "eval/recording/shape_files.hpp"
+
 #include "files/file_bytes.hpp"
 #include "tests/support/expect_error.hpp"
 #include "tests/support/tiny_recording.hpp"

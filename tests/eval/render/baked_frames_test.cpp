@@ -52,8 +52,7 @@ class Baked : public testing::TinyExperiment {
   }
   /// The map that the trial of seed index 0 makes of a recording.
   [[nodiscard]] static std::vector<Voxel> map_of(const Recording& replayed, const Study& study) {
-    const Task task =
-        task_of(study, trials(study).at(0), Labels::detected, replayed.content_hash());
+    const Task task = task_of(study, trials(study)[0], Labels::detected, replayed.content_hash());
     FrameCache frames(replayed, {.color = false, .label = true, .depth = true, .depth_label = true},
                       std::size_t{1} << 24);
     TruthCache truths(replayed, replayed.info().table, frames, 1);

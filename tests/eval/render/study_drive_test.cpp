@@ -125,7 +125,7 @@ TEST_F(WheelDrive, ScansAreThoseOfTheLidarAtThosePoses) {
   for (std::size_t i = 0; i < scans.scans.size(); ++i) {
     const double stamp_s = static_cast<double>(i) / 4.0;
     EXPECT_EQ(scans.scans[i].stamp_s, stamp_s);
-    EXPECT_EQ(scans.scans[i].ranges_m, lidar.scan(sim::pose_at(log, stamp_s)));
+    EXPECT_EQ(scans.scans[i].ranges_m, lidar.scans({{stamp_s, sim::pose_at(log, stamp_s)}}, 1)[0]);
     for (const float range_m : scans.scans[i].ranges_m) beyond += std::isinf(range_m);
   }
   EXPECT_GT(beyond, 0);
@@ -162,7 +162,7 @@ TEST_F(WheelDrive, ScansFollowTheSceneThatMovesAndLastUntilItStands) {
     Study by_hand = still;
     by_hand.scene = "posed.xml";
     const sim::LidarRanges expected =
-        sim::Lidar(world_of(by_hand)).scan(sim::pose_at(log, stamp_s));
+        sim::Lidar(world_of(by_hand)).scans({{stamp_s, sim::pose_at(log, stamp_s)}}, 1)[0];
     for (std::size_t beam = 0; beam < expected.size(); ++beam)
       ASSERT_NEAR(scans.scans[i].ranges_m[beam], expected[beam], 2e-5) << i << ' ' << beam;
     different += scans.scans[i].ranges_m != standing.scans[i].ranges_m;

@@ -18,11 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::SizeIs;
-
-StudySummary summary_of(int seeds) {
-  return testing::synthetic_summary(testing::synthetic_study(
-      {"direct", "erosion"}, {{"faults.misregistration.magnitude_m", {"0", "0.01"}}}, seeds));
-}
+using testing::summary_of;
 
 std::string caption_of(const Table& table) {
   std::string text;

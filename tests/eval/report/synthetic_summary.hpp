@@ -99,4 +99,10 @@ inline StudySummary synthetic_summary(Study study) {
   return summary;
 }
 
+/// Two methods at two doses.
+inline StudySummary summary_of(int seeds) {
+  return synthetic_summary(synthetic_study(
+      {"direct", "erosion"}, {{"faults.misregistration.magnitude_m", {"0", "0.01"}}}, seeds));
+}
+
 }  // namespace mapscore::eval::testing

@@ -14,11 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
-
-StudySummary summary_of(int seeds) {
-  return testing::synthetic_summary(testing::synthetic_study(
-      {"direct", "erosion"}, {{"faults.misregistration.magnitude_m", {"0", "0.01"}}}, seeds));
-}
+using testing::summary_of;
 
 TEST(ScoreTable, HasARowForEveryMethodAtEveryCell) {
   const Table table = score_table(summary_of(2), "cup");

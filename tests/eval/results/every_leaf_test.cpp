@@ -83,7 +83,7 @@ Study study_for(const std::string& path, const std::string& base) {
       "study.yaml");
 }
 
-std::string key_of(const Study& study) {
+std::string first_key_of(const Study& study) {
   return task_of(study, trials(study)[0], Labels::detected, "recording").key;
 }
 
@@ -147,7 +147,7 @@ const std::vector<std::string> kTexts{
 /// Whether some other value of the leaf makes the first trial of the base another one.
 bool changes_key(const std::string& path, const std::string& base, bool& was_set) {
   const Study study = study_for(path, base);
-  const std::string key = key_of(study), before = leaf_text(study, path);
+  const std::string key = first_key_of(study), before = leaf_text(study, path);
   for (const std::string& text : kTexts) {
     Study changed = study;
     try {
@@ -158,7 +158,7 @@ bool changes_key(const std::string& path, const std::string& base, bool& was_set
     if (leaf_text(changed, path) == before) continue;
     was_set = true;
     try {
-      if (key_of(changed) != key) return true;
+      if (first_key_of(changed) != key) return true;
     } catch (const Error&) {  // a file that is not there: its content would be in the key
     }
   }

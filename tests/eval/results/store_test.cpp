@@ -4,7 +4,6 @@
 #include "eval/results/store.hpp"
 
 #include "core/error.hpp"
-#include "eval/results/result_json.hpp"
 #include "eval/results/store_trouble.hpp"
 #include "tests/support/expect_error.hpp"
 #include "tests/support/tiny_recording.hpp"
@@ -159,8 +158,8 @@ TEST_F(Store, GivesBackWhatWasAdded) {
   EXPECT_EQ(found->accounting, result.accounting);
   EXPECT_EQ(store.text("study"), "it's a study\n");
   EXPECT_EQ(store.text("nothing"), "");
-  EXPECT_TRUE(store.contains("key"));
-  EXPECT_FALSE(store.contains("other"));
+  EXPECT_TRUE(store.keys().contains("key"));
+  EXPECT_FALSE(store.keys().contains("other"));
   EXPECT_FALSE(store.find("other"));
 }
 

@@ -99,8 +99,8 @@ TEST(BoxScore, TruthBoxesHoldTheSamplesOfEachInstance) {
 }
 
 TEST(BoxScore, AgreesWithTheSamplesOfARecording) {
-  const RecordingInfo info = testing::tiny_info();
-  for (const Frame& frame : testing::tiny_frames()) {
+  const RecordingInfo info = mapscore::testing::tiny_info();
+  for (const Frame& frame : mapscore::testing::tiny_frames()) {
     std::vector<AlignedBox3d> plain(3);
     for (int v = 0; v < frame.depth.rows; ++v)
       for (int u = 0; u < frame.depth.cols; ++u) {

@@ -15,6 +15,8 @@ namespace mapscore::eval {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::kChair;
+using testing::kCup;
 using testing::map_of;
 using testing::random_case;
 using testing::RandomCase;
@@ -22,8 +24,7 @@ using testing::surface_of;
 using ::testing::ThrowsMessage;
 using testing::visible_of;
 
-constexpr ClassId kCup = 1, kChair = 2;
-constexpr double kThreshold = 0.25;
+constexpr double kConfusionThreshold = 0.25;
 
 /// Rows of a matrix.
 std::vector<std::vector<std::int64_t>> rows_of(const ConfusionMatrix& matrix) {
@@ -60,7 +61,7 @@ TEST(Confusion, CountsOneRowByHand) {
        {{20, 0, 0}, kChair, 1.0, true},       // a chair on the wall: from background
        {{30, 0, 0}, kChair, 1.0, true},       // a floating chair: from background
        {{31, 0, 0}, kChair, 1.0, false}});    // free: nothing predicted
-  const ConfusionMatrix matrix = confusion_of(map, kThreshold, surface, visible, 3);
+  const ConfusionMatrix matrix = confusion_of(map, kConfusionThreshold, surface, visible, 3);
   const std::vector<std::vector<std::int64_t>> expected{
       {0, 1, 2, 0, 0}, {0, 1, 1, 1, 1}, {0, 0, 0, 1, 0}};
   EXPECT_EQ(rows_of(matrix), expected);
@@ -84,15 +85,15 @@ ConfusionMatrix plain_confusion(const RandomCase& made) {
     const MapVoxel* voxel = in_map(key);
     if (voxel == nullptr) {
       matrix.count(owner, RandomCase::kClasses + 1);
-    } else if (!predicted(*voxel, kThreshold)) {
+    } else if (!predicted(*voxel, kConfusionThreshold)) {
       matrix.count(owner, RandomCase::kClasses);
     } else {
       matrix.count(owner, voxel->best_class);
     }
   }
   for (const MapVoxel& voxel : made.map) {
-    if (predicted(voxel, kThreshold) && !made.surface.contains({voxel.key, voxel.best_class}) &&
-        !made.owners.contains(voxel.key))
+    if (predicted(voxel, kConfusionThreshold) &&
+        !made.surface.contains({voxel.key, voxel.best_class}) && !made.owners.contains(voxel.key))
       matrix.count(0, voxel.best_class);
   }
   return matrix;
@@ -105,10 +106,11 @@ TEST(Confusion, AgreesWithThePlainOneAndWithTheCounts) {
     const SurfaceTruth surface = surface_of(made.surface);
     const VisibleTruth visible = visible_of(made.owners);
     const ConfusionMatrix matrix =
-        confusion_of(map, kThreshold, surface, visible, RandomCase::kClasses);
+        confusion_of(map, kConfusionThreshold, surface, visible, RandomCase::kClasses);
     ASSERT_EQ(matrix, plain_confusion(made)) << "seed " << seed;
 
-    const Counts counts = score_voxels(map, kThreshold, surface, visible, RandomCase::kClasses);
+    const Counts counts =
+        score_voxels(map, kConfusionThreshold, surface, visible, RandomCase::kClasses);
     for (ClassId c = 1; c < RandomCase::kClasses; ++c) {
       EXPECT_EQ(matrix.row_sum(c), counts[c].visible);
       EXPECT_EQ(matrix.at(c, c), counts[c].found);

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/random_stream.hpp"
-#include "eval/score/curve_score.hpp"
 #include "eval/score/distances/distance_score.hpp"
 #include "eval/score/voxel_score.hpp"
 #include "tests/eval/score/random_scene.hpp"
+#include "tests/eval/score/sample_sets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,15 +22,15 @@ namespace mapscore::eval {
 namespace {
 
 using testing::counted;
+using testing::kClasses;
+using testing::kScenes;
+using testing::kThreshold;
 using testing::points_of;
 using testing::random_map;
 using testing::random_scene;
 using testing::random_views;
 using testing::RandomScene;
-
-constexpr std::uint64_t kScenes = 1000;
-constexpr double kThreshold = 0.25;
-constexpr std::size_t kClasses = 4;
+using testing::sample_set_of;
 
 /// Everything that is computed of a scene, one camera set and one map.
 struct Everything {
@@ -48,8 +48,8 @@ Everything everything_of(const RandomScene& scene, const std::vector<testing::Ra
   all.counts = score_voxels(map, kThreshold, all.surface, all.visible, kClasses, options);
   const auto distance_of =
       cube_distance(prepare(scene.shapes, Pose::Identity()), scene.table, scene.edge_m);
-  score_distances(map, kThreshold, distance_of, SampleSet(points_of(scene, views), scene.edge_m),
-                  options, all.counts);
+  score_distances(map, kThreshold, distance_of,
+                  sample_set_of(points_of(scene, views), scene.edge_m), options, all.counts);
   return all;
 }
 

@@ -115,7 +115,7 @@ TEST(LabelImages, ALegendGivesIdsTheirClass) {
 class LabelFolderTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    testing::write_tiny_recording(folder_.path() / "recording");
+    mapscore::testing::write_tiny_recording(folder_.path() / "recording");
     fs::create_directories(labels_);
     for (int n = 0; n < 4; ++n) write_labels(n, perfect(n));
   }
@@ -139,7 +139,7 @@ class LabelFolderTest : public ::testing::Test {
                                   class_id_legend(recording().info().table), jobs);
   }
 
-  testing::TemporaryFolder folder_;
+  mapscore::testing::TemporaryFolder folder_;
   fs::path labels_ = folder_.path() / "labels";
   mutable std::optional<Recording> recording_;
 };

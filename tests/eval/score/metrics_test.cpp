@@ -16,8 +16,8 @@ namespace {
 using testing::random_case;
 using testing::RandomCase;
 
-ClassCounts counted(std::int64_t predicted, std::int64_t true_predicted, std::int64_t visible,
-                    std::int64_t found) {
+ClassCounts counts_with(std::int64_t predicted, std::int64_t true_predicted, std::int64_t visible,
+                        std::int64_t found) {
   ClassCounts counts;
   counts.predicted = predicted;
   counts.true_predicted = true_predicted;
@@ -36,16 +36,16 @@ ClassTable table_of(std::vector<bool> detect) {
 }
 
 TEST(Metrics, RatiosByHand) {
-  const ClassCounts counts = counted(10, 8, 5, 4);
+  const ClassCounts counts = counts_with(10, 8, 5, 4);
   EXPECT_DOUBLE_EQ(*precision(counts), 0.8);
   EXPECT_DOUBLE_EQ(*recall(counts), 0.8);
   EXPECT_DOUBLE_EQ(*f1(counts), 0.8);
   EXPECT_DOUBLE_EQ(*iou(counts), 4.0 / 7.0);
-  EXPECT_DOUBLE_EQ(*f1(counted(4, 1, 2, 1)), 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(*f1(counts_with(4, 1, 2, 1)), 1.0 / 3.0);
 }
 
 TEST(Metrics, NothingPredictedIsF1ZeroAndPrecisionUndefined) {
-  const ClassCounts counts = counted(0, 0, 5, 0);
+  const ClassCounts counts = counts_with(0, 0, 5, 0);
   EXPECT_EQ(precision(counts), std::nullopt);
   EXPECT_EQ(recall(counts), 0.0);
   EXPECT_EQ(f1(counts), 0.0);
@@ -53,14 +53,14 @@ TEST(Metrics, NothingPredictedIsF1ZeroAndPrecisionUndefined) {
 }
 
 TEST(Metrics, NothingHitIsF1Zero) {
-  EXPECT_EQ(f1(counted(3, 0, 5, 0)), 0.0);
+  EXPECT_EQ(f1(counts_with(3, 0, 5, 0)), 0.0);
 }
 
 TEST(Metrics, NothingVisibleLeavesRecallUndefinedAndF1Zero) {
-  EXPECT_EQ(recall(counted(3, 1, 0, 0)), std::nullopt);
-  EXPECT_EQ(f1(counted(3, 1, 0, 0)), 0.0);
-  EXPECT_EQ(iou(counted(3, 1, 0, 0)), 0.0);
-  EXPECT_EQ(iou(counted(3, 3, 0, 0)), std::nullopt);
+  EXPECT_EQ(recall(counts_with(3, 1, 0, 0)), std::nullopt);
+  EXPECT_EQ(f1(counts_with(3, 1, 0, 0)), 0.0);
+  EXPECT_EQ(iou(counts_with(3, 1, 0, 0)), 0.0);
+  EXPECT_EQ(iou(counts_with(3, 3, 0, 0)), std::nullopt);
 }
 
 TEST(Metrics, EverythingIsUndefinedOnlyWhenBothAreEmpty) {
@@ -69,7 +69,7 @@ TEST(Metrics, EverythingIsUndefinedOnlyWhenBothAreEmpty) {
 }
 
 TEST(Metrics, NamesCarryToleranceAndDistance) {
-  ClassCounts counts = counted(2, 1, 2, 1);
+  ClassCounts counts = counts_with(2, 1, 2, 1);
   counts.visible_4 = 4;
   counts.found_4 = 1;
   counts.instances = InstanceCounts{3, 4, 2, 2'400'000'000, 7, {}};
@@ -131,8 +131,8 @@ TEST(Metrics, NamesCarryToleranceAndDistance) {
 }
 
 TEST(Metrics, PooledAndMacroTakeDetectedClassesOnly) {
-  const Counts counts{counted(0, 0, 0, 0), counted(10, 5, 4, 2), counted(0, 0, 4, 0),
-                      counted(7, 0, 0, 0), counted(9, 9, 9, 9)};
+  const Counts counts{counts_with(0, 0, 0, 0), counts_with(10, 5, 4, 2), counts_with(0, 0, 4, 0),
+                      counts_with(7, 0, 0, 0), counts_with(9, 9, 9, 9)};
   const ClassTable table = table_of({false, true, true, true, false});
   const ClassCounts pooled = pool_detected(counts, table);
   EXPECT_EQ(pooled.predicted, 17);
@@ -151,7 +151,7 @@ TEST(Metrics, PooledAndMacroTakeDetectedClassesOnly) {
 }
 
 TEST(Metrics, MacroLeavesOutClassesWithoutVoxelsOfManySamples) {
-  Counts counts{counted(0, 0, 0, 0), counted(4, 2, 8, 4), counted(5, 5, 5, 5)};
+  Counts counts{counts_with(0, 0, 0, 0), counts_with(4, 2, 8, 4), counts_with(5, 5, 5, 5)};
   counts[1].visible_4 = 4;
   counts[1].found_4 = 2;
   for (const char* name : {"recall_4", "f1_4", "iou_4"})
@@ -165,7 +165,8 @@ TEST(Metrics, MacroLeavesOutClassesWithoutVoxelsOfManySamples) {
 
 TEST(Metrics, MacroOfInstancesIsOverClassesWithVisibleInstances) {
   // Class 2 has visible voxels and no visible instance; class 3 the other way about.
-  Counts counts{counted(0, 0, 0, 0), counted(1, 1, 1, 1), counted(1, 1, 1, 1), counted(1, 1, 0, 0)};
+  Counts counts{counts_with(0, 0, 0, 0), counts_with(1, 1, 1, 1), counts_with(1, 1, 1, 1),
+                counts_with(1, 1, 0, 0)};
   const auto table = table_of({false, true, true, true});
   for (ClassCounts& of_class : counts) of_class.instances.emplace();
   const std::vector<Metric> none = macro_metrics(counts, table);

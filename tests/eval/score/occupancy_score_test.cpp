@@ -13,11 +13,10 @@
 namespace mapscore::eval {
 namespace {
 
+using testing::kCup;
 using testing::random_case;
 using testing::RandomCase;
 using testing::surface_of;
-
-constexpr ClassId kCup = 1;
 
 MapVoxel occupied(int k) {
   return {{0, 0, k}, kCup, 0.9, true};
@@ -45,12 +44,6 @@ TEST(OccupancyScore, CountsOneRowByHand) {
                                      {"free_precision", 0.5},  // 3 of 3 + 2 + 1
                                      {"unknown_share", 2.0 / 9.0}};
   EXPECT_EQ(occupancy_metrics(counts), expected);
-
-  OccupancyCounts twice = counts;
-  twice += counts;
-  EXPECT_EQ(twice.occupied, (OccupancyCounts::Row{2, 4, 2}));
-  EXPECT_EQ(twice.free, (OccupancyCounts::Row{2, 6, 2}));
-  EXPECT_EQ(twice.free_on_surface, 2);
 }
 
 TEST(OccupancyScore, NothingKnownIsUndefined) {

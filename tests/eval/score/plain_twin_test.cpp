@@ -5,6 +5,7 @@
 #include "eval/score/distances/distance_score.hpp"
 #include "eval/score/voxel_score.hpp"
 #include "tests/eval/score/plain_score.hpp"
+#include "tests/eval/score/sample_sets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,11 +20,11 @@
 namespace mapscore::eval {
 namespace {
 
+using testing::kClasses;
+using testing::kScenes;
 using testing::PlainScore;
 using testing::RandomScene;
-
-constexpr std::uint64_t kScenes = 1000;
-constexpr std::size_t kClasses = 4;
+using testing::sample_set_of;
 
 TEST(PlainTwin, OfTheVoxelScoreCountsTheSame) {
   const ScoreOptions options{{1, 2, 4}, {}};
@@ -57,7 +58,7 @@ void expect_tally(const DistanceTally& tally, const std::vector<double>& distanc
     EXPECT_GE(tally.within(l), within(limit_m - kStored_m)) << seed;
     EXPECT_LE(tally.within(l), within(limit_m + kStored_m)) << seed;
   }
-  EXPECT_EQ(tally.unreached(), std::ranges::count(distances, kUnreached)) << seed;
+  EXPECT_EQ(tally.parts().unreached, std::ranges::count(distances, kUnreached)) << seed;
   if (const auto mean_m = tally.mean_m()) {
     double sum = 0.0;
     for (const double d : distances) sum += d;
@@ -76,7 +77,7 @@ TEST(PlainTwin, OfTheDistanceScoreMeasuresTheSame) {
     const auto distance_of =
         cube_distance(prepare(scene.shapes, Pose::Identity()), scene.table, scene.edge_m);
     Counts counts = zero_counts(kClasses, options);
-    const SampleSet samples(points, scene.edge_m);
+    const SampleSet samples = sample_set_of(points, scene.edge_m);
     score_distances(MapSnapshot(map), threshold, distance_of, samples, options, counts);
     const PlainScore plain(surface, {}, map, threshold);
     for (ClassId c = 1; c < kClasses; ++c) {
@@ -102,7 +103,7 @@ TEST(DistanceScore, DoesNotDependOnJobs) {
   std::vector<MapVoxel> voxels;
   for (const auto& [key, voxel] : map) voxels.push_back(voxel);
   const MapSnapshot snapshot(std::move(voxels));
-  const SampleSet samples(points, 0.05);
+  const SampleSet samples = sample_set_of(points, 0.05);
   ASSERT_GT(samples.groups(1).size(), 20000u);
   const auto distance_of = [](const VoxelKey& key, ClassId c) { return 0.0007 * key.i * c; };
   const ScoreOptions options;

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/score/curve_score.hpp"
 #include "eval/score/distances/distance_score.hpp"
 #include "eval/score/metrics.hpp"
 #include "eval/score/voxel_score.hpp"
 #include "tests/eval/score/plain_score.hpp"
 #include "tests/eval/score/random_scene.hpp"
+#include "tests/eval/score/sample_sets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,6 +24,9 @@ namespace mapscore::eval {
 namespace {
 
 using testing::counted;
+using testing::kClasses;
+using testing::kScenes;
+using testing::kThreshold;
 using testing::of_one_class;
 using testing::PlainScore;
 using testing::points_of;
@@ -32,10 +35,8 @@ using testing::random_scene;
 using testing::random_views;
 using testing::RandomScene;
 using testing::RandomView;
+using testing::sample_set_of;
 
-constexpr std::uint64_t kScenes = 1000;
-constexpr double kThreshold = 0.25;
-constexpr std::size_t kClasses = 4;
 const ScoreOptions kOptions{{1, 2, 3, 4, 5}, {1e-6, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 10}};
 
 /// A random scene, what cameras see of it, and a map of it.
@@ -54,7 +55,7 @@ struct Case {
     Counts counts = score_voxels(snapshot, kThreshold, surface, seen, kClasses, options);
     const auto distance_of =
         cube_distance(prepare(scene.shapes, Pose::Identity()), scene.table, scene.edge_m);
-    score_distances(snapshot, kThreshold, distance_of, SampleSet(points, scene.edge_m), options,
+    score_distances(snapshot, kThreshold, distance_of, sample_set_of(points, scene.edge_m), options,
                     counts);
     const std::vector<ClassCurve> curves = curves_of(snapshot, surface, seen, kClasses);
     for (std::size_t c = 0; c < kClasses; ++c) counts[c].curve = curves[c];
@@ -258,7 +259,7 @@ TEST(Properties, PooledCountsAreTheSumOverFrames) {
       for (std::size_t kind = 0; kind < kKinds; ++kind) of_kind[kind] += sums[c][kind];
     }
 
-    std::ranges::sort(counters, std::less{}, [](const SampleCounter& x) { return x.total(); });
+    std::ranges::reverse(counters);
     SampleCounter merged(made.scene.edge_m);
     for (const SampleCounter& counter : counters) merged.merge(counter);
     EXPECT_TRUE(

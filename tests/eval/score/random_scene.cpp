@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kClasses = 4;
+constexpr int kLastClass = kClasses - 1;
 constexpr int kInstances = 7;
 constexpr double kGrain_m = 1.0 / (1 << 20);
 
@@ -208,7 +208,7 @@ std::vector<MapVoxel> random_map(const SurfaceTruth& surface, std::uint64_t seed
     VoxelKey key = row.key;
     if (random.uniform() < added) {
       const int i = whole(random, -9, 9), j = whole(random, -9, 9), k = whole(random, -9, 9);
-      put({i, j, k}, static_cast<ClassId>(whole(random, 0, kClasses - 1)));
+      put({i, j, k}, static_cast<ClassId>(whole(random, 0, kLastClass)));
     }
     if (random.uniform() < dropped) continue;
     if (random.uniform() < moved) {
@@ -217,7 +217,7 @@ std::vector<MapVoxel> random_map(const SurfaceTruth& surface, std::uint64_t seed
       key.k += whole(random, -3, 3);
     }
     const bool other = random.uniform() < relabelled;
-    put(key, other ? static_cast<ClassId>(whole(random, 0, kClasses - 1)) : row.class_id);
+    put(key, other ? static_cast<ClassId>(whole(random, 0, kLastClass)) : row.class_id);
   }
   std::vector<MapVoxel> voxels;
   for (const auto& [key, voxel] : map) voxels.push_back(voxel);

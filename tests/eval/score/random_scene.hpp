@@ -17,6 +17,11 @@
 
 namespace mapscore::eval::testing {
 
+/// Scenes a property is looked at in, their classes, and the threshold of what a map predicts.
+inline constexpr std::uint64_t kScenes = 1000;
+inline constexpr std::size_t kClasses = 4;
+inline constexpr double kThreshold = 0.25;
+
 /// A heap of a few shapes within half a metre of the origin, of all kinds: some anywhere, some on
 /// the lattice, some against, in or across the one before. Two instances of each of three detected
 /// classes, and background.

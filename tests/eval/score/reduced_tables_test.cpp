@@ -3,7 +3,6 @@
 
 #include "eval/score/reduced_tables.hpp"
 
-#include "eval/score/voxel_score.hpp"
 #include "tests/eval/score/instances/instance_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -33,16 +32,6 @@ TEST(ReducedTables, EverySurfaceIsOneClass) {
   EXPECT_FALSE(reduced.detected(0));
   EXPECT_TRUE(reduced.detected(kSurfaceClass));
   for (InstanceId id = 0; id < 6; ++id) EXPECT_EQ(reduced.class_of(id), kSurfaceClass);
-}
-
-TEST(ReducedTables, EveryOccupiedVoxelIsSurface) {
-  const MapSnapshot map = geometry_map(MapSnapshot({{{0, 0, 0}, kBackground, 0.0, true},
-                                                    {{0, 0, 1}, 7, 0.6, true},
-                                                    {{0, 0, 2}, 7, 0.6, false}}));
-  const auto prediction = prediction_of(map, 0.0);
-  EXPECT_EQ(prediction, (std::vector<PredictedVoxel>{{{0, 0, 0}, kSurfaceClass, 0.0},
-                                                     {{0, 0, 1}, kSurfaceClass, 0.6}}));
-  EXPECT_EQ(map.voxels().size(), 3u);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 namespace mapscore::eval::testing {
 
 inline constexpr double kEdge_m = 0.05;
+inline constexpr ClassId kCup = 1, kChair = 2;
 
 /// Rows of (voxel, class) as a surface truth.
 inline SurfaceTruth surface_of(const std::set<std::pair<VoxelKey, ClassId>>& rows) {

@@ -15,14 +15,14 @@ namespace mapscore::eval {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::kChair;
+using testing::kCup;
 using testing::map_of;
 using testing::random_case;
 using testing::RandomCase;
 using testing::surface_of;
 using ::testing::ThrowsMessage;
 using testing::visible_of;
-
-constexpr ClassId kCup = 1, kChair = 2;
 
 TEST(VoxelScore, CountsOneRowByHand) {
   // Cup on the x axis at 0..4, of which 0..3 are visible; a chair at 10 and 11; a wall at 20.

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/statistics/mean_interval.hpp"
-
 #include "core/error.hpp"
 #include "core/random_stream.hpp"
-#include "eval/statistics/student_t.hpp"
+#include "eval/statistics/intervals.hpp"
 
 #include <gtest/gtest.h>
 

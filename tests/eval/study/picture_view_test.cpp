@@ -49,8 +49,7 @@ TEST(PictureView, OfAStudyChangesNoTrial) {
   const Study plain = study_of("");
   const Study viewed = study_of("picture_view: [0, 0, 5, 0, 0, 0]\n");
   EXPECT_TRUE(viewed.picture_view);
-  EXPECT_EQ(plan_of(plain, "recording").tasks.at(0).key,
-            plan_of(viewed, "recording").tasks.at(0).key);
+  EXPECT_EQ(plan_of(plain, "recording").tasks[0].key, plan_of(viewed, "recording").tasks[0].key);
   EXPECT_EQ(parse_study(to_yaml(viewed), viewed.base_folder / "again.yaml").picture_view,
             viewed.picture_view);
 }

@@ -89,7 +89,7 @@ void check_voxels(const Placed& placed, const SurfaceTruth& truth, double epsilo
   const auto sets = test::convex_sets_of(placed.shape, placed.T_map_world);
   for (const VoxelKey& key : with_neighbours(truth)) {
     test::check_voxel(sets, truth, key, epsilon_m);
-    if (testing::Test::HasFatalFailure()) return;
+    if (::testing::Test::HasFatalFailure()) return;
   }
 }
 
@@ -98,7 +98,7 @@ std::size_t check_all(const std::vector<Placed>& cases, const std::vector<double
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const double edge_m : edges_m) {
       for (const double epsilon_m : {0.0, 0.0005}) {
-        SCOPED_TRACE(testing::Message()
+        SCOPED_TRACE(::testing::Message()
                      << "case " << i << " edge " << edge_m << " epsilon " << epsilon_m);
         const auto truth = surface_truth({cases[i].shape}, test::four_classes(),
                                          cases[i].T_map_world, {edge_m, epsilon_m, 1});
@@ -111,7 +111,7 @@ std::size_t check_all(const std::vector<Placed>& cases, const std::vector<double
   return samples;
 }
 
-class BruteForce : public testing::TestWithParam<ShapeKind> {};
+class BruteForce : public ::testing::TestWithParam<ShapeKind> {};
 
 TEST_P(BruteForce, UprightShapesOnAndOffTheLattice) {
   std::vector<Placed> cases;
@@ -130,7 +130,7 @@ TEST_P(BruteForce, TiltedShapes) {
   EXPECT_GT(check_all(cases, {0.013, 0.05, 0.1}), 50'000u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, BruteForce, testing::ValuesIn(test::kAllKinds));
+INSTANTIATE_TEST_SUITE_P(Kinds, BruteForce, ::testing::ValuesIn(test::kAllKinds));
 
 // The oracle itself: no sample of the surface may be nearer than its nearest point, which must lie
 // on the surface.

@@ -174,7 +174,7 @@ TEST(Burial, FacesInContactStayOnAndOffTheLattice) {
   for (const double epsilon_m : {0.0, 0.0005}) {
     for (int n = 0; n < 20; ++n) {
       const double x = 0.4 + n / 100.0;  // every fifth on the lattice
-      SCOPED_TRACE(testing::Message() << "face at " << x << " epsilon " << epsilon_m);
+      SCOPED_TRACE(::testing::Message() << "face at " << x << " epsilon " << epsilon_m);
       const Shape left = box_shape({0.1, 0.1, 0.1}, {x, 0.4, 0.4}, 1);
       const Shape right = box_shape({x, 0.1, 0.1}, {x + 0.3, 0.4, 0.4}, 2);
       const auto truth = truth_of({left, right}, 0.05, epsilon_m);

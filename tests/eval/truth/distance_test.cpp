@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-Shape shape_at(ShapeKind kind, const Vector3d& size) {
+Shape shape_at_origin(ShapeKind kind, const Vector3d& size) {
   Shape shape;
   shape.kind = kind;
   shape.size = size;
@@ -28,22 +28,22 @@ Box cube(const Vector3d& low, double edge) {
 }
 
 TEST(Distance, OfSimplePlacesByHand) {
-  const auto box = piece_of(shape_at(ShapeKind::box, {1, 1, 1}));
+  const auto box = piece_of(shape_at_origin(ShapeKind::box, {1, 1, 1}));
   EXPECT_NEAR(distance(box, cube({1.3, 0, 0}, 0.1)), 0.3, 1e-12);
   EXPECT_NEAR(distance(box, cube({1.3, 1.4, 0}, 0.1)), 0.5, 1e-12);
   EXPECT_NEAR(distance(box, cube({0.5, 0, 0}, 0.1)), 0.4, 1e-12);  // from within
   EXPECT_EQ(distance(box, cube({0.95, 0, 0}, 0.1)), 0);
-  const auto ball = piece_of(shape_at(ShapeKind::sphere, {1, 0, 0}));
+  const auto ball = piece_of(shape_at_origin(ShapeKind::sphere, {1, 0, 0}));
   EXPECT_NEAR(distance(ball, cube({-0.05, -0.05, 1.2}, 0.1)), 0.2, 1e-12);
   EXPECT_NEAR(distance(ball, cube({-0.1, -0.1, -0.1}, 0.2)), 1 - std::sqrt(0.03), 1e-12);
-  const auto cylinder = piece_of(shape_at(ShapeKind::cylinder, {1, 2, 0}));
+  const auto cylinder = piece_of(shape_at_origin(ShapeKind::cylinder, {1, 2, 0}));
   EXPECT_NEAR(distance(cylinder, cube({1.3, -0.05, 2.4}, 0.1)), 0.5, 1e-9);
   EXPECT_NEAR(distance(cylinder, cube({-0.05, -0.05, 1.7}, 0.1)), 0.2, 1e-12);
-  const auto capsule = piece_of(shape_at(ShapeKind::capsule, {1, 2, 0}));
+  const auto capsule = piece_of(shape_at_origin(ShapeKind::capsule, {1, 2, 0}));
   EXPECT_NEAR(distance(capsule, cube({-0.05, -0.05, 3.5}, 0.1)), 0.5, 1e-12);
-  const auto plane = piece_of(shape_at(ShapeKind::plane, {1, 1, 0}));
+  const auto plane = piece_of(shape_at_origin(ShapeKind::plane, {1, 1, 0}));
   EXPECT_NEAR(distance(plane, cube({0, 0, -0.3}, 0.1)), 0.2, 1e-12);
-  const auto ellipsoid = piece_of(shape_at(ShapeKind::ellipsoid, {3, 2, 1}));
+  const auto ellipsoid = piece_of(shape_at_origin(ShapeKind::ellipsoid, {3, 2, 1}));
   EXPECT_NEAR(distance(ellipsoid, cube({3.25, -0.05, -0.05}, 0.1)), 0.25, 1e-9);
   // From the centre the nearest boundary lies across the smallest axis.
   EXPECT_NEAR(distance(ellipsoid, Box(Vector3d::Zero(), Vector3d::Zero())), 1, 1e-12);
@@ -104,8 +104,8 @@ TEST(Distance, OfNothingIsTheCap) {
 }
 
 TEST(Distance, PartsInsideOtherSolidsCount) {
-  Shape outer = shape_at(ShapeKind::box, {1, 1, 1});
-  Shape inner = shape_at(ShapeKind::box, {0.2, 0.2, 0.2});
+  Shape outer = shape_at_origin(ShapeKind::box, {1, 1, 1});
+  Shape inner = shape_at_origin(ShapeKind::box, {0.2, 0.2, 0.2});
   outer.instance = inner.instance = 1;
   ClassTable table;
   table.classes.push_back({1, "thing", {}, true});

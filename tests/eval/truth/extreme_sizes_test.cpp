@@ -102,12 +102,12 @@ void check_rows(const Shape& shape, const SurfaceTruth& truth, double epsilon_m)
   }
 }
 
-class ExtremeSizes : public testing::TestWithParam<ShapeKind> {
+class ExtremeSizes : public ::testing::TestWithParam<ShapeKind> {
  protected:
   static void check(const Shape& shape, RandomStream& random, int round) {
     const double edge_m = edge_for(shape, random);
     const double epsilon_m = round % 2 == 0 ? 0 : 0.0005;
-    SCOPED_TRACE(testing::Message()
+    SCOPED_TRACE(::testing::Message()
                  << "round " << round << " edge " << edge_m << " size " << shape.size.transpose());
     const auto truth = test::truth_of({shape}, edge_m, epsilon_m);
     ASSERT_GT(truth.count(1), 0u);
@@ -126,7 +126,7 @@ TEST_P(ExtremeSizes, OnRoundNumbers) {
   for (int round = 0; round < 24; ++round) check(decimal_shape(GetParam(), random), random, round);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, ExtremeSizes, testing::ValuesIn(test::kAllKinds));
+INSTANTIATE_TEST_SUITE_P(Kinds, ExtremeSizes, ::testing::ValuesIn(test::kAllKinds));
 
 }  // namespace
 }  // namespace mapscore::eval

@@ -19,13 +19,12 @@ namespace {
 
 using Eigen::Vector3d;
 using test::box_shape;
+using test::kEdge;
 using test::placed;
-
-constexpr double kEdge = 0.1;
 
 void expect_counts(const Shape& shape, std::size_t voxels, std::size_t touch_only) {
   for (const double epsilon_m : {0.0, 0.0005}) {
-    SCOPED_TRACE(testing::Message() << "epsilon " << epsilon_m);
+    SCOPED_TRACE(::testing::Message() << "epsilon " << epsilon_m);
     const auto truth = test::truth_of({shape}, kEdge, epsilon_m);
     EXPECT_EQ(truth.count(1), voxels);
     EXPECT_EQ(truth.voxels().size(), voxels);

@@ -19,12 +19,12 @@ namespace {
 
 enum class Layer { absent, touch_only, meets };
 
-struct Case {
+struct FloorCase {
   double height_m, epsilon_m;
   Layer below, above;  ///< what the layers -1 and 0 hold of it
 };
 
-std::ostream& operator<<(std::ostream& out, const Case& c) {
+std::ostream& operator<<(std::ostream& out, const FloorCase& c) {
   return out << "height " << c.height_m << " epsilon " << c.epsilon_m;
 }
 
@@ -32,28 +32,28 @@ constexpr Layer kNone = Layer::absent, kTouch = Layer::touch_only, kMeets = Laye
 
 constexpr std::array kCases{
     // Without epsilon, a surface on the plane touches both layers and meets none.
-    Case{0, 0, kTouch, kTouch},
-    Case{1e-9, 0, kNone, kMeets},
-    Case{-1e-9, 0, kMeets, kNone},
-    Case{1e-4, 0, kNone, kMeets},
-    Case{-1e-4, 0, kMeets, kNone},
+    FloorCase{0, 0, kTouch, kTouch},
+    FloorCase{1e-9, 0, kNone, kMeets},
+    FloorCase{-1e-9, 0, kMeets, kNone},
+    FloorCase{1e-4, 0, kNone, kMeets},
+    FloorCase{-1e-4, 0, kMeets, kNone},
     // With it, one beside the plane also reaches the layer that it is not in.
-    Case{0, 0.0005, kTouch, kTouch},
-    Case{1e-9, 0.0005, kTouch, kMeets},
-    Case{-1e-9, 0.0005, kMeets, kTouch},
-    Case{1e-4, 0.0005, kTouch, kMeets},
-    Case{-1e-4, 0.0005, kMeets, kTouch},
+    FloorCase{0, 0.0005, kTouch, kTouch},
+    FloorCase{1e-9, 0.0005, kTouch, kMeets},
+    FloorCase{-1e-9, 0.0005, kMeets, kTouch},
+    FloorCase{1e-4, 0.0005, kTouch, kMeets},
+    FloorCase{-1e-4, 0.0005, kMeets, kTouch},
     // The contact: within it a surface lies on the plane.
-    Case{5e-11, 0, kTouch, kTouch},
-    Case{-5e-11, 0, kTouch, kTouch},
-    Case{2e-10, 0, kNone, kMeets},
-    Case{-2e-10, 0, kMeets, kNone},
+    FloorCase{5e-11, 0, kTouch, kTouch},
+    FloorCase{-5e-11, 0, kTouch, kTouch},
+    FloorCase{2e-10, 0, kNone, kMeets},
+    FloorCase{-2e-10, 0, kMeets, kNone},
     // The end of epsilon's reach, contact included.
-    Case{0.000499, 0.0005, kTouch, kMeets},
-    Case{0.0005, 0.0005, kTouch, kMeets},
-    Case{0.000501, 0.0005, kNone, kMeets},
-    Case{-0.0005, 0.0005, kMeets, kTouch},
-    Case{-0.000501, 0.0005, kMeets, kNone},
+    FloorCase{0.000499, 0.0005, kTouch, kMeets},
+    FloorCase{0.0005, 0.0005, kTouch, kMeets},
+    FloorCase{0.000501, 0.0005, kNone, kMeets},
+    FloorCase{-0.0005, 0.0005, kMeets, kTouch},
+    FloorCase{-0.000501, 0.0005, kMeets, kNone},
 };
 
 /// A floor at z, as a plane or as two triangles, or a box of a metre with its top there; all far
@@ -76,7 +76,7 @@ Layer layer_of(const SurfaceTruth& truth, int k) {
   return rows[0].touch_only ? Layer::touch_only : Layer::meets;
 }
 
-void expect_layers(const SurfaceTruth& truth, int plane, const Case& c) {
+void expect_layers(const SurfaceTruth& truth, int plane, const FloorCase& c) {
   EXPECT_EQ(layer_of(truth, plane - 2), Layer::absent);
   EXPECT_EQ(layer_of(truth, plane - 1), c.below);
   EXPECT_EQ(layer_of(truth, plane), c.above);
@@ -88,9 +88,9 @@ constexpr std::array<MakeShape, 3> kMakers{floor_at, triangles_at, box_below};
 
 TEST(LatticeFloor, LayersBesideThePlane) {
   for (const MakeShape make : kMakers) {
-    for (const Case& c : kCases) {
+    for (const FloorCase& c : kCases) {
       for (const double edge_m : {0.01, 0.02, 0.05, 0.1}) {
-        SCOPED_TRACE(testing::Message() << c << " edge " << edge_m);
+        SCOPED_TRACE(::testing::Message() << c << " edge " << edge_m);
         expect_layers(test::truth_of({make(c.height_m)}, edge_m, c.epsilon_m), 0, c);
       }
     }
@@ -100,9 +100,9 @@ TEST(LatticeFloor, LayersBesideThePlane) {
 TEST(LatticeFloor, EveryPlaneOfTheLatticeIsLikeZero) {
   // n / 20 is not the double n * 0.05: contact must not hang on the last bit.
   for (const MakeShape make : kMakers) {
-    for (const Case& c : kCases) {
+    for (const FloorCase& c : kCases) {
       for (const int n : {-47, -3, 3, 7, 19, 46}) {
-        SCOPED_TRACE(testing::Message() << c << " plane " << n);
+        SCOPED_TRACE(::testing::Message() << c << " plane " << n);
         expect_layers(test::truth_of({make(n / 20.0 + c.height_m)}, 0.05, c.epsilon_m), n, c);
       }
     }
@@ -112,8 +112,8 @@ TEST(LatticeFloor, EveryPlaneOfTheLatticeIsLikeZero) {
 TEST(LatticeFloor, OriginOfTheMapAtTheFloor) {
   // A floor at 0.37 under a map that begins there, turned by a quarter.
   const Pose T_map_world = map_from_world({0, 0, 0.37}, std::numbers::pi / 2);
-  for (const Case& c : kCases) {
-    SCOPED_TRACE(testing::Message() << c);
+  for (const FloorCase& c : kCases) {
+    SCOPED_TRACE(::testing::Message() << c);
     const auto truth = surface_truth({floor_at(0.37 + c.height_m)}, test::four_classes(),
                                      T_map_world, {0.05, c.epsilon_m, 1});
     expect_layers(truth, 0, c);
@@ -122,8 +122,8 @@ TEST(LatticeFloor, OriginOfTheMapAtTheFloor) {
 
 TEST(LatticeFloor, WholeFloorsByCount) {
   // 1 m x 1 m at 10 cm: 12 x 12 columns, the 44 outer ones by contact, in each layer that it is in.
-  for (const Case& c : kCases) {
-    SCOPED_TRACE(testing::Message() << c);
+  for (const FloorCase& c : kCases) {
+    SCOPED_TRACE(::testing::Message() << c);
     std::size_t voxels = 0, touch_only = 0;
     for (const Layer layer : {c.below, c.above}) {
       if (layer != Layer::absent) voxels += 144;

@@ -71,7 +71,7 @@ TEST(SurfaceTruth, FloorsOnAndBesideTheLattice) {
   for (const Case& c : {Case{0, 0, 72, 72, -1, 0}, Case{1e-9, 0, 36, 20, 0, 0},
                         Case{-1e-9, 0, 36, 20, -1, -1}, Case{1e-4, 0, 36, 20, 0, 0},
                         Case{1e-4, 0.0005, 72, 56, -1, 0}, Case{-1e-9, 0.0005, 72, 56, -1, 0}}) {
-    SCOPED_TRACE(testing::Message() << "z " << c.z << " epsilon " << c.epsilon_m);
+    SCOPED_TRACE(::testing::Message() << "z " << c.z << " epsilon " << c.epsilon_m);
     Shape floor;
     floor.kind = ShapeKind::plane;
     floor.size = {0.1, 0.1, 0};
@@ -119,7 +119,7 @@ TEST(SurfaceTruth, TouchOnlyNeedsEveryShapeOfTheClass) {
 // Every sample of the surface lies in a voxel of the truth; every voxel of the truth has a point of
 // the surface within 1e-8; none of its neighbours outside the truth has one.
 TEST(SurfaceTruth, IsTheSetThatDenseSamplingFinds) {
-  constexpr double kEdge = 0.06;
+  constexpr double kPatchEdge = 0.06;
   for (const ShapeKind kind : test::kAllKinds) {
     SCOPED_TRACE(name_of(kind));
     RandomStream random(2, name_of(kind));
@@ -127,12 +127,13 @@ TEST(SurfaceTruth, IsTheSetThatDenseSamplingFinds) {
       Shape shape = test::random_shape(kind, random);
       shape.instance = 1;
       const Pose T_map_world = map_from_world({0.011, -0.023, 0.017}, 0.4);
-      const auto truth = surface_truth({shape}, test::four_classes(), T_map_world, {kEdge, 0, 1});
+      const auto truth =
+          surface_truth({shape}, test::four_classes(), T_map_world, {kPatchEdge, 0, 1});
       const auto patches = test::patches_of(shape, T_map_world);
       for (const auto& patch : patches) {
         for (int i = 0; i <= 150; ++i) {
           for (int j = 0; j <= 150; ++j) {
-            ASSERT_TRUE(truth.contains(voxel_of(patch(i / 150.0, j / 150.0), kEdge), 1));
+            ASSERT_TRUE(truth.contains(voxel_of(patch(i / 150.0, j / 150.0), kPatchEdge), 1));
           }
         }
       }
@@ -144,9 +145,9 @@ TEST(SurfaceTruth, IsTheSetThatDenseSamplingFinds) {
         }
       }
       for (const VoxelKey& key : around) {
-        const Vector3d low = low_corner_of(key, kEdge);
+        const Vector3d low = low_corner_of(key, kPatchEdge);
         const double d = test::sampled_distance(
-            patches, Eigen::AlignedBox3d(low, (low.array() + kEdge).matrix()), 12);
+            patches, Eigen::AlignedBox3d(low, (low.array() + kPatchEdge).matrix()), 12);
         if (truth.contains(key, 1)) {
           EXPECT_LT(d, 1e-8);
         } else {
@@ -187,10 +188,10 @@ TEST(SurfaceTruth, DependsNeitherOnTheOrderOfShapesNorOnThreads) {
 TEST(SurfaceTruth, MovesWithTheSceneByWholeVoxels) {
   const std::vector<Shape> shapes = random_scene(28);
   const ClassTable table = test::four_classes();
-  constexpr double kEdge = 0.04;
-  auto rows = rows_of(surface_truth(shapes, table, Pose::Identity(), {kEdge, 0.0005, 1}));
-  const Pose T_map_world = map_from_world({-7 * kEdge, 130 * kEdge, 3 * kEdge}, 0);
-  const auto moved = rows_of(surface_truth(shapes, table, T_map_world, {kEdge, 0.0005, 1}));
+  constexpr double kMovedEdge = 0.04;
+  auto rows = rows_of(surface_truth(shapes, table, Pose::Identity(), {kMovedEdge, 0.0005, 1}));
+  const Pose T_map_world = map_from_world({-7 * kMovedEdge, 130 * kMovedEdge, 3 * kMovedEdge}, 0);
+  const auto moved = rows_of(surface_truth(shapes, table, T_map_world, {kMovedEdge, 0.0005, 1}));
   for (SurfaceVoxel& row : rows) {
     row.key = {row.key.i + 7, row.key.j - 130, row.key.k - 3};
   }

@@ -17,11 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class TruthFile : public testing::Test {
+class TruthFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string("truth_file_") + test->name());
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(::testing::TempDir()) / (std::string("truth_file_") + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

@@ -11,6 +11,8 @@
 
 namespace mapscore::eval::test {
 
+inline constexpr double kEdge = 0.1;
+
 /// Classes 0 background, 1 red, 2 green, 3 blue; instance n is of class n.
 inline ClassTable four_classes() {
   ClassTable table;

@@ -17,7 +17,7 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr double kEdge = 0.1;
+using test::kEdge;
 
 /// A camera of `width` x `height` pixels whose optical frame is the base's.
 Calibration tiny_camera(int width, int height) {
@@ -60,9 +60,6 @@ TEST(SampleCounter, CountsByVoxelAndClassAndTakesUnknownIdsAsBackground) {
   const std::vector<SampleCount> expected{
       {{0, 0, 10}, 0, 1}, {{0, 0, 10}, 1, 6}, {{0, 0, 10}, 2, 3}, {{1, 0, 10}, 3, 2}};
   EXPECT_EQ(counter.counts(), expected);
-  EXPECT_EQ(counter.total(), 12u);
-  EXPECT_EQ(counter.samples({0, 0, 10}, 2), 3u);
-  EXPECT_EQ(counter.samples({0, 0, 10}, 3), 0u);
 }
 
 Pose some_pose(int n) {
@@ -82,7 +79,7 @@ Frame random_frame(int n) {
   return frame_of(depth, label);
 }
 
-Calibration wide_camera() {
+Calibration tilted_camera() {
   Calibration calibration = tiny_camera(64, 48);
   calibration.depth = CameraModel::from_hfov(64, 48, 1.0);
   calibration.T_base_depth = some_pose(5);
@@ -90,7 +87,7 @@ Calibration wide_camera() {
 }
 
 TEST(SampleCounter, AgreesWithTheDocumentedFormulaPixelByPixel) {
-  const Calibration calibration = wide_camera();
+  const Calibration calibration = tilted_camera();
   const ClassTable table = test::four_classes();
   SampleCounter counter(0.05);
   std::map<std::pair<VoxelKey, ClassId>, std::uint32_t> plain;
@@ -121,7 +118,7 @@ TEST(SampleCounter, AgreesWithTheDocumentedFormulaPixelByPixel) {
 }
 
 TEST(SampleCounter, MergesInAnyOrder) {
-  const Calibration calibration = wide_camera();
+  const Calibration calibration = tilted_camera();
   const ClassTable table = test::four_classes();
   SampleCounter all(0.05), forwards(0.05), backwards(0.05);
   std::vector<SampleCounter> parts;
@@ -135,7 +132,6 @@ TEST(SampleCounter, MergesInAnyOrder) {
   }
   EXPECT_EQ(all.counts(), forwards.counts());
   EXPECT_EQ(all.counts(), backwards.counts());
-  EXPECT_EQ(all.total(), backwards.total());
   EXPECT_THROW(all.merge(SampleCounter(0.1)), Error);
 }
 
@@ -152,7 +148,7 @@ TEST(SampleCounter, RefusesFramesThatDoNotFit) {
   lost.translation().x() = 1e6;
   EXPECT_THROW(counter.add(frame_of(image, image), tiny_camera(4, 4), table, lost), Error);
   EXPECT_THROW(SampleCounter(0), Error);
-  EXPECT_EQ(counter.total(), 0u);
+  EXPECT_TRUE(counter.counts().empty());
 }
 
 /// Voxels (0,0,10) and (1,0,10) hold red and green, (2,0,10) green only, (3,0,10) background only.
@@ -259,7 +255,7 @@ std::map<VoxelKey, std::pair<ClassId, std::uint32_t>> plain_truth(const PlainCou
 }
 
 TEST(VisibleTruth, OfAnySubsetEqualsAPlainRecountAtOddLattices) {
-  const Calibration calibration = wide_camera();
+  const Calibration calibration = tilted_camera();
   const ClassTable table = test::four_classes();
   const struct {
     double edge_m;

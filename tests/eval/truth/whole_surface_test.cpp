@@ -9,7 +9,7 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr double kEdge = 0.1;
+using test::kEdge;
 
 TEST(WholeSurface, BelongsToTheLowestClassThatTrulyMeetsTheVoxel) {
   const SurfaceTruth surface({{{0, 0, 0}, 0, false},

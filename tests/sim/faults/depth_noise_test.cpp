@@ -18,14 +18,12 @@
 namespace mapscore::sim {
 namespace {
 
-using mapscore::testing::depth_camera;
+using mapscore::testing::kCamera;
 using mapscore::testing::Moments;
 using mapscore::testing::plate_before_wall;
 using mapscore::testing::radians;
 using mapscore::testing::same_pixels;
 using mapscore::testing::TiltedPlane;
-
-const CameraModel kCamera = depth_camera();
 
 cv::Mat1w scene() {
   return plate_before_wall(kCamera, 200, 400, 1.2, 3.0);

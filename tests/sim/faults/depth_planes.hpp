@@ -20,6 +20,7 @@ constexpr double radians(double degrees) {
 inline CameraModel depth_camera() {
   return CameraModel::from_hfov(640, 480, radians(58.4));
 }
+inline const CameraModel kCamera = depth_camera();
 
 /// The plane through (0, 0, z_m) turned about the optical y axis by `tilt_rad`: z = z_m + tan(tilt)
 /// x.

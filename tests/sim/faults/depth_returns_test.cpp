@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "sim/faults/depth_returns.hpp"
-
 #include "sim/faults/depth_geometry.hpp"
 #include "sim/faults/depth_noise.hpp"
-#include "sim/faults/projector_shadow.hpp"
 #include "tests/sim/faults/depth_planes.hpp"
 
 #include <gtest/gtest.h>
@@ -15,14 +12,12 @@
 namespace mapscore::sim {
 namespace {
 
-using mapscore::testing::depth_camera;
+using mapscore::testing::kCamera;
 using mapscore::testing::Moments;
 using mapscore::testing::plate_before_wall;
 using mapscore::testing::radians;
 using mapscore::testing::same_pixels;
 using mapscore::testing::TiltedPlane;
-
-const CameraModel kCamera = depth_camera();
 
 TEST(Grazing, LossIsARamp) {
   EXPECT_EQ(grazing_loss({}, radians(69.9)), 0.0);

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "sim/faults/calibration_faults.hpp"
 #include "sim/faults/pose_fault.hpp"
+#include "tests/support/log_pose.hpp"
 
 #include <gtest/gtest.h>
 
@@ -95,7 +96,7 @@ TEST(PoseNoise, ZeroDoseChangesNoBit) {
   for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_EQ(believed[i].matrix(), truth[i].matrix());
 }
 
-class InjectedCovariance : public testing::TestWithParam<double> {};
+class InjectedCovariance : public ::testing::TestWithParam<double> {};
 
 TEST_P(InjectedCovariance, EqualsTheSampledOneAtAnyDistance) {
   const auto truth = drive(40000, GetParam());
@@ -113,7 +114,7 @@ TEST_P(InjectedCovariance, EqualsTheSampledOneAtAnyDistance) {
   EXPECT_LT(std::abs(sum(0, 5)), 0.02 * 0.0175 * 0.02);
 }
 
-INSTANTIATE_TEST_SUITE_P(FromTheOrigin, InjectedCovariance, testing::Values(0.0, 10.0));
+INSTANTIATE_TEST_SUITE_P(FromTheOrigin, InjectedCovariance, ::testing::Values(0.0, 10.0));
 
 TEST(PoseNoise, DirectionDoesNotDependOnTheDose) {
   const auto truth = drive(20, 0.0);

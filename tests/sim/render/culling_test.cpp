@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "sim/render/eye.hpp"
 #include "sim/render/offscreen.hpp"
-#include "sim/render/scene_buffer.hpp"
+#include "sim/render/scene_view.hpp"
 #include "sim/world/drawn_scene.hpp"
 #include "tests/sim/render/rendered_frames.hpp"
 
@@ -22,8 +21,8 @@ TEST(RenderRepeats, BitForBitAlsoBetweenThreads) {
   std::vector<Frame> frames(3);
   const auto render = [&](Frame& frame, bool warm_up) {
     Renderer renderer(world, true);
-    if (warm_up) (void)renderer.render(0, 0, planar_pose(0.5, 0.3, 1.0));
-    frame = renderer.render(0, 0, T_world_base);
+    if (warm_up) (void)testing::frame_at(renderer, planar_pose(0.5, 0.3, 1.0));
+    frame = testing::frame_at(renderer, T_world_base);
   };
   render(frames[0], true);
   {
@@ -47,7 +46,7 @@ TEST(RenderCulling, ChangesNothing) {
       const Pose T_world_base = planar_pose(0.4, -0.2, yaw);
       const Pose T_world_color =
           T_world_base * calibration.T_base_depth * calibration.T_color_depth.inverse();
-      const Frame frame = renderer.render(0, 0, T_world_base);
+      const Frame frame = testing::frame_at(renderer, T_world_base);
       cv::Mat3b pixels;
       everything.look_through(gl_camera(calibration.color, T_world_color));
       everything.show_colours(shadows);

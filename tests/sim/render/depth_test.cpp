@@ -77,7 +77,7 @@ TEST(RenderDepth, LiesOnTheSurfacesOfTheTruth) {
   double worst = 0;
   for (const double yaw : {-0.5, 0.0, 0.5}) {
     const Pose T_world_base = planar_pose(0.1, 0, yaw);
-    const Frame frame = renderer.render(0, 0, T_world_base);
+    const Frame frame = testing::frame_at(renderer, T_world_base);
     const cv::Mat1f depth = renderer.render_metric_depth(T_world_base);
     for (int v = 0; v < depth.rows; v += 3) {
       for (int u = 0; u < depth.cols; u += 3) {
@@ -109,7 +109,7 @@ TEST(RenderDepth, IsStoredWithinItsRangeOnly) {
         mjcf("<body name='wall_1' pos='" + x + " 0 1'><geom type='box' size='.05 4 4'/></body>"),
         {}, cameras);
     Renderer renderer(world, false);
-    const Frame frame = renderer.render(0, 0, Pose::Identity());
+    const Frame frame = testing::frame_at(renderer, Pose::Identity());
     return std::pair(frame.depth(240, 320), frame.depth_label(240, 320));
   };
   // the camera stands at x = 0.05, the wall's face 0.05 before its centre

@@ -74,7 +74,7 @@ TEST(DrawnShapesDepth, OfAPluginsFieldLiesOnItsMesh) {
   EXPECT_NEAR(farthest, kRadius_m, 0.007);
 
   Renderer renderer(world, false);
-  const Frame frame = renderer.render(0, 0, Pose::Identity());
+  const Frame frame = testing::frame_at(renderer, Pose::Identity());
   const Calibration& calibration = world.calibration();
   const Pose T_shape_depth = shape.T_world_shape.inverse() * calibration.T_base_depth;
   int samples = 0;
@@ -109,7 +109,8 @@ TEST(DrawnShapesDepth, IsNotTouchedByFlexesAndSkins) {
                      "face='0 1 2 0 2 1'><bone body='wall_1' bindpos='4 0 1' bindquat='1 0 0 0' "
                      "vertid='0 1 2' vertweight='1 1 1'/></skin></asset>"));
   const auto frame_of = [](const World& world) {
-    return Renderer(world, false).render(0, 0, Pose::Identity());
+    Renderer renderer(world, false);
+    return testing::frame_at(renderer, Pose::Identity());
   };
   const Frame expected = frame_of(bare);
   ASSERT_EQ(expected.depth_label(240, 320), 1);
@@ -130,7 +131,8 @@ TEST(DrawnShapesDepth, OfARoundShapeHasNotTheScaleOfTheScenesMeshes) {
       "<body name='a_1' pos='1.8 0 1.2'><geom type='sphere' size='.3'/></body>";
   const auto frame = [&](const std::string& head) {
     const World world = load_text(mjcf(ball, head));
-    return Renderer(world, false).render(0, 0, Pose::Identity());
+    Renderer renderer(world, false);
+    return testing::frame_at(renderer, Pose::Identity());
   };
   const Frame plain = frame(""), scaled = frame("<default><mesh scale='.5 .5 .5'/></default>");
   EXPECT_GT(cv::countNonZero(plain.depth_label), 500);

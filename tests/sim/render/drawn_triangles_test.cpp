@@ -45,7 +45,7 @@ Difference compare(const World& world) {
   Renderer renderer(world, false);
   const Pose T_world_base = Pose::Identity();
   const cv::Mat1f depth = renderer.render_metric_depth(T_world_base);
-  const Frame frame = renderer.render(0, 0, T_world_base);
+  const Frame frame = testing::frame_at(renderer, T_world_base);
   const Calibration& calibration = world.calibration();
   const Shape& shape = world.shapes().at(0);
   const Pose T_depth_shape =

@@ -35,7 +35,7 @@ TEST(RenderLabels, CoverTheProjectionOfABox) {
       load_text(mjcf("<body name='box_1' pos='2.5 .3 1.2' euler='20 30 40'><geom type='box' "
                      "size='.3 .2 .4'/></body>"));
   Renderer renderer(world, false);
-  const Frame frame = renderer.render(0, 0, kStart);
+  const Frame frame = testing::frame_at(renderer, kStart);
   const Calibration& calibration = world.calibration();
   const auto mask_from = [&](const CameraModel& camera, const Pose& T_world_camera) {
     cv::Mat1b mask(camera.height_px, camera.width_px);
@@ -62,7 +62,7 @@ TEST(RenderLabels, CoverTheProjectionOfABox) {
 TEST(RenderLabels, HoldExistingInstancesOnly) {
   const World world = shapes_room();
   Renderer renderer(world, false);
-  const Frame frame = renderer.render(0, 0, Pose::Identity());
+  const Frame frame = testing::frame_at(renderer, Pose::Identity());
   const std::set<std::uint16_t> seen(frame.label.begin(), frame.label.end());
   EXPECT_GT(seen.size(), 5u);
   EXPECT_LT(*seen.rbegin(), world.classes().instances.size());
@@ -73,7 +73,7 @@ TEST(RenderLabels, StandUprightAndNotMirrored) {
       "<body name='left_1' pos='3 .8 1.15'><geom type='box' size='.1 .1 .1'/></body>"
       "<body name='top_1' pos='3 0 1.9'><geom type='box' size='.1 .1 .1' rgba='1 0 0 1'/></body>"));
   Renderer renderer(world, false);
-  const Frame frame = renderer.render(0, 0, Pose::Identity());
+  const Frame frame = testing::frame_at(renderer, Pose::Identity());
   const cv::Moments left = cv::moments(frame.label == 1, true),
                     top = cv::moments(frame.label == 2, true);
   EXPECT_LT(left.m10 / left.m00, 220);
@@ -86,7 +86,7 @@ TEST(RenderLabels, StandUprightAndNotMirrored) {
 TEST(RenderLabels, DepthPixelsRegisterOntoTheSameObject) {
   const World world = shapes_room();
   Renderer renderer(world, false);
-  const Frame frame = renderer.render(0, 0, Pose::Identity());
+  const Frame frame = testing::frame_at(renderer, Pose::Identity());
   const Calibration& calibration = world.calibration();
   int same = 0, all = 0;
   for (int v = 0; v < frame.depth.rows; ++v) {

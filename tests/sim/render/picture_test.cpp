@@ -165,12 +165,12 @@ TEST(RenderPicture, IsUprightNextToStraightDown) {
 TEST(RenderPicture, DoesNotDisturbTheFramesAfterIt) {
   const World world = shapes_room();
   Renderer renderer(world, false);
-  const Frame before = renderer.render(0, 0, kStart);
+  const Frame before = testing::frame_at(renderer, kStart);
   View view;
   view.width_px = 900;
   view.height_px = 700;
   (void)renderer.picture(view);
-  expect_same(before, renderer.render(0, 0, kStart));
+  expect_same(before, testing::frame_at(renderer, kStart));
 }
 
 }  // namespace

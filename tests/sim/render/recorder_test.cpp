@@ -97,18 +97,28 @@ class RecordTest : public ::testing::Test {
   std::vector<StampedPose> poses = poses_along(corner());
 
   std::map<int, Frame> frames(int jobs, std::vector<int>* progress = nullptr) {
-    std::map<int, Frame> result;
+    std::map<int, Frame> result, depth;
     std::mutex mutex;
-    record(
-        world, poses, {jobs, false},
-        [&](const Frame& frame) {
-          const std::scoped_lock lock(mutex);
-          EXPECT_TRUE(result.emplace(frame.index, frame).second);
-        },
-        [&](int done, int total) {
-          EXPECT_EQ(total, static_cast<int>(poses.size()));
-          if (progress) progress->push_back(done);
-        });
+    const auto add_color = [&](const Frame& frame) {
+      const std::scoped_lock lock(mutex);
+      EXPECT_TRUE(result.emplace(frame.index, frame).second);
+    };
+    const auto add_depth = [&](const Frame& frame) {
+      const std::scoped_lock lock(mutex);
+      EXPECT_TRUE(depth.emplace(frame.depth_index, frame).second);
+    };
+    record(world, {poses, poses}, {jobs, false}, {add_color, add_depth}, [&](int done, int total) {
+      EXPECT_EQ(total, 2 * static_cast<int>(poses.size()));
+      if (progress) progress->push_back(done);
+    });
+    EXPECT_EQ(result.size(), depth.size());
+    for (auto& [index, frame] : result) {
+      const Frame& other = depth.at(index);
+      EXPECT_EQ(frame.stamp_s, other.stamp_s);
+      EXPECT_TRUE(frame.T_world_base.matrix() == other.T_world_base.matrix());
+      frame.depth = other.depth;
+      frame.depth_label = other.depth_label;
+    }
     return result;
   }
 };
@@ -127,7 +137,7 @@ TEST_F(RecordTest, GivesTheSameFramesForAnyNumberOfJobs) {
     EXPECT_EQ(cv::norm(frame.depth_label, three.at(index).depth_label, cv::NORM_L1), 0);
   }
   for (std::size_t i = 0; i < progress.size(); ++i) EXPECT_EQ(progress[i], static_cast<int>(i) + 1);
-  EXPECT_EQ(progress.size(), poses.size());
+  EXPECT_EQ(progress.size(), 2 * poses.size());
 }
 
 TEST_F(RecordTest, RethrowsTheFirstExceptionAndStops) {
@@ -136,9 +146,9 @@ TEST_F(RecordTest, RethrowsTheFirstExceptionAndStops) {
     ++calls;
     throw Error("disk full");
   };
-  EXPECT_THROW(record(world, poses, {2, false}, sink), Error);
+  EXPECT_THROW(record(world, {poses, poses}, {2, false}, {sink, sink}), Error);
   EXPECT_LE(calls, 2);
-  EXPECT_THROW(record(world, poses, {0, false}, sink), Error);
+  EXPECT_THROW(record(world, {poses, poses}, {0, false}, {sink, sink}), Error);
 }
 
 TEST_F(RecordTest, TakesNoPoses) {

@@ -19,6 +19,17 @@ inline World shapes_room() {
   return World::load({data_file("shapes_room.xml"), std::nullopt, data_file("robot.xml")}, {});
 }
 
+/// Both cameras, each at an instant of its own.
+inline Frame frame_at(Renderer& renderer, const StampedPose& color, const StampedPose& depth) {
+  Frame frame;
+  renderer.render_color(color, frame);
+  renderer.render_depth(depth, frame);
+  return frame;
+}
+inline Frame frame_at(Renderer& renderer, const Pose& T_world_base) {
+  return frame_at(renderer, {0.0, T_world_base}, {0.0, T_world_base});
+}
+
 /// Pixels (channels of pixels, for colours) that differ.
 inline int different_pixels(const cv::Mat& a, const cv::Mat& b) {
   cv::Mat difference;

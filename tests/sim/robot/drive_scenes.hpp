@@ -7,10 +7,13 @@
 #include "sim/world/world.hpp"
 #include "tests/sim/world/scene_files.hpp"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 namespace mapscore::sim::testing {
+
+inline constexpr double kDegree = M_PI / 180.0;
 
 inline std::filesystem::path robot_file() {
   return std::filesystem::path(MAPSCORE_SOURCE_DIR) / "scenes" / "robot.xml";

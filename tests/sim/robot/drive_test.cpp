@@ -13,13 +13,6 @@
 namespace mapscore::sim::testing {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
-
-PlanarState planar(const Pose& pose) {
-  return {pose.translation().x(), pose.translation().y(),
-          std::atan2(pose.linear()(1, 0), pose.linear()(0, 0))};
-}
-
 void expect_healthy(const DriveLog& log) {
   EXPECT_GT(log.health.deepest_wheel_m, 0.0);
   EXPECT_LT(log.health.deepest_wheel_m, 0.002);
@@ -44,7 +37,7 @@ TEST(Drive, AStraightMetre) {
   EXPECT_NEAR(log.distance_m, 1.0, 0.01);
   // 0.4 m/s with 0.5 m/s^2 up and 0.4 down: 2.5 s + ramps; rest at the end
   EXPECT_NEAR(log.end_s, 3.6, 0.4);
-  const PlanarState odom = planar(log.samples.back().T_odom_base);
+  const PlanarPose odom = planar(log.samples.back().T_odom_base);
   EXPECT_NEAR(odom.x_m, planar(log.samples.back().T_world_base).x_m, 0.005);
   EXPECT_NE(odom.x_m, planar(log.samples.back().T_world_base).x_m);
 }
@@ -70,7 +63,7 @@ TEST(Drive, ASquareComesBackAndOdometryAlmost) {
   expect_healthy(log);
   expect_arrivals(log, 5);
   EXPECT_NEAR(log.distance_m, 4.0, 0.05);
-  const PlanarState odom = planar(log.samples.back().T_odom_base);
+  const PlanarPose odom = planar(log.samples.back().T_odom_base);
   const double drift_m = std::hypot(odom.x_m, odom.y_m);
   EXPECT_GT(drift_m, 0.002);
   EXPECT_LT(drift_m, 0.2);

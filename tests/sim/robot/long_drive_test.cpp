@@ -15,8 +15,6 @@
 namespace mapscore::sim::testing {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
-
 using Places = std::vector<std::array<double, 3>>;  ///< x_m, y_m, yaw_deg
 
 /// A scene and a drive of more than 30 m in it.

@@ -16,7 +16,7 @@ namespace {
 constexpr double kStepS = 0.02;
 
 /// A robot that does as it is told.
-void move(const VelocityCommand& command, PlanarState& robot) {
+void move(const VelocityCommand& command, PlanarPose& robot) {
   robot.yaw_rad += command.omega_radps * kStepS;
   robot.x_m += command.v_mps * std::cos(robot.yaw_rad) * kStepS;
   robot.y_m += command.v_mps * std::sin(robot.yaw_rad) * kStepS;
@@ -27,7 +27,7 @@ TEST(WaypointController, KeepsItsLimitsAndReachesItsWaypoints) {
   const std::vector<Drive::Waypoint> waypoints = {
       {0, 0, 0}, {1, 1, -3.0}, {1, 1, 1.0}, {-1, 0.5, 2}};
   WaypointController controller(waypoints, params);
-  PlanarState robot;
+  PlanarPose robot;
   VelocityCommand last;
   int steps = 0;
   while (!controller.done()) {
@@ -51,7 +51,7 @@ TEST(WaypointController, KeepsItsLimitsAndReachesItsWaypoints) {
 
 TEST(WaypointController, SteersBackToTheLegWhenPushedOff) {
   WaypointController controller({{0, 0, 0}, {4, 0, 0}}, {});
-  PlanarState robot;
+  PlanarPose robot;
   double offset_m = 0.0;
   for (int step = 0; robot.x_m < 3.0; ++step) {
     ASSERT_LT(step, 2000);
@@ -64,7 +64,7 @@ TEST(WaypointController, SteersBackToTheLegWhenPushedOff) {
 
 TEST(WaypointController, SetsOutAnewWhenFarOffAtTheEnd) {
   WaypointController controller({{0, 0, 0}, {1, 0, 0}}, {});
-  PlanarState robot;
+  PlanarPose robot;
   bool pushed = false;
   for (int step = 0; !controller.done(); ++step) {
     ASSERT_LT(step, 5000);

@@ -15,21 +15,11 @@ namespace {
 
 using testing::data_file;
 using ::testing::HasSubstr;
+using testing::kBox;
 using testing::load_text;
+using testing::message_of;
 using testing::mjcf;
 using testing::SceneFolder;
-
-template <typename Call>
-std::string message_of(Call call) {
-  try {
-    (void)call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
-const char* const kBox = "<body name='box_1'><geom type='box' size='.1 .2 .3'/></body>";
 
 TEST(WorldCalibration, RigStandsAndLooksAsTheOverridesSay) {
   const auto load = [](const CameraOverrides& cameras) {

@@ -20,7 +20,7 @@ std::vector<ClassRule> read(const std::string& text) {
   return read_class_file(folder.write("room.classes.yaml", text));
 }
 
-std::string refusal(const std::string& text) {
+std::string class_refusal(const std::string& text) {
   try {
     (void)read(text);
   } catch (const Error& error) {
@@ -67,22 +67,24 @@ TEST(ClassFile, WorldIsMatchedByItsOwnNameOnly) {
 
 TEST(ClassFile, RefusesWithFileLineAndKey) {
   EXPECT_THAT(
-      refusal("classes:\n  - {name: cup}\n  - {name: tv, color: \"FF0000\"}\n"),
+      class_refusal("classes:\n  - {name: cup}\n  - {name: tv, color: \"FF0000\"}\n"),
       HasSubstr(
           "room.classes.yaml:3: classes[1].color: unknown key 'color'; did you mean 'colour'?"));
-  EXPECT_THAT(refusal("classes:\n  - {name: cup, colour: red}\n"),
+  EXPECT_THAT(class_refusal("classes:\n  - {name: cup, colour: red}\n"),
               HasSubstr("room.classes.yaml:2: classes[0].colour: is red; write six hexadecimal"));
-  EXPECT_THAT(refusal("classes:\n  - {name: cup, detect: 3}\n"),
+  EXPECT_THAT(class_refusal("classes:\n  - {name: cup, detect: 3}\n"),
               HasSubstr("[0].detect: is 3; write true or false"));
-  EXPECT_THAT(refusal("classes:\n  - {name: cup}\n  - {name: cup}\n"), HasSubstr("twice"));
-  EXPECT_THAT(refusal("classes:\n  - {name: cup, bodies: [a]}\n  - {name: tv, bodies: [a]}\n"),
-              HasSubstr("room.classes.yaml:3: classes[1].bodies: pattern `a` stands twice"));
-  EXPECT_THAT(refusal("classes:\n  - {name: background}\n"), HasSubstr("background"));
-  EXPECT_THAT(refusal("classes:\n  - {bodies: [a]}\n"), HasSubstr("classes[0]: 'name' is missing"));
-  EXPECT_THAT(refusal("classes:\n  - {name: cup, name: mug}\n"),
+  EXPECT_THAT(class_refusal("classes:\n  - {name: cup}\n  - {name: cup}\n"), HasSubstr("twice"));
+  EXPECT_THAT(
+      class_refusal("classes:\n  - {name: cup, bodies: [a]}\n  - {name: tv, bodies: [a]}\n"),
+      HasSubstr("room.classes.yaml:3: classes[1].bodies: pattern `a` stands twice"));
+  EXPECT_THAT(class_refusal("classes:\n  - {name: background}\n"), HasSubstr("background"));
+  EXPECT_THAT(class_refusal("classes:\n  - {bodies: [a]}\n"),
+              HasSubstr("classes[0]: 'name' is missing"));
+  EXPECT_THAT(class_refusal("classes:\n  - {name: cup, name: mug}\n"),
               HasSubstr("room.classes.yaml:2: classes[0].name: key 'name' stands twice"));
-  EXPECT_THAT(refusal("classes: 3\n"), HasSubstr("classes: is 3; write a list"));
-  EXPECT_THAT(refusal("classes: [\n"), HasSubstr("not YAML"));
+  EXPECT_THAT(class_refusal("classes: 3\n"), HasSubstr("classes: is 3; write a list"));
+  EXPECT_THAT(class_refusal("classes: [\n"), HasSubstr("not YAML"));
   EXPECT_THROW((void)read_class_file("/nowhere/x.yaml"), Error);
 }
 
@@ -106,7 +108,7 @@ TEST(ClassFile, APatternThatMatchesNoBodyIsRefused) {
 }
 
 TEST(ClassFile, ErrorsAreOneLine) {
-  EXPECT_EQ(refusal("classes: [\n").find('\n'), std::string::npos);
+  EXPECT_EQ(class_refusal("classes: [\n").find('\n'), std::string::npos);
 }
 
 TEST(ClassNames, EndAtTheLastNumber) {

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include "sim/world/costly_scene.hpp"
+
 #include "core/error.hpp"
 #include "scene_files.hpp"
 #include "sim/inventory/scene_inventory.hpp"
-#include "sim/world/mjcf_cost.hpp"
-#include "sim/world/trial_process.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,10 +24,10 @@ using testing::mjcf;
 using ::testing::Not;
 using testing::SceneFolder;
 
-const std::string kBox = R"(<body name="box_1"><geom type="box" size="1 1 1"/></body>)";
+const std::string kLargeBox = R"(<body name="box_1"><geom type="box" size="1 1 1"/></body>)";
 
 /// What refuses the scene, in the words of the one who waits for it; empty when nothing does.
-std::string refusal(const std::string& scene) {
+std::string scene_refusal(const std::string& scene) {
   const SceneFolder folder;
   try {
     (void)take_inventory(folder.write("scene.xml", scene));
@@ -44,7 +44,7 @@ std::string height_field(const std::string& rows, const std::string& columns) {
 }
 
 std::string with_assets(const std::string& assets) {
-  return mjcf(kBox, "<asset>" + assets + "</asset>");
+  return mjcf(kLargeBox, "<asset>" + assets + "</asset>");
 }
 
 std::string made_mesh(const std::string& attributes) {
@@ -68,7 +68,7 @@ std::string png_header(std::uint32_t width_px, std::uint32_t height_px) {
 class CostlyScene : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(CostlyScene, IsRefusedInOneLineThatNamesIt) {
-  const std::string reason = refusal(GetParam());
+  const std::string reason = scene_refusal(GetParam());
   EXPECT_THAT(reason, HasSubstr("scene.xml: "));
   EXPECT_THAT(reason, Not(HasSubstr("\n")));
 }
@@ -86,8 +86,9 @@ INSTANTIATE_TEST_SUITE_P(
         made_mesh(R"(builtin="wedge" params="100000 100000 1 1 0")"),
         made_mesh(R"(builtin="cone" params="2000000000 1")"),
         mjcf(R"(<flexcomp name="f" type="grid" count="9000 9000 9000" spacing="1 1 1" dim="3"/>)"),
-        mjcf(kBox, R"(<size memory="10T"/>)"), mjcf(kBox, R"(<size nuserdata="2000000000"/>)"),
-        mjcf(kBox + R"(<attach model="m" body="box_1" prefix="p"/>)",
+        mjcf(kLargeBox, R"(<size memory="10T"/>)"),
+        mjcf(kLargeBox, R"(<size nuserdata="2000000000"/>)"),
+        mjcf(kLargeBox + R"(<attach model="m" body="box_1" prefix="p"/>)",
              R"(<asset><model name="m" file="scene.xml"/></asset>)")));
 
 TEST(CostlySceneTest, PipesAndDevicesAreRefusedBeforeTheyAreOpened) {
@@ -103,21 +104,21 @@ TEST(CostlySceneTest, PipesAndDevicesAreRefusedBeforeTheyAreOpened) {
 }
 
 TEST(CostlySceneTest, SlicesAreBounded) {
-  const std::string scene = mjcf(kBox, R"(<visual><quality numslices="100000"/></visual>)");
+  const std::string scene = mjcf(kLargeBox, R"(<visual><quality numslices="100000"/></visual>)");
   EXPECT_THROW((void)testing::load_text(scene), Error);
 }
 
 TEST(CostlySceneTest, SmallOnesAreTriedAndTaken) {
   for (const std::string& scene :
        {height_field("8", "8"), made_mesh(R"(builtin="sphere" params="2")"),
-        mjcf(R"(<replicate count="3" offset="3 0 0">)" + kBox + "</replicate>")}) {
+        mjcf(R"(<replicate count="3" offset="3 0 0">)" + kLargeBox + "</replicate>")}) {
     EXPECT_TRUE(costly(scene)) << scene;
-    EXPECT_EQ(refusal(scene), "") << scene;
+    EXPECT_EQ(scene_refusal(scene), "") << scene;
   }
 }
 
 TEST(CostlySceneTest, MujocosOwnReasonComesThrough) {
-  EXPECT_THAT(refusal(mjcf(R"(<replicate count="2"><geom size="-1"/></replicate>)")),
+  EXPECT_THAT(scene_refusal(mjcf(R"(<replicate count="2"><geom size="-1"/></replicate>)")),
               HasSubstr("MuJoCo refuses it: "));
 }
 
@@ -133,7 +134,7 @@ TEST(MjcfCost, TheHomesOfThisProjectNeedNoTrial) {
 }
 
 TEST(MjcfCost, KnowsPlainTextAndSmallAssets) {
-  EXPECT_FALSE(costly(mjcf(kBox)));
+  EXPECT_FALSE(costly(mjcf(kLargeBox)));
   EXPECT_FALSE(costly("<?xml version='1.0'?><!-- <replicate> --><mujoco model = 'a > b'/>"));
   EXPECT_FALSE(costly(
       with_assets(R"(<texture name="t" type="2d" builtin="flat" width="512" height="512"/>)")));

@@ -4,7 +4,7 @@
 #include "sim/world/motion.hpp"
 
 #include "core/error.hpp"
-#include "sim/world/moving_scene.hpp"
+#include "sim/world/world.hpp"
 #include "tests/sim/world/scene_files.hpp"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "core/error.hpp"
 #include "sim/world/world.hpp"
 
 #include <unistd.h>
@@ -46,6 +47,8 @@ inline std::string mjcf(const std::string& world, const std::string& head = "") 
   return "<mujoco model=\"test\">" + head + "<worldbody>" + world + "</worldbody></mujoco>";
 }
 
+inline constexpr const char* kBox = "<body name='box_1'><geom type='box' size='.1 .2 .3'/></body>";
+
 /// Loads a scene given as text, with the test robot; without class text the bodies' names decide.
 inline World load_text(const std::string& scene,
                        const std::optional<std::string>& classes = std::nullopt,
@@ -54,6 +57,17 @@ inline World load_text(const std::string& scene,
   WorldFiles files{folder.write("scene.xml", scene), std::nullopt, data_file("robot.xml")};
   if (classes) files.classes = folder.write("classes.yaml", *classes);
   return World::load(files, cameras);
+}
+
+/// What a call throws as an Error.
+template <typename Call>
+std::string message_of(Call call) {
+  try {
+    (void)call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
 }
 
 }  // namespace mapscore::sim::testing

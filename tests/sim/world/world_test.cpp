@@ -18,19 +18,11 @@ namespace {
 using testing::data_file;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::kBox;
 using testing::load_text;
+using testing::message_of;
 using testing::mjcf;
 using testing::SceneFolder;
-
-template <typename Call>
-std::string message_of(Call call) {
-  try {
-    (void)call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 std::vector<std::string> instance_names(const World& world) {
   std::vector<std::string> names;
@@ -48,8 +40,6 @@ const Shape& only_shape(const World& world) {
   EXPECT_EQ(world.shapes().size(), 1u);
   return world.shapes().at(0);
 }
-
-const char* const kBox = "<body name='box_1'><geom type='box' size='.1 .2 .3'/></body>";
 
 TEST(WorldFilesTest, RefusesWhatIsMissingOrBrokenOnOneLine) {
   const SceneFolder folder;

@@ -33,9 +33,9 @@ struct Plate {
 constexpr double kWall_m = 3.0;
 
 /// Plates before a wall, perhaps on a floor, seen by two cameras side by side.
-class Scene {
+class PlateScene {
  public:
-  explicit Scene(std::vector<Plate> plates, double floor_y_m = 1e9, double wall_m = kWall_m)
+  explicit PlateScene(std::vector<Plate> plates, double floor_y_m = 1e9, double wall_m = kWall_m)
       : plates_(std::move(plates)), floor_y_m_(floor_y_m), wall_m_(wall_m) {
     truth_.color = CameraModel::from_hfov(320, 240, 60 * std::numbers::pi / 180);
     truth_.depth = CameraModel::from_hfov(320, 240, 58.4 * std::numbers::pi / 180);
@@ -103,8 +103,8 @@ class Scene {
 };
 
 /// One plate off the middle, and a thin one beside it.
-Scene plain_scene() {
-  return Scene({{-0.35, 0.15, -0.3, 0.25, 1.5, 1}, {0.4, 0.45, -0.4, 0.3, 1.8, 2}});
+PlateScene plain_scene() {
+  return PlateScene({{-0.35, 0.15, -0.3, 0.25, 1.5, 1}, {0.4, 0.45, -0.4, 0.3, 1.8, 2}});
 }
 
 struct Agreement {
@@ -127,7 +127,7 @@ Agreement agreement(const cv::Mat1w& labels, const std::vector<Detection>& detec
   return {right / std::max(predicted, 1.0), right / std::max(wanted, 1.0)};
 }
 
-void expect_recovered(const Scene& scene, const Calibration& believed,
+void expect_recovered(const PlateScene& scene, const Calibration& believed,
                       const std::vector<Detection>& detections) {
   const cv::Mat1w labels = label_depth(detections, scene.depth(), believed, {});
   const Agreement found = agreement(labels, detections, scene.depth_label());
@@ -146,7 +146,7 @@ void PrintTo(const Error6& error, std::ostream* out) {
 class EdgeAlignedErrors : public ::testing::TestWithParam<Error6> {};
 
 TEST_P(EdgeAlignedErrors, AreUndone) {
-  const Scene scene = plain_scene();
+  const PlateScene scene = plain_scene();
   const Error6 error = GetParam();
   const Calibration believed =
       scene.misregistered(error.shift_m, error.turn_deg * std::numbers::pi / 180);
@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(
 class EdgeAlignedBoundaries : public ::testing::TestWithParam<int> {};
 
 TEST_P(EdgeAlignedBoundaries, GoBackToTheEdges) {
-  const Scene scene({{-0.35, 0.15, -0.3, 0.25, 1.5, 1}});
+  const PlateScene scene({{-0.35, 0.15, -0.3, 0.25, 1.5, 1}});
   cv::Mat1w label = scene.label();
   const int px = GetParam();
   const cv::Mat disc =
@@ -177,10 +177,10 @@ INSTANTIATE_TEST_SUITE_P(EdgeAligned, EdgeAlignedBoundaries, ::testing::Values(-
 
 /// Four bars about a hole through which the wall is seen.
 TEST(EdgeAligned, HoleAtTheCentreStaysOpen) {
-  const Scene scene({{-0.3, -0.15, -0.3, 0.3, 1.5, 1},
-                     {0.15, 0.3, -0.3, 0.3, 1.5, 1},
-                     {-0.15, 0.15, -0.3, -0.15, 1.5, 1},
-                     {-0.15, 0.15, 0.15, 0.3, 1.5, 1}});
+  const PlateScene scene({{-0.3, -0.15, -0.3, 0.3, 1.5, 1},
+                          {0.15, 0.3, -0.3, 0.3, 1.5, 1},
+                          {-0.15, 0.15, -0.3, -0.15, 1.5, 1},
+                          {-0.15, 0.15, 0.15, 0.3, 1.5, 1}});
   ASSERT_EQ(scene.depth_label()(120, 160), 0);
   expect_recovered(scene, scene.misregistered({0.03, 0, 0}, {0, 0, 0}), scene.detections());
 }
@@ -188,7 +188,8 @@ TEST(EdgeAligned, HoleAtTheCentreStaysOpen) {
 /// The floor recedes by more than one part in fifty from row to row: it is no reason to think that
 /// the colour camera does not see it.
 TEST(EdgeAligned, GrazingFloorDoesNotHideItself) {
-  const Scene scene({{-0.3, -0.1, 0.1, 0.35, 4.0, 1}, {0.0, 0.2, 0.05, 0.35, 4.0, 2}}, 0.35, 6.0);
+  const PlateScene scene({{-0.3, -0.1, 0.1, 0.35, 4.0, 1}, {0.0, 0.2, 0.05, 0.35, 4.0, 2}}, 0.35,
+                         6.0);
   const std::vector<Detection> detections = scene.detections();
   const cv::Mat1w labels = label_depth(detections, scene.depth(), scene.truth(), {});
   const Agreement found = agreement(labels, detections, scene.depth_label());
@@ -199,7 +200,7 @@ TEST(EdgeAligned, GrazingFloorDoesNotHideItself) {
 /// A screen let into the wall, without a step; a post stands before its right end for the colour
 /// camera alone.
 TEST(EdgeAligned, WhatIsHiddenIsNotGuessedFarAcrossASurface) {
-  const Scene scene({{-0.8, 0.3, -0.6, 0.5, kWall_m - 1e-6, 1}, {0.08, 0.5, -2, 2, 0.65, 0}});
+  const PlateScene scene({{-0.8, 0.3, -0.6, 0.5, kWall_m - 1e-6, 1}, {0.08, 0.5, -2, 2, 0.65, 0}});
   const std::vector<Detection> detections = scene.detections();
   const cv::Mat1w labels = label_depth(detections, scene.depth(), scene.truth(), {});
   const Agreement found = agreement(labels, detections, scene.depth_label());
@@ -210,50 +211,50 @@ TEST(EdgeAligned, WhatIsHiddenIsNotGuessedFarAcrossASurface) {
 /// Wider than the parallax of anything in range, an object without steps cannot be out of the depth
 /// camera's sight; a narrow one can.
 TEST(EdgeAligned, FlushObjectsAreKeptIfTheyAreWide) {
-  const Scene wide({{-0.5, 0.5, -0.5, 0.5, kWall_m - 1e-6, 1}});
+  const PlateScene wide({{-0.5, 0.5, -0.5, 0.5, kWall_m - 1e-6, 1}});
   const cv::Mat1w kept = label_depth(wide.detections(), wide.depth(), wide.truth(), {});
   EXPECT_GE(agreement(kept, wide.detections(), wide.depth_label()).recall, 0.85);
-  const Scene narrow({{-0.05, 0.05, -0.5, 0.5, kWall_m - 1e-6, 1}});
+  const PlateScene narrow({{-0.05, 0.05, -0.5, 0.5, kWall_m - 1e-6, 1}});
   const cv::Mat1w dropped = label_depth(narrow.detections(), narrow.depth(), narrow.truth(), {});
   EXPECT_EQ(cv::countNonZero(dropped), 0);
 }
 
 /// Bars of 2 pixels.
 TEST(EdgeAligned, ThinPartsStay) {
-  const Scene scene({{-0.3, -0.286, -0.3, 0.3, 1.8, 1},
-                     {-0.1, -0.086, -0.3, 0.3, 1.8, 2},
-                     {0.1, 0.4, -0.3, 0.3, 1.8, 3}});
+  const PlateScene scene({{-0.3, -0.286, -0.3, 0.3, 1.8, 1},
+                          {-0.1, -0.086, -0.3, 0.3, 1.8, 2},
+                          {0.1, 0.4, -0.3, 0.3, 1.8, 3}});
   expect_recovered(scene, scene.truth(), scene.detections());
 }
 
 /// Slats with slits that the grown masks have filled.
 TEST(EdgeAligned, SlitsThatMasksFilledOpenAgain) {
-  const Scene scene({{-0.3, 0.3, -0.3, -0.1, 1.5, 1},
-                     {-0.3, 0.3, -0.078, 0.05, 1.5, 1},
-                     {-0.3, 0.3, 0.072, 0.3, 1.5, 1}});
+  const PlateScene scene({{-0.3, 0.3, -0.3, -0.1, 1.5, 1},
+                          {-0.3, 0.3, -0.078, 0.05, 1.5, 1},
+                          {-0.3, 0.3, 0.072, 0.3, 1.5, 1}});
   cv::Mat1w label = scene.label();
   cv::dilate(label, label, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
   expect_recovered(scene, scene.truth(), scene.detections(label));
 }
 
 TEST(EdgeAligned, TouchingInstancesKeepTheirOwn) {
-  const Scene scene({{-0.4, 0.0, -0.3, 0.3, 1.5, 1}, {0.0, 0.4, -0.2, 0.35, 1.4, 2}});
+  const PlateScene scene({{-0.4, 0.0, -0.3, 0.3, 1.5, 1}, {0.0, 0.4, -0.2, 0.35, 1.4, 2}});
   expect_recovered(scene, scene.misregistered({0, 0.02, 0}, {0, 0, 0}), scene.detections());
 }
 
 TEST(EdgeAligned, MaskAtTheImagesEdge) {
-  const Scene scene({{-2.0, -0.2, -0.3, 2.0, 1.5, 1}});
+  const PlateScene scene({{-2.0, -0.2, -0.3, 2.0, 1.5, 1}});
   expect_recovered(scene, scene.misregistered({0.02, 0, 0}, {0, 0, 0}), scene.detections());
 }
 
 TEST(EdgeAligned, WholeImageIsOneObject) {
-  const Scene scene({{-5, 5, -5, 5, 1.5, 1}});
+  const PlateScene scene({{-5, 5, -5, 5, 1.5, 1}});
   const cv::Mat1w labels = label_depth(scene.detections(), scene.depth(), scene.truth(), {});
   EXPECT_EQ(cv::countNonZero(labels), 320 * 240);
 }
 
 TEST(EdgeAligned, NothingToSegment) {
-  const Scene scene = plain_scene();
+  const PlateScene scene = plain_scene();
   EXPECT_EQ(cv::countNonZero(label_depth({}, scene.depth(), scene.truth(), {})), 0);
   const cv::Mat1w no_depth(240, 320, std::uint16_t{0});
   const std::vector<Segment> segments =
@@ -266,7 +267,7 @@ TEST(EdgeAligned, NothingToSegment) {
 }
 
 TEST(EdgeAligned, SegmentsHoldPointsBoxAndVoxelsInTheirOrder) {
-  const Scene scene = plain_scene();
+  const PlateScene scene = plain_scene();
   const std::vector<Segment> segments =
       segment(Sight(scene.truth(), scene.depth(), scene.detections()), EdgeAligned{}, 0.05, true);
   ASSERT_EQ(segments.size(), 2U);
@@ -279,7 +280,7 @@ TEST(EdgeAligned, SegmentsHoldPointsBoxAndVoxelsInTheirOrder) {
 }
 
 TEST(EdgeAligned, SameInputSameLabels) {
-  const Scene scene = plain_scene();
+  const PlateScene scene = plain_scene();
   const Calibration believed = scene.misregistered({0.02, 0.01, 0}, {0.01, 0, 0});
   const cv::Mat1w first = label_depth(scene.detections(), scene.depth(), believed, {});
   const cv::Mat1w second = label_depth(scene.detections(), scene.depth(), believed, {});
@@ -287,7 +288,7 @@ TEST(EdgeAligned, SameInputSameLabels) {
 }
 
 TEST(EdgeAligned, RefusesImagesOfAnotherSizeAndBadNumbers) {
-  const Scene scene = plain_scene();
+  const PlateScene scene = plain_scene();
   EXPECT_THROW((void)label_depth({}, cv::Mat1w(10, 10, std::uint16_t{0}), scene.truth(), {}),
                Error);
   EXPECT_THROW((void)label_depth({}, scene.depth(), scene.truth(), {.search_px = -1}), Error);

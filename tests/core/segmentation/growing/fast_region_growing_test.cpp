@@ -4,32 +4,26 @@
 #include "core/geometry/camera.hpp"
 #include "core/random_stream.hpp"
 #include "core/segmentation/growing/region_growing.hpp"
+#include "tests/core/not_finite.hpp"
+#include "tests/core/points.hpp"
+#include "tests/core/segmentation/growing/growing_variant.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace mapscore {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
+using testing::GrowingVariant;
+using testing::kInf;
+using testing::kNan;
+using testing::Points;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct Variant {
-  double factor;
-  bool released;
-};
-void PrintTo(const Variant& variant, std::ostream* out) {
-  *out << "factor " << variant.factor << (variant.released ? ", as released" : "");
-}
-
-class FastRegionGrowing : public ::testing::TestWithParam<Variant> {};
+class FastRegionGrowing : public ::testing::TestWithParam<GrowingVariant> {};
 
 /// A bumpy sheet, a second one behind it, and stray points.
-Points random_cloud(RandomStream& stream, int count) {
+Points narrow_cloud(RandomStream& stream, int count) {
   Points points;
   for (int n = 0; n < count; ++n) {
     const double sheet = stream.uniform() < 0.6 ? 1.0 : 1.35;
@@ -46,11 +40,11 @@ TEST_P(FastRegionGrowing, EqualsThePlainFormOnThousandsOfClouds) {
   const auto [factor, released] = GetParam();
   for (std::uint64_t round = 0; round < 2600; ++round) {
     RandomStream stream(23, "thousands of clouds", {round});
-    Points points = random_cloud(stream, 1 + static_cast<int>(round % 40));
+    Points points = narrow_cloud(stream, 1 + static_cast<int>(round % 40));
     const double pitch = 0.03 + 0.1 * stream.uniform();
     const double far = round % 5 == 0 ? 1e3 : 0.0;
     for (Eigen::Vector3d& p : points) p += Eigen::Vector3d(far, -far, far);
-    if (round % 7 == 0) points[points.size() / 2].y() = round % 2 ? kNaN : kInfinity;
+    if (round % 7 == 0) points[points.size() / 2].y() = round % 2 ? kNan : kInf;
     const Eigen::Vector3d seed =
         points.front() + 0.3 * pitch * Eigen::Vector3d(stream.normal(), stream.normal(), 0);
     const Region fast = grow_region(points, seed, pitch, factor, released);
@@ -81,8 +75,8 @@ TEST_P(FastRegionGrowing, EqualsThePlainFormOnAWallThatFillsTheImage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Variants, FastRegionGrowing,
-                         ::testing::Values(Variant{1.0, false}, Variant{0.5, false},
-                                           Variant{1.0, true}, Variant{0.5, true}));
+                         ::testing::Values(GrowingVariant{1.0, false}, GrowingVariant{0.5, false},
+                                           GrowingVariant{1.0, true}, GrowingVariant{0.5, true}));
 
 }  // namespace
 }  // namespace mapscore

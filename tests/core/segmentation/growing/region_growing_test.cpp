@@ -5,22 +5,25 @@
 
 #include "core/error.hpp"
 #include "core/random_stream.hpp"
+#include "tests/core/not_finite.hpp"
+#include "tests/core/points.hpp"
+#include "tests/core/segmentation/growing/growing_variant.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <set>
 
-namespace mapscore {
+// Its suite has the name of the parameters, which it would hide from other tests.
+namespace mapscore::region_growing_test {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using testing::GrowingVariant;
+using testing::kInf;
+using testing::kNan;
+using testing::Points;
 
 template <class Scalar>
 bool reaches(const Eigen::Vector3d& position, const Eigen::Vector3d& p, double radius_m) {
@@ -61,15 +64,7 @@ Region grow_exhaustively(const Points& points, const Eigen::Vector3d& seed, doub
   return region;
 }
 
-struct Variant {
-  double factor;
-  bool released;
-};
-void PrintTo(const Variant& variant, std::ostream* out) {
-  *out << "factor " << variant.factor << (variant.released ? ", as released" : "");
-}
-
-class RegionGrowing : public ::testing::TestWithParam<Variant> {
+class RegionGrowing : public ::testing::TestWithParam<GrowingVariant> {
  protected:
   /// Both forms give `expected`.
   void expect_region(const Points& points, const Eigen::Vector3d& seed, double pitch_m,
@@ -90,7 +85,7 @@ class RegionGrowing : public ::testing::TestWithParam<Variant> {
 };
 
 /// A bumpy sheet, a second one behind it, and stray points.
-Points random_cloud(RandomStream& stream, int count) {
+Points wide_cloud(RandomStream& stream, int count) {
   Points points;
   for (int n = 0; n < count; ++n) {
     const double x = 0.5 * stream.uniform(), y = 0.5 * stream.uniform();
@@ -170,7 +165,7 @@ TEST_P(RegionGrowing, PointsOnPositionsAndHalfwayBetweenThem) {
 TEST_P(RegionGrowing, RandomClouds) {
   for (std::uint64_t round = 0; round < 12; ++round) {
     RandomStream stream(11, "random clouds", {round});
-    const Points points = random_cloud(stream, 150);
+    const Points points = wide_cloud(stream, 150);
     const double pitch = 0.02 + 0.08 * stream.uniform();
     expect_exhaustive(points, points.at(round), pitch);
     expect_exhaustive(points, points.at(round) + Eigen::Vector3d(0.01, 0.02, -0.01), pitch);
@@ -180,7 +175,7 @@ TEST_P(RegionGrowing, RandomClouds) {
 TEST_P(RegionGrowing, SeedFarFromTheOriginOfItsFrame) {
   RandomStream stream(13, "far away");
   for (const double distance_m : {1e3, 1e5}) {
-    Points points = random_cloud(stream, 120);
+    Points points = wide_cloud(stream, 120);
     for (Eigen::Vector3d& p : points) p += Eigen::Vector3d(distance_m, -distance_m, distance_m);
     expect_exhaustive(points, points.front(), 0.05);
   }
@@ -188,7 +183,7 @@ TEST_P(RegionGrowing, SeedFarFromTheOriginOfItsFrame) {
 
 TEST_P(RegionGrowing, StrayPointsTooFarForADenseGrid) {
   RandomStream stream(14, "strays");
-  Points points = random_cloud(stream, 100);
+  Points points = wide_cloud(stream, 100);
   const Eigen::Vector3d seed = points.front();
   points.emplace_back(1e6, 0, 0);
   points.emplace_back(-1e6, 1e6, 1e12);
@@ -205,18 +200,18 @@ TEST_P(RegionGrowing, TinyCloudAtTheOrigin) {
 
 TEST_P(RegionGrowing, PointsThatAreNotFiniteAreIgnored) {
   RandomStream stream(17, "not finite");
-  Points points = random_cloud(stream, 80);
+  Points points = wide_cloud(stream, 80);
   const Eigen::Vector3d seed = points.front();
   for (std::size_t n = 3; n < points.size(); n += 7)
-    points[n][static_cast<int>(n % 3)] = n % 2 ? kNaN : (n % 4 ? kInfinity : -kInfinity);
+    points[n][static_cast<int>(n % 3)] = n % 2 ? kNan : (n % 4 ? kInf : -kInf);
   expect_exhaustive(points, seed, 0.05);
-  expect_region({{kNaN, kNaN, kNaN}, {kInfinity, 0, 0}}, {0, 0, 0}, 0.05, {});
+  expect_region({{kNan, kNan, kNan}, {kInf, 0, 0}}, {0, 0, 0}, 0.05, {});
 }
 
 TEST_P(RegionGrowing, ResultDoesNotDependOnTheOrderOfThePoints) {
   const auto [factor, released] = GetParam();
   RandomStream stream(19, "order");
-  Points points = random_cloud(stream, 150);
+  Points points = wide_cloud(stream, 150);
   const Eigen::Vector3d seed = points.front();
   const Region forwards = grow_region(points, seed, 0.05, factor, released);
   std::reverse(points.begin(), points.end());
@@ -226,10 +221,10 @@ TEST_P(RegionGrowing, ResultDoesNotDependOnTheOrderOfThePoints) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Variants, RegionGrowing,
-                         ::testing::Values(Variant{1.0, false}, Variant{0.5, false},
-                                           Variant{1.0, true}, Variant{0.5, true},
-                                           Variant{0.3, false}, Variant{0.75, true},
-                                           Variant{1.7, false}, Variant{2.5, true}));
+                         ::testing::Values(GrowingVariant{1.0, false}, GrowingVariant{0.5, false},
+                                           GrowingVariant{1.0, true}, GrowingVariant{0.5, true},
+                                           GrowingVariant{0.3, false}, GrowingVariant{0.75, true},
+                                           GrowingVariant{1.7, false}, GrowingVariant{2.5, true}));
 
 /// A row of points 1 m apart on a lattice of 1 m that starts at the first: worked by hand.
 TEST(RegionGrowingByHand, FactorOfAHalfAcceptsThePointsOwnPositions) {
@@ -274,11 +269,11 @@ TEST(RegionGrowingByHand, SinglePrecisionDecidesTheReleasedForm) {
 
 TEST(RegionGrowingByHand, RefusesPitchAndFactorThatAreNotPositive) {
   const Points points{{0, 0, 0}};
-  for (const double bad : {0.0, -1.0, kNaN, kInfinity}) {
+  for (const double bad : {0.0, -1.0, kNan, kInf}) {
     EXPECT_THROW((void)grow_region(points, points[0], bad, 1.0, false), Error);
     EXPECT_THROW((void)grow_region(points, points[0], 0.05, bad, false), Error);
   }
 }
 
 }  // namespace
-}  // namespace mapscore
+}  // namespace mapscore::region_growing_test

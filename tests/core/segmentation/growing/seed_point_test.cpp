@@ -13,12 +13,12 @@ namespace {
 constexpr std::uint16_t kObject = 10000, kBehind = 15000;  // 2 m and 3 m
 
 /// Equal cameras of 21 x 17 pixels that see a wall at 3 m; `label` is what the colour camera sees.
-struct Scene {
+struct MaskedScene {
   Calibration pair;
   cv::Mat1w depth = cv::Mat1w(17, 21, kBehind);
   cv::Mat1w label = cv::Mat1w(17, 21, std::uint16_t{0});
 
-  Scene() { pair.color = pair.depth = CameraModel{21, 17, 400, 400, 10, 8}; }
+  MaskedScene() { pair.color = pair.depth = CameraModel{21, 17, 400, 400, 10, 8}; }
 
   /// Part of the object, and the surface behind it where `value` says so.
   void mark(const cv::Rect& pixels, std::uint16_t value = kObject) {
@@ -50,7 +50,7 @@ struct Scene {
 constexpr SeedRule kRobust[]{SeedRule::largest_piece, SeedRule::depth_mode};
 
 TEST(SeedPoint, RobustRulesSurviveAHoleInTheMiddle) {
-  Scene ring;
+  MaskedScene ring;
   ring.mark({2, 2, 15, 13});
   ring.hole({7, 6, 5, 5});  // the box's middle, (9, 8), lies on the wall
   EXPECT_EQ(ring.grown(SeedRule::box_centre).skipped, SkipReason::seed_off_object);
@@ -62,7 +62,7 @@ TEST(SeedPoint, RobustRulesSurviveAHoleInTheMiddle) {
 
 /// Legs, seat and back of a chair seen from the side: its box's middle lies between the legs.
 TEST(SeedPoint, RobustRulesSurviveACentreOnTheBackground) {
-  Scene chair;
+  MaskedScene chair;
   chair.mark({2, 1, 2, 15});
   chair.mark({2, 6, 13, 2});
   chair.mark({13, 6, 2, 10});
@@ -71,7 +71,7 @@ TEST(SeedPoint, RobustRulesSurviveACentreOnTheBackground) {
 }
 
 TEST(SeedPoint, RobustRulesStartOnTheObjectWhereTheMaskLeaksInTheMiddle) {
-  Scene leak;
+  MaskedScene leak;
   leak.mark({2, 2, 15, 13});
   leak.depth(cv::Rect(8, 7, 3, 3)) = kBehind;  // seen through the object, and inside its mask
   EXPECT_DOUBLE_EQ(leak.seed(SeedRule::box_centre)->z(), 3.0);
@@ -81,7 +81,7 @@ TEST(SeedPoint, RobustRulesStartOnTheObjectWhereTheMaskLeaksInTheMiddle) {
 }
 
 TEST(SeedPoint, LargestPieceTakesThePixelNearestToItsOwnCentroid) {
-  Scene scene;
+  MaskedScene scene;
   scene.mark({2, 2, 5, 5});               // 25 pixels, centre (4, 4)
   scene.mark({7, 2, 4, 5}, 11000);        // 20 pixels, 10 % farther: another piece
   scene.mark({14, 10, 3, 8 - 1}, 10000);  // 21 pixels, not connected in the mask
@@ -89,7 +89,7 @@ TEST(SeedPoint, LargestPieceTakesThePixelNearestToItsOwnCentroid) {
 }
 
 TEST(SeedPoint, PiecesJoinUpToTheStepAndOnlyBySides) {
-  Scene scene;
+  MaskedScene scene;
   scene.mark({2, 2, 3, 3}, 10000);
   scene.mark({5, 2, 3, 3}, 10299);  // not quite 3 % farther: the same piece
   EXPECT_EQ(scene.seed(SeedRule::largest_piece), scene.point(4, 3));  // centroid (4.5, 3)
@@ -104,7 +104,7 @@ TEST(SeedPoint, PiecesJoinUpToTheStepAndOnlyBySides) {
 /// A thick part of 9 x 9 and a thin one of 6 x 2 px: most of the axis' weight is the
 /// former's.
 TEST(SeedPoint, DepthModeTakesTheDeepestPixelOfTheWeightiestDepth) {
-  Scene scene;
+  MaskedScene scene;
   scene.mark({1, 1, 9, 9}, 10000);
   scene.mark({10, 4, 6, 2}, 14000);
   EXPECT_EQ(scene.seed(SeedRule::depth_mode), scene.point(5, 5));
@@ -113,13 +113,13 @@ TEST(SeedPoint, DepthModeTakesTheDeepestPixelOfTheWeightiestDepth) {
 }
 
 TEST(SeedPoint, DepthModeOfAMaskThatFillsTheImageIsItsFirstPixel) {
-  Scene scene;
+  MaskedScene scene;
   scene.mark({0, 0, 21, 17});
   EXPECT_EQ(scene.seed(SeedRule::depth_mode), scene.point(0, 0));
 }
 
 TEST(SeedPoint, OnePixelIsItsOwnSeed) {
-  Scene scene;
+  MaskedScene scene;
   scene.mark({4, 3, 1, 1});
   for (const SeedRule rule : {SeedRule::box_centre, SeedRule::mask_centroid,
                               SeedRule::largest_piece, SeedRule::depth_mode})
@@ -127,7 +127,7 @@ TEST(SeedPoint, OnePixelIsItsOwnSeed) {
 }
 
 TEST(SeedPoint, NoDepthNoSeed) {
-  Scene scene;
+  MaskedScene scene;
   scene.mark({2, 2, 5, 5}, 0);
   for (const SeedRule rule : {SeedRule::box_centre, SeedRule::mask_centroid,
                               SeedRule::largest_piece, SeedRule::depth_mode})

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/random_stream.hpp"
-#include "eval/map_files/clouds/pcd_file.hpp"
-#include "eval/map_files/clouds/ply_file.hpp"
 #include "eval/map_files/lattice_map.hpp"
 #include "eval/map_files/legend.hpp"
+#include "eval/map_files/map_file.hpp"
 #include "eval/map_files/map_transform.hpp"
-#include "eval/map_files/voxel_csv.hpp"
 #include "tests/eval/map_files/cloud_bytes.hpp"
 #include "tests/support/mutations.hpp"
 
@@ -21,7 +19,7 @@ using testing::put;
 using testing::read_mutations;
 
 constexpr int kPoints = 40;
-constexpr std::uint64_t kMutations = 900;
+constexpr std::uint64_t kCloudMutations = 900;
 
 /// Damaged files go the whole way to the lattice: what is read must be usable.
 struct CloudMutation : testing::MapFiles {
@@ -29,7 +27,7 @@ struct CloudMutation : testing::MapFiles {
   void survive(const std::string& name, const std::string& bytes, Read read) {
     const auto path = file(name, bytes);
     EXPECT_GT(read(path, NotFinite::refuse).size(), 0u) << "the undamaged file is read";
-    const auto tally = read_mutations(bytes, kMutations, [&](const std::string& mutated) {
+    const auto tally = read_mutations(bytes, kCloudMutations, [&](const std::string& mutated) {
       std::filesystem::remove(path);  // some file systems wait for the disk on replaced files
       write_file(path, mutated);
       const MapFile map = read(path, NotFinite::skip);
@@ -41,7 +39,7 @@ struct CloudMutation : testing::MapFiles {
       (void)on_lattice(map, labelling.classes, Pose::Identity(), 0.05, Resample::allow);
     });
     EXPECT_GT(tally.refused, 0);
-    EXPECT_EQ(tally.read + tally.refused, static_cast<int>(kMutations));
+    EXPECT_EQ(tally.read + tally.refused, static_cast<int>(kCloudMutations));
   }
 };
 
@@ -156,7 +154,7 @@ TEST_F(CloudMutation, Legends) {
       "names: {Stuhl: &a chair, \"Sofa, gro\\xdf\": *a}\n";
   const auto path = file("legend.yaml", legend);
   EXPECT_EQ(read_legend(path, testing::household()).names.size(), 2u);
-  const auto tally = read_mutations(legend, kMutations, [&](const std::string& mutated) {
+  const auto tally = read_mutations(legend, kCloudMutations, [&](const std::string& mutated) {
     std::filesystem::remove(path);
     write_file(path, mutated);
     (void)read_legend(path, testing::household());
@@ -167,7 +165,7 @@ TEST_F(CloudMutation, Legends) {
 
 TEST_F(CloudMutation, Transforms) {
   const std::string transform = "0 -1 0 1\n1 0 0 2 # second row\n0 0 1 3\n0 0 0 1\n";
-  const auto tally = read_mutations(transform, kMutations, [](const std::string& mutated) {
+  const auto tally = read_mutations(transform, kCloudMutations, [](const std::string& mutated) {
     EXPECT_NEAR(parse_transform(mutated, "T").linear().determinant(), 1.0, 1e-9);
   });
   EXPECT_GT(tally.read, 0);

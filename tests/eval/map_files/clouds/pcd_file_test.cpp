@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/map_files/clouds/pcd_file.hpp"
-
+#include "eval/map_files/map_file.hpp"
 #include "tests/eval/map_files/cloud_bytes.hpp"
 #include "tests/support/expect_error.hpp"
 
@@ -16,9 +15,9 @@ namespace mapscore::eval {
 namespace {
 
 using testing::expect_error;
+using testing::Labels;
+using testing::Points;
 using testing::put;
-using Points = std::vector<Eigen::Vector3d>;
-using Labels = std::vector<std::uint32_t>;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 

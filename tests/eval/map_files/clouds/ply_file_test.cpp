@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/map_files/clouds/ply_file.hpp"
-
+#include "eval/map_files/map_file.hpp"
 #include "eval/truth/truth_file.hpp"
 #include "files/text_rows.hpp"
 #include "tests/eval/map_files/cloud_bytes.hpp"
@@ -14,9 +13,9 @@ namespace mapscore::eval {
 namespace {
 
 using testing::expect_error;
+using testing::Labels;
+using testing::Points;
 using testing::put;
-using Points = std::vector<Eigen::Vector3d>;
-using Labels = std::vector<std::uint32_t>;
 
 struct PlyFile : testing::MapFiles {
   MapFile read(const std::string& bytes, NotFinite not_finite = NotFinite::refuse) {

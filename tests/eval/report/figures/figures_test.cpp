@@ -4,10 +4,7 @@
 #include "eval/report/figures/figures.hpp"
 
 #include "core/error.hpp"
-#include "eval/report/figures/accuracy.hpp"
-#include "eval/report/figures/causes.hpp"
 #include "eval/report/figures/gnuplot.hpp"
-#include "eval/report/figures/threshold.hpp"
 #include "tests/eval/report/figures/figure_files.hpp"
 
 #include <gmock/gmock.h>

@@ -1,13 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/figures/accuracy.hpp"
-#include "eval/report/figures/causes.hpp"
-#include "eval/report/figures/classes.hpp"
 #include "eval/report/figures/figures.hpp"
 #include "eval/report/figures/gnuplot.hpp"
-#include "eval/report/figures/threshold.hpp"
-#include "eval/report/figures/tics.hpp"
 #include "tests/eval/report/figures/figure_files.hpp"
 
 #include <gmock/gmock.h>

@@ -150,7 +150,8 @@ TEST(TrajectoryFigure, DrawsNorthUpInTheColoursOfTheGrid) {
   grid.set({1, 6}, kOccupiedCell);  // west and north
   grid.set({6, 6}, kUnknownCell);
   const std::vector<DrawnTrajectory> one{{"truth", {{0.75, 0.75}, {3.25, 0.75}}, {}}};
-  const auto files = draw_trajectories(grid, one, {"drive", "", "", {}}, folder.path() / "new");
+  const auto files =
+      draw(trajectory_figure(grid, one, {"drive", "", "", {}}), folder.path() / "new");
   ASSERT_EQ(files.size(), 2u);
   EXPECT_EQ(files[0].filename(), "drive.png");
   const cv::Mat3b picture = cv::imread(files[0].string());

@@ -4,7 +4,7 @@
 #include "eval/report/pictures/map_pictures.hpp"
 
 #include "core/error.hpp"
-#include "eval/report/pictures/map_beside_truth.hpp"
+#include "eval/lab/recorded_surfaces.hpp"
 #include "eval/report/pictures/view.hpp"
 #include "eval/study/picture_view.hpp"
 #include "tests/support/plate_recording.hpp"
@@ -231,14 +231,14 @@ TEST(MapBesideTruth, ShowsTruthMapAndErrorsInPlaceWithAScale) {
 
 class DrawErrorPicture : public ::testing::Test {
  protected:
-  DrawErrorPicture() { testing::write_plate_recording(folder / "plate"); }
-  testing::TemporaryFolder temporary;
+  DrawErrorPicture() { mapscore::testing::write_plate_recording(folder / "plate"); }
+  mapscore::testing::TemporaryFolder temporary;
   const fs::path& folder = temporary.path();
 };
 
 TEST_F(DrawErrorPicture, StacksTwoViewsOrDrawsTheChosenOne) {
   const Recording recording = Recording::open(folder / "plate");
-  ScenePainter painter(recording);
+  ScenePainter painter(shapes_of(recording).at(std::nullopt), recording.info().table);
   draw_error_picture(folder / "auto.png", row_of_verdicts(), painter, std::nullopt,
                      depth_camera_poses(recording));
   draw_error_picture(folder / "chosen.png", row_of_verdicts(), painter,
@@ -268,7 +268,8 @@ TEST_F(DrawErrorPicture, TakesTheSurfacesOfARecordingWhereTheSceneIsGone) {
   study.base_folder = folder;
   const sim::View view = view_of_numbers(std::vector<double>{0, 0, 0.15, 1, 0, 0.15});
   const cv::Mat3b by_study = ScenePainter(study, recording).paint(view, {});
-  const cv::Mat3b by_recording = ScenePainter(recording).paint(view, {});
+  ScenePainter surfaces(shapes_of(recording).at(std::nullopt), recording.info().table);
+  const cv::Mat3b by_recording = surfaces.paint(view, {});
   EXPECT_EQ(cv::norm(by_study, by_recording, cv::NORM_INF), 0.0);
   const cv::Vec3b plate = by_study(480, 640), wall = by_study(480, 300);
   EXPECT_GT(plate[2], plate[0] + 5) << "reddish, as its class";

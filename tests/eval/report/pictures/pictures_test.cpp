@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include "eval/report/pictures/pictures.hpp"
+
 #include "core/error.hpp"
 #include "eval/report/pictures/caption.hpp"
 #include "eval/report/pictures/judgement.hpp"
-#include "eval/report/pictures/trial.hpp"
 #include "eval/score/voxel_score.hpp"
 #include "tests/eval/report/synthetic_summary.hpp"
 #include "tests/eval/score/score_cases.hpp"
@@ -75,11 +76,14 @@ TEST(Judgement, HasAsManyVoxelsOfEachKindAsTheScoreCounts) {
     const ClassCounts counts =
         pool_detected(score_voxels(map, 0.3, surface, visible, table.classes.size()), table);
     const auto judged = judge(map, 0.3, surface, visible, table);
-    EXPECT_EQ(count(judged, Verdict::right), counts.true_predicted);
-    EXPECT_EQ(count(judged, Verdict::near), counts.false_near);
-    EXPECT_EQ(count(judged, Verdict::leak), counts.false_leak);
-    EXPECT_EQ(count(judged, Verdict::floating), counts.false_floating);
-    EXPECT_EQ(count(judged, Verdict::missed), counts.visible - counts.found);
+    const auto count = [&](Verdict verdict) {
+      return std::ranges::count(judged, verdict, &JudgedVoxel::verdict);
+    };
+    EXPECT_EQ(count(Verdict::right), counts.true_predicted);
+    EXPECT_EQ(count(Verdict::near), counts.false_near);
+    EXPECT_EQ(count(Verdict::leak), counts.false_leak);
+    EXPECT_EQ(count(Verdict::floating), counts.false_floating);
+    EXPECT_EQ(count(Verdict::missed), counts.visible - counts.found);
     EXPECT_EQ(std::count_if(judged.begin(), judged.end(), [](const auto& v) { return v.covered; }),
               counts.missed_mislabelled);
   }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/pictures/map_beside_truth.hpp"
 #include "eval/report/pictures/view.hpp"
 #include "eval/study/picture_view.hpp"
 

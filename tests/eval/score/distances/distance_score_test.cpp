@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/score/metrics.hpp"
 #include "eval/score/voxel_score.hpp"
+#include "tests/eval/score/sample_sets.hpp"
 #include "tests/eval/score/score_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -15,20 +16,21 @@
 namespace mapscore::eval {
 namespace {
 
+using testing::kCup;
 using testing::kEdge_m;
 using testing::map_of;
 using testing::random_case;
 using testing::RandomCase;
-
-constexpr ClassId kCup = 1;
+using testing::sample_count;
+using testing::sample_set_of;
 
 using Points = std::vector<std::vector<Eigen::Vector3d>>;
 
 TEST(SampleSet, GroupsByVoxelAndKeepsEverySample) {
-  const SampleSet samples(
+  const SampleSet samples = sample_set_of(
       Points{{}, {{0.01, 0.01, 0.01}, {-0.01, 0.02, 0.03}, {0.04, 0.02, 0.0}}, {}}, kEdge_m);
   ASSERT_EQ(samples.class_count(), 3u);
-  EXPECT_EQ(samples.sample_count(1), 3u);
+  EXPECT_EQ(sample_count(samples, 1), 3u);
   EXPECT_TRUE(samples.groups(2).empty());
   ASSERT_EQ(samples.groups(1).size(), 2u);
   EXPECT_EQ(samples.groups(1)[0].key, (VoxelKey{-1, 0, 0}));
@@ -42,8 +44,8 @@ TEST(DistanceScore, ByHandOnOneRow) {
   const MapSnapshot map = map_of({{{0, 0, 0}, kCup}, {{4, 0, 0}, kCup}});
   const auto distance_of = [](const VoxelKey& key, ClassId) { return key.i == 0 ? 0.0 : 0.03; };
   // In the first cube; 1 cm before the second (the limit counts); 7.5 cm from either.
-  const SampleSet samples(Points{{}, {{0.02, 0.02, 0.02}, {0.19, 0.02, 0.02}, {0.125, 0.02, 0.02}}},
-                          kEdge_m);
+  const SampleSet samples = sample_set_of(
+      Points{{}, {{0.02, 0.02, 0.02}, {0.19, 0.02, 0.02}, {0.125, 0.02, 0.02}}}, kEdge_m);
   const ScoreOptions options;
   Counts counts = zero_counts(2, options);
   score_distances(map, 0.5, distance_of, samples, options, counts);
@@ -80,7 +82,7 @@ TEST(DistanceScore, MeasuresFromClosedCubesToExactSurfaces) {
 TEST(DistanceScore, AClassWithoutPredictionReachesNothing) {
   const ScoreOptions options;
   Counts counts = zero_counts(2, options);
-  const SampleSet samples(Points{{}, {{0.02, 0.02, 0.02}}}, kEdge_m);
+  const SampleSet samples = sample_set_of(Points{{}, {{0.02, 0.02, 0.02}}}, kEdge_m);
   score_distances(
       MapSnapshot({}), 0.5, [](const VoxelKey&, ClassId) { return 0.0; }, samples, options, counts);
   const std::vector<Metric> metrics = metrics_of(counts[kCup]);
@@ -88,7 +90,7 @@ TEST(DistanceScore, AClassWithoutPredictionReachesNothing) {
   EXPECT_EQ(value_of(metrics, "recall_10cm"), 0.0);
   EXPECT_EQ(value_of(metrics, "f_10cm"), 0.0);
   EXPECT_EQ(value_of(metrics, "completeness_mean_m"), std::nullopt);
-  EXPECT_EQ(counts[kCup].completeness.unreached(), 1);
+  EXPECT_EQ(counts[kCup].completeness.parts().unreached, 1);
 }
 
 TEST(DistanceScore, GrowingDistanceNeverLowersARatioAndAllLieInZeroToOne) {
@@ -103,8 +105,8 @@ TEST(DistanceScore, GrowingDistanceNeverLowersARatioAndAllLieInZeroToOne) {
     const auto distance_of = [&](const VoxelKey& key, ClassId) { return std::abs(key.i) * 0.013; };
     const ScoreOptions options;
     Counts counts = zero_counts(RandomCase::kClasses, options);
-    score_distances(MapSnapshot(made.map), 0.7, distance_of, SampleSet(points, kEdge_m), options,
-                    counts);
+    score_distances(MapSnapshot(made.map), 0.7, distance_of, sample_set_of(points, kEdge_m),
+                    options, counts);
     for (const ClassCounts& c : counts) {
       for (std::size_t l = 1; l < c.accuracy.limits_m().size(); ++l) {
         EXPECT_GE(c.accuracy.within(l), c.accuracy.within(l - 1));
@@ -121,7 +123,8 @@ TEST(DistanceScore, GrowingDistanceNeverLowersARatioAndAllLieInZeroToOne) {
 TEST(DistanceScore, EveryClassHasItsOwnSurfaceCubesAndSamples) {
   const MapSnapshot map = map_of({{{0, 0, 0}, 1}, {{4, 0, 0}, 2}});
   const auto distance_of = [](const VoxelKey&, ClassId c) { return c == 2 ? 0.02 : 0.05; };
-  const SampleSet samples(Points{{}, {{0.22, 0.02, 0.02}}, {{0.22, 0.02, 0.02}}}, kEdge_m);
+  const SampleSet samples =
+      sample_set_of(Points{{}, {{0.22, 0.02, 0.02}}, {{0.22, 0.02, 0.02}}}, kEdge_m);
   Counts counts = zero_counts(3, {});
   score_distances(map, 0.5, distance_of, samples, {}, counts);
   EXPECT_DOUBLE_EQ(*counts[1].accuracy.mean_m(), 0.05);
@@ -134,7 +137,7 @@ TEST(DistanceScore, RefusesSamplesOfAnotherClassTable) {
   Counts counts = zero_counts(3, {});
   EXPECT_THROW(score_distances(
                    MapSnapshot({}), 0.5, [](const VoxelKey&, ClassId) { return 0.0; },
-                   SampleSet(Points{{}, {}}, kEdge_m), {}, counts),
+                   sample_set_of(Points{{}, {}}, kEdge_m), {}, counts),
                Error);
 }
 

@@ -38,7 +38,7 @@ TEST(DistanceTally, NothingToReachIsInfinite) {
   tally.add(0.002, 95);
   tally.add(kUnreached, 5);
   EXPECT_EQ(tally.count(), 100);
-  EXPECT_EQ(tally.unreached(), 5);
+  EXPECT_EQ(tally.parts().unreached, 5);
   EXPECT_EQ(tally.within(0), 95);
   EXPECT_EQ(tally.mean_m(), std::nullopt);
   EXPECT_DOUBLE_EQ(*tally.percentile_m(0.95), 0.002);

@@ -12,7 +12,7 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr std::size_t kClasses = 4;
+using testing::kClasses;
 
 struct Sampled {
   testing::RandomScene scene;

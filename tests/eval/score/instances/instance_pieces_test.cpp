@@ -15,9 +15,10 @@ namespace {
 
 using testing::instance_case;
 using testing::InstanceCase;
+using testing::kChair;
+using testing::kCup;
 using testing::map_of;
 
-constexpr ClassId kCup = 1, kChair = 2;
 constexpr std::uint32_t kNone = PredictedInstances::kNone;
 
 TEST(InstancePieces, ConnectAcrossCornersAndWithinOneClass) {

@@ -11,11 +11,11 @@ namespace {
 using testing::cups_and_chairs;
 using testing::instance_case;
 using testing::InstanceCase;
-using testing::PlainScore;
+using testing::kChair;
+using testing::kCup;
+using testing::PlainInstanceScore;
 using testing::surface_of;
 using testing::visible_of;
-
-constexpr ClassId kCup = 1, kChair = 2;
 
 TEST(InstanceProperties, AgreesWithThePlainOne) {
   int found = 0, missed = 0, wrong = 0, unseen = 0;
@@ -27,7 +27,7 @@ TEST(InstanceProperties, AgreesWithThePlainOne) {
           numbered ? objects_of(map, 0.2, made.numbers) : pieces_of(map, 0.2);
       const auto counts = score_instances(predicted, surface_of(made.surface),
                                           visible_of(made.owners), cups_and_chairs());
-      const PlainScore plain(made, predicted);
+      const PlainInstanceScore plain(made, predicted);
       for (const ClassId c : {kCup, kChair}) {
         ASSERT_EQ(counts[c], plain.of(c)) << "seed " << seed << ", class " << c;
         found += static_cast<int>(counts[c].true_positive);

@@ -18,11 +18,13 @@ namespace {
 
 using testing::cups_and_chairs;
 using ::testing::HasSubstr;
+using testing::kChair;
+using testing::kCup;
 using testing::surface_of;
 using ::testing::ThrowsMessage;
 using testing::visible_of;
 
-constexpr ClassId kCup = 1, kChair = 2, kWall = 3;
+constexpr ClassId kWall = 3;
 constexpr InstanceId kCup1 = 1, kCup2 = 2, kChair1 = 3, kWall1 = 5;
 
 /// A row of voxels along k.

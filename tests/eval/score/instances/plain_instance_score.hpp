@@ -16,9 +16,9 @@
 namespace mapscore::eval::testing {
 
 /// The definitions, read out one by one over all voxels.
-class PlainScore {
+class PlainInstanceScore {
  public:
-  PlainScore(const InstanceCase& made, const PredictedInstances& predicted)
+  PlainInstanceScore(const InstanceCase& made, const PredictedInstances& predicted)
       : made_(made), predicted_(predicted) {
     for (const auto& [key, owner] : made.owners) ++visible_[owner];
   }

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/fusion/fusion_rule.hpp"
+#include "core/mapping/mapper.hpp"
+#include "core/parameters.hpp"
+#include "core/refinement/dense_crf.hpp"
+#include "core/segmentation/segmentation.hpp"
+#include "eval/score/counts.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace mapscore::eval {
+
+// What a trial does with a recording: where its detections come from, by which method they become a
+// map, and how the map is scored.
+
+/// Detections come from the label images of the recording.
+struct LabelPerception : NoFields {
+  static constexpr std::string_view kKind = "labels";
+  static constexpr std::string_view kMeaning = "the recording's label images";
+};
+
+/// What simulated perception knows of the truth: a box about each instance, or about each of its
+/// drawn surfaces.
+enum class PerceivedBoxes { instances, surfaces };
+constexpr auto names_of(PerceivedBoxes) {
+  return std::to_array<std::string_view>({"instances", "surfaces"});
+}
+
+/// Boxes of models, voted for by the depth image.
+struct SimulatedPerception {
+  static constexpr std::string_view kKind = "simulated";
+  static constexpr std::string_view kMeaning =
+      "boxes in view, voted for by the points of the depth image (docs/objects.md)";
+  std::optional<std::string> objects;  ///< empty: the recording's truth
+  PerceivedBoxes boxes = PerceivedBoxes::instances;
+  double tolerance_m = 0.01;
+  int min_pixels = 1;
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.objects, Field{"objects",
+                           "object map (YAML) whose boxes are perceived, from the study file's "
+                           "folder; default: the recording's truth"});
+    visit(s.boxes, Field{"boxes",
+                         "of the truth: one about each instance, along the axes of the scene's "
+                         "world, or one about each of its drawn surfaces, along the surface's"});
+    visit(s.tolerance_m, Field{"tolerance_m", "widening of the boxes on each side", {0, 1}});
+    visit(s.min_pixels, Field{"min_pixels", "depth pixels that make an object seen", {1, 1000000}});
+  }
+  bool operator==(const SimulatedPerception&) const = default;
+};
+
+/// Where the detections of a study come from.
+using PerceptionSettings = std::variant<LabelPerception, SimulatedPerception>;
+
+struct StudyFusion : NoFields {
+  static constexpr std::string_view kKind = "study";
+  static constexpr std::string_view kMeaning = "as the study's `fusion`";
+};
+/// Fusion of one method: the study's, or its own.
+using MethodFusion = DrawnOf<FusionRule>::With<StudyFusion>;
+
+struct NoRefinement : NoFields {
+  static constexpr std::string_view kKind = "none";
+  static constexpr std::string_view kMeaning = "the map as it was fused";
+};
+/// What happens to the finished map before it is scored.
+using Refinement = std::variant<NoRefinement, Crf>;
+
+struct MethodSettings {
+  std::string name;  ///< letters, digits, _ and -
+  Segmentation segmentation;
+  std::optional<Place> place{};  ///< empty: the study's
+  MethodFusion fusion{};
+  Refinement refinement{};
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.segmentation, Field{.key = "segmentation",
+                                .meaning = "from a detection and a registered cloud to points",
+                                .required = true});
+    visit(s.place, Field{"place", "as the study's `place`, for this method alone"});
+    visit(s.fusion, later({"fusion", "how this method's observations change the map"}));
+    visit(s.refinement,
+          later({"refinement", "what happens to this method's map before it is scored"}));
+  }
+  bool operator==(const MethodSettings&) const = default;
+};
+
+/// What is scored: the fused map, or each frame's observation by itself.
+enum class ScoreUnit { map, frame };
+constexpr auto names_of(ScoreUnit) {
+  return std::to_array<std::string_view>({"map", "frame"});
+}
+
+/// A number, or `auto` (empty).
+struct AutoNumber {
+  std::optional<double> value;
+  bool operator==(const AutoNumber&) const = default;
+};
+
+struct ScoreSettings {
+  ScoreUnit unit = ScoreUnit::map;
+  std::optional<double> at_s;  ///< empty: nothing moves, or each frame at its own time
+  AutoNumber threshold;
+  int min_samples = 1;
+  double epsilon_m = 0.0005;
+  std::vector<int> tolerances{0, 1};
+  std::vector<double> distances_m{0.01, 0.02, 0.05, 0.1};
+  AskedParts asked;
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.unit,
+          Field{"unit", "score the fused map, or each frame's observation against its own truth"});
+    visit(s.at_s, Field{"at_s",
+                        "with unit map, where the scene moves: the time whose surfaces a map is "
+                        "scored against"});
+    visit(s.threshold,
+          Field{"threshold",
+                "least probability of a predicted voxel; auto: half of what a first full hit gives",
+                {0, 1}});
+    visit(s.min_samples,
+          Field{"min_samples", "depth samples that make a voxel visible", {1, 1000000}});
+    visit(s.epsilon_m, Field{"epsilon_m", "widening of voxels in the surface test", {0, 0.1}});
+    visit(s.tolerances,
+          Field{"tolerances", "tolerances of the match, in voxels; 0 is always counted", {0, 5}});
+    visit(s.distances_m, Field{"distances_m", "distances of the F-score", above(0, 10)});
+    AskedParts::fields(s.asked, visit);
+  }
+  bool operator==(const ScoreSettings&) const = default;
+};
+
+}  // namespace mapscore::eval
