@@ -85,14 +85,8 @@ void refuse_empty_values(int argc, char** argv) {
 }
 
 int run(CLI::App& program, int argc, char** argv) {
-  using namespace mapscore::eval;
-  for (const auto add :
-       {add_record, add_run, add_frames, add_sweep, add_map, add_localize, add_segment, add_objects,
-        add_truth, add_score, add_resolutions, add_table, add_compare, add_figures})
-    add(program);  // in the order of the help
   int exit_code = 0;
-  add_check(program, exit_code);
-  add_info(program);
+  mapscore::eval::add_verbs(program, exit_code);
   refuse_unknown_verb(program, argc, argv);
   refuse_empty_values(argc, argv);
   program.parse(argc, argv);

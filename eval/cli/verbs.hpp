@@ -41,4 +41,14 @@ void add_figures(CLI::App& program);
 void add_check(CLI::App& program, int& exit_code);
 void add_info(CLI::App& program);
 
+/// All of them, in the order of the help.
+inline void add_verbs(CLI::App& program, int& exit_code) {
+  for (const auto add :
+       {add_record, add_run, add_frames, add_sweep, add_map, add_localize, add_segment, add_objects,
+        add_truth, add_score, add_resolutions, add_table, add_compare, add_figures})
+    add(program);
+  add_check(program, exit_code);
+  add_info(program);
+}
+
 }  // namespace mapscore::eval
