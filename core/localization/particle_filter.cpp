@@ -79,9 +79,8 @@ void smooth(std::vector<PlanarPose>& poses, double share, const KldParams& kld,
 }
 
 /// What the grid's resolution r adds to the covariance of a position on each axis: a surface lies
-/// anywhere in its cell, with variance r^2 / 12, and a position that rests on four of them has r^2
-/// /
-/// 48. All scans that see these surfaces share this error, so more beams do not reduce it.
+/// anywhere in its cell, with variance r^2 / 12, and a position that rests on four of them has
+/// r^2 / 48. All scans that see these surfaces share this error, so more beams do not reduce it.
 Eigen::Matrix3d map_covariance(const ScanModel& model) {
   const GridFrame& frame =
       std::visit([](const auto& scans) -> const GridFrame& { return scans.frame(); }, model);

@@ -42,8 +42,8 @@ std::array<Face, 6> faces_of(const ObjectBox& box) {
   return faces;
 }
 
-/// Sutherland and Hodgman: the part of a convex polygon on the inner side of a
-/// face, widened by kSamePlane_m.
+/// Sutherland and Hodgman: the part of a convex polygon on the inner side of a face, widened by
+/// kSamePlane_m.
 Polygon clipped(const Polygon& polygon, const Face& face) {
   Polygon kept;
   for (std::size_t n = 0; n < polygon.size(); ++n) {

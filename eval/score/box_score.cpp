@@ -10,7 +10,6 @@
 #include <cmath>
 
 namespace mapscore::eval {
-namespace {}  // namespace
 
 double box_iou(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double widen_m) {
   if (a.isEmpty() || b.isEmpty()) return 0.0;

@@ -23,8 +23,8 @@ struct OutlineField {
   /// How well an edge that faces Outward d fits at quarter size, 0 to 255: 255 on outlines that
   /// face the same way, less within 8 pixels and for those that face the other way.
   std::array<cv::Mat1b, 4> coarse;
-  /// Number of outline elements that face each way, by cell. An element is a pair
-  /// of neighbouring pixels on either side of an outline, counted for each owner.
+  /// Number of outline elements that face each way, by cell. An element is a pair of neighbouring
+  /// pixels on either side of an outline, counted for each owner.
   std::array<cv::Mat1f, 4> elements;
   int length_px = 0;  ///< number of all outline elements
 
