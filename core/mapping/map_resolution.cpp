@@ -25,8 +25,12 @@ struct Content {
 /// Reads a tree from the finest voxels up to one level.
 class LevelReader {
  public:
-  LevelReader(const SemanticOcTree& tree, const FusionRule& rule, unsigned level)
-      : tree_(tree), rule_(rule), level_(level), occupied_from_(tree.getOccupancyThresLog()) {}
+  LevelReader(const SemanticOcTree& tree, const FusionRule& rule, unsigned level, bool free_too)
+      : tree_(tree),
+        rule_(rule),
+        level_(level),
+        free_too_(free_too),
+        occupied_from_(tree.getOccupancyThresLog()) {}
 
   std::vector<CoarseVoxel> read() {
     if (tree_.getRoot() != nullptr) descend(tree_.getRoot(), tree_.getTreeDepth(), {});
@@ -38,16 +42,26 @@ class LevelReader {
   /// `low`: in voxels of the node's own size, from the tree's low corner.
   void descend(const SemanticOcTreeNode* node, unsigned level, const VoxelKey& low) {
     if (level == level_) return add(low, content(node, level));
-    const bool is_leaf = !tree_.nodeHasChildren(node);
-    for (int index = 0; index < 8; ++index) {
-      const auto child = static_cast<unsigned>(index);
-      if (is_leaf || tree_.nodeChildExists(node, child))
-        descend(is_leaf ? node : tree_.getNodeChild(node, child), level - 1,
-                {2 * low.i + (index & 1), 2 * low.j + (index >> 1 & 1), 2 * low.k + (index >> 2)});
-    }
+    if (!tree_.nodeHasChildren(node)) return spread(low, level, content(node, level_));
+    for (unsigned index = 0; index < 8; ++index)
+      if (tree_.nodeChildExists(node, index)) {
+        const auto bit = static_cast<int>(index);
+        descend(tree_.getNodeChild(node, index), level - 1,
+                {2 * low.i + (bit & 1), 2 * low.j + (bit >> 1 & 1), 2 * low.k + (bit >> 2)});
+      }
+  }
+
+  /// A pruned leaf above the level that is read.
+  void spread(const VoxelKey& low, unsigned level, const Content& content) {
+    const std::int32_t span = 1 << (level - level_);
+    for (std::int32_t i = 0; i < span; ++i)
+      for (std::int32_t j = 0; j < span; ++j)
+        for (std::int32_t k = 0; k < span; ++k)
+          add({low.i * span + i, low.j * span + j, low.k * span + k}, content);
   }
 
   void add(const VoxelKey& low, const Content& content) {
+    if (!free_too_ && content.log_odds < occupied_from_) return;
     const std::int32_t offset = 1 << (tree_.getTreeDepth() - 1 - level_);
     CoarseVoxel voxel{{low.i - offset, low.j - offset, low.k - offset},
                       content.log_odds >= occupied_from_,
@@ -92,26 +106,31 @@ class LevelReader {
   const SemanticOcTree& tree_;
   const FusionRule& rule_;
   unsigned level_;
+  bool free_too_;
   float occupied_from_;
   std::vector<CoarseVoxel> voxels_;
 };
 
-}  // namespace
-
-std::vector<CoarseVoxel> read_at(const SemanticMap& map, const FusionRule& rule, int times) {
+std::vector<CoarseVoxel> read(const SemanticMap& map, const FusionRule& rule, int times,
+                              bool free_too) {
   check(rule);
   unsigned level = 0;
   while (level < 10 && 1 << level < times) ++level;
   if (1 << level != times)
     throw Error("times: the map is read at 1, 2, 4, 8, ... or 1024 times its voxel size");
-  return LevelReader(map.tree(), rule, level).read();
+  return LevelReader(map.tree(), rule, level, free_too).read();
+}
+
+}  // namespace
+
+std::vector<CoarseVoxel> read_at(const SemanticMap& map, const FusionRule& rule, int times) {
+  return read(map, rule, times, true);
 }
 
 void export_color_at(const SemanticMap& map, const FusionRule& rule, int times, Paint paint,
                      const ClassTable& table, double threshold, const std::filesystem::path& file) {
   octomap::ColorOcTree coloured(map.edge_m() * times);
-  for (const CoarseVoxel& voxel : read_at(map, rule, times)) {
-    if (!voxel.occupied) continue;
+  for (const CoarseVoxel& voxel : read(map, rule, times, false)) {
     std::optional<Colour> colour = voxel.colour;
     if (paint == Paint::classes) {
       const ClassProbability best = voxel.best();

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <functional>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -67,6 +69,13 @@ DistanceTally tally_from_json(const json& object) {
                            count_of(object.at("sum_nm")), counts_of(object.at("bins"))});
 }
 
+/// Throws Error unless the steps fall, as pooling takes them to do.
+template <class Step>
+void check_order(const std::vector<Step>& steps, int Step::*place) {
+  if (std::ranges::adjacent_find(steps, std::ranges::less_equal{}, place) != steps.end())
+    throw Error("stored result: steps do not fall; delete the store and sweep again");
+}
+
 /// Steps as [thousandth, predicted, true_predicted, found, probability sum], since there are many.
 json curve_to_json(const ClassCurve& curve) {
   json steps = json::array();
@@ -84,6 +93,7 @@ ClassCurve curve_from_json(const json& object) {
   for (const json& step : object.at("steps"))
     curve.steps.push_back({thousandth_of(step.at(0)), count_of(step.at(1)), count_of(step.at(2)),
                            count_of(step.at(3)), count_of(step.at(4))});
+  check_order(curve.steps, &CurveStep::thousandth);
   return curve;
 }
 
@@ -109,6 +119,7 @@ void counts_from_json(const json& object, InstanceCounts& instances) {
       step.true_predicted[t] = count_of(row.at(2 + t));
     instances.steps.push_back(step);
   }
+  check_order(instances.steps, &InstanceStep::score);
 }
 
 template <class Part>

@@ -313,7 +313,7 @@ TEST_F(Store, ALockNamesItsHolder) {
 
 TEST(ResultJson, RefusesWhatIsNoCount) {
   TrialResult result = result_of(10);
-  result.counts[0].instances = InstanceCounts{1, 2, 3, 4, 5, {{900, 6, {}}}};
+  result.counts[0].instances = InstanceCounts{1, 2, 3, 4, 5, {{900, 6, {}}, {20, 7, {}}}};
   const std::string good = to_json(result);
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string bad = good;
@@ -333,6 +333,9 @@ TEST(ResultJson, RefusesWhatIsNoCount) {
     expect_error("-1 is no count", [&] { (void)result_from_json(with(name, name + "-1,")); });
   }
   expect_error("is no thousandth", [&] { (void)result_from_json(with("[[900,", "[[1001,")); });
+  for (const char* out_of_order : {"[20,", "[19,"})
+    expect_error("steps do not fall",
+                 [&] { (void)result_from_json(with("[[900,", std::string("[") + out_of_order)); });
 }
 
 TEST(ResultJson, RefusesWhatIsNotAResult) {
