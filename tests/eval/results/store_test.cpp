@@ -333,9 +333,8 @@ TEST(ResultJson, RefusesWhatIsNoCount) {
     expect_error("-1 is no count", [&] { (void)result_from_json(with(name, name + "-1,")); });
   }
   expect_error("is no thousandth", [&] { (void)result_from_json(with("[[900,", "[[1001,")); });
-  for (const char* out_of_order : {"[20,", "[19,"})
-    expect_error("steps do not fall",
-                 [&] { (void)result_from_json(with("[[900,", std::string("[") + out_of_order)); });
+  for (const char* place : {"[900,", "[901,"})
+    expect_error("steps do not fall", [&] { (void)result_from_json(with("[20,", place)); });
 }
 
 TEST(ResultJson, RefusesWhatIsNotAResult) {
