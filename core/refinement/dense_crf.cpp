@@ -10,8 +10,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace mapscore {
 namespace {
@@ -26,8 +29,8 @@ void check_in(double value, double least, double most, const char* name) {
 
 void check_sizes(const CrfVoxels& voxels, const Crf& params) {
   const auto count = static_cast<std::size_t>(voxels.probability.cols());
-  if (voxels.centres_m.size() != count)
-    throw Error("crf: " + std::to_string(voxels.centres_m.size()) + " centres for " +
+  if (voxels.keys.size() != count)
+    throw Error("crf: " + std::to_string(voxels.keys.size()) + " keys for " +
                 std::to_string(count) + " distributions; give one each a voxel");
   const bool colours_needed = params.appearance_weight > 0 || !voxels.colours.empty();
   if (colours_needed && voxels.colours.size() != count)
@@ -39,25 +42,43 @@ void check_sizes(const CrfVoxels& voxels, const Crf& params) {
 }
 
 void check_values(const CrfVoxels& voxels) {
-  for (std::size_t i = 0; i < voxels.centres_m.size(); ++i) {
-    if (!voxels.centres_m[i].allFinite())
-      throw Error("crf: voxel " + std::to_string(i) + ": its centre is not finite; leave it out");
-    const auto column = voxels.probability.col(static_cast<Eigen::Index>(i));
+  if (!voxels.keys.empty()) check_in(voxels.voxel_m, 1e-6, 1000, "voxel_m");
+  for (Eigen::Index i = 0; i < voxels.probability.cols(); ++i) {
+    const auto column = voxels.probability.col(i);
     if (!(column.minCoeff() >= 0.0f && std::abs(column.sum() - 1.0f) <= 1e-3f))
       throw Error("crf: voxel " + std::to_string(i) +
                   ": its probabilities are no distribution; give numbers >= 0 that add up to 1");
   }
 }
 
+constexpr std::int64_t kMostVoxelsAlong = 1 << 20;
+
+/// The keys from the map's first corner, so that where the map lies does not matter.
+std::vector<VoxelKey> from_corner(const std::vector<VoxelKey>& keys) {
+  VoxelKey low = keys.front(), high = low;
+  for (const VoxelKey& key : keys) {
+    low = {std::min(low.i, key.i), std::min(low.j, key.j), std::min(low.k, key.k)};
+    high = {std::max(high.i, key.i), std::max(high.j, key.j), std::max(high.k, key.k)};
+  }
+  for (const auto axis : {&VoxelKey::i, &VoxelKey::j, &VoxelKey::k})
+    if (std::int64_t{high.*axis} - low.*axis >= kMostVoxelsAlong)
+      throw Error("crf: a map " + std::to_string(std::int64_t{high.*axis} - low.*axis + 1) +
+                  " voxels wide; give at most " + std::to_string(kMostVoxelsAlong));
+  std::vector<VoxelKey> from_low;
+  from_low.reserve(keys.size());
+  for (const VoxelKey& key : keys)
+    from_low.push_back({key.i - low.i, key.j - low.j, key.k - low.k});
+  return from_low;
+}
+
 /// Beyond it, lattice coordinates come near the ends of an int.
 constexpr double kMostSigmas = 1e7;
 
 std::vector<std::array<float, 3>> places(const CrfVoxels& voxels, double sigma_m) {
-  Eigen::Vector3d low = voxels.centres_m.front();  // of the map, whatever the order of its voxels
-  for (const Eigen::Vector3d& centre : voxels.centres_m) low = low.cwiseMin(centre);
+  const double sigmas_a_voxel = voxels.voxel_m / sigma_m;
   std::vector<std::array<float, 3>> features;
-  for (const Eigen::Vector3d& centre : voxels.centres_m) {
-    const Eigen::Vector3d p = (centre - low) / sigma_m;
+  for (const VoxelKey& key : voxels.keys) {
+    const Eigen::Vector3d p = Eigen::Vector3d(key.i, key.j, key.k) * sigmas_a_voxel;
     if (p.maxCoeff() > kMostSigmas)
       throw Error("crf: a sigma of " + std::to_string(sigma_m) + " m in a map more than " +
                   std::to_string(kMostSigmas * sigma_m) + " m wide; give a larger one");
@@ -135,10 +156,10 @@ class LatticeMessages {
   std::optional<Kernel<6>> appearance_;
 };
 
-/// Column i becomes exp(unary + messages) / Z_i; returns the largest change. Column by column, so
-/// threads do not matter.
+/// Column i becomes exp(unary + messages) / Z_i, unless its voxel is alone; returns the largest
+/// change. Column by column, so threads do not matter.
 float normalised_step(const Eigen::MatrixXf& log_p, const Eigen::MatrixXf& messages,
-                      Eigen::MatrixXf& q, int jobs) {
+                      const std::vector<bool>& alone, Eigen::MatrixXf& q, int jobs) {
   const auto count = static_cast<std::size_t>(q.cols());
   const std::size_t runs = (count + kVoxelsARun - 1) / kVoxelsARun;
   std::vector<float> change(runs, 0.0f);
@@ -146,6 +167,7 @@ float normalised_step(const Eigen::MatrixXf& log_p, const Eigen::MatrixXf& messa
     const std::size_t last = std::min(count, (run + 1) * kVoxelsARun);
     Eigen::VectorXf next(q.rows());
     for (std::size_t voxel = run * kVoxelsARun; voxel < last; ++voxel) {
+      if (alone[voxel]) continue;
       const auto i = static_cast<Eigen::Index>(voxel);
       next = log_p.col(i) + messages.col(i);
       const float most = next.maxCoeff();
@@ -158,19 +180,19 @@ float normalised_step(const Eigen::MatrixXf& log_p, const Eigen::MatrixXf& messa
   return *std::max_element(change.begin(), change.end());
 }
 
-CrfResult mean_field(const Eigen::MatrixXf& log_p, const Messages& send, const Crf& params,
-                     int jobs) {
-  CrfResult result;
-  Eigen::MatrixXf messages = Eigen::MatrixXf::Zero(log_p.rows(), log_p.cols());
-  result.probability = messages;
-  normalised_step(log_p, messages, result.probability, jobs);
+/// Changes the columns of the voxels that are not alone.
+void mean_field(const Messages& send, const Crf& params, int jobs, CrfResult& result) {
+  Eigen::MatrixXf& q = result.probability;
+  const Eigen::MatrixXf log_p =
+      q.cwiseMax(static_cast<float>(params.probability_floor)).array().log();
+  Eigen::MatrixXf messages = Eigen::MatrixXf::Zero(q.rows(), q.cols());
+  normalised_step(log_p, messages, result.alone, q, jobs);
   while (result.iterations < params.iterations) {
-    send(result.probability, messages, jobs);
-    result.last_change = normalised_step(log_p, messages, result.probability, jobs);
+    send(q, messages, jobs);
+    result.last_change = normalised_step(log_p, messages, result.alone, q, jobs);
     ++result.iterations;
     if (result.last_change <= params.tolerance) break;
   }
-  return result;
 }
 
 }  // namespace
@@ -191,13 +213,22 @@ CrfResult refine(const CrfVoxels& voxels, const Crf& params, int jobs) {
   check_parameters(params);
   check_sizes(voxels, params);
   check_values(voxels);
-  if (voxels.centres_m.empty()) return {voxels.probability, 0, 0.0};
-  const Eigen::MatrixXf log_p =
-      voxels.probability.cwiseMax(static_cast<float>(params.probability_floor)).array().log();
-  const Messages messages = params.filter == CrfFilter::lattice
-                                ? LatticeMessages(voxels, params, jobs)
-                                : neighbour_messages(voxels, params, jobs);
-  return mean_field(log_p, messages, params, jobs);
+  CrfResult result{voxels.probability, std::vector<bool>(voxels.keys.size(), true)};
+  if (voxels.keys.empty() || (params.smoothness_weight == 0 && params.appearance_weight == 0))
+    return result;
+  const CrfVoxels placed{from_corner(voxels.keys), voxels.voxel_m, voxels.colours, {}};
+  Messages send;
+  if (params.filter == CrfFilter::lattice) {
+    result.alone.assign(voxels.keys.size(), false);
+    send = LatticeMessages(placed, params, jobs);
+  } else {
+    NeighbourMessages neighbours = neighbour_messages(placed, params, jobs);
+    result.alone = std::move(neighbours.alone);
+    send = std::move(neighbours.send);
+  }
+  if (std::ranges::find(result.alone, false) != result.alone.end())
+    mean_field(send, params, jobs, result);
+  return result;
 }
 
 }  // namespace mapscore

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "core/geometry/voxel.hpp"
 #include "core/parameters.hpp"
 
 #include <Eigen/Core>
@@ -39,6 +40,8 @@ struct Crf {
   static constexpr std::string_view kKind = "crf";
   static constexpr std::string_view kMeaning =
       "a fully connected conditional random field over the map's voxels (docs/refinement.md)";
+  /// Of the result for the same input; part of the keys of trials with a CRF, and of no others.
+  static constexpr int kVersion = 2;
   double smoothness_weight = 3, smoothness_sigma_m = 0.06;
   double appearance_weight = 3, appearance_sigma_m = 0.12, appearance_sigma_colour = 20;
   bool normalised = true;   ///< k_ij / sqrt(n_i n_j), n_i = sum_j k_ij; false: k_ij as it is
@@ -47,7 +50,7 @@ struct Crf {
   double probability_floor = 1e-3;  ///< least p of the unary -log p, in (0, 1)
   CrfRest rest = CrfRest::apart;    ///< of a map's beliefs (refine_beliefs)
   CrfFilter filter = CrfFilter::neighbours;
-  double cutoff_sigmas = 3.0;  ///< neighbours only: a kernel ends at this Mahalanobis distance
+  double cutoff_sigmas = 3.0;  ///< neighbours only: a kernel's last Mahalanobis distance
 
   [[nodiscard]] bool reads_colour() const { return appearance_weight > 0.0; }
 
@@ -71,23 +74,27 @@ struct Crf {
 
 /// What the CRF looks at: one entry, or one column, a voxel, all in the same order.
 struct CrfVoxels {
-  std::vector<Eigen::Vector3d> centres_m;  ///< any frame
-  std::vector<Colour> colours;             ///< mean colours; empty where appearance_weight is 0
-  Eigen::MatrixXf probability;             ///< labels x voxels; columns add up to 1 within 1e-3
+  std::vector<VoxelKey> keys;   ///< any lattice: only their differences count
+  double voxel_m = 0.0;         ///< edge of a voxel
+  std::vector<Colour> colours;  ///< mean colours; empty where appearance_weight is 0
+  Eigen::MatrixXf probability;  ///< labels x voxels; columns add up to 1 within 1e-3
 };
 
 struct CrfResult {
   Eigen::MatrixXf probability;  ///< labels x voxels, columns add up to 1
-  int iterations = 0;           ///< made
-  double last_change = 0.0;     ///< largest |change| of a probability in the last of them
+  /// By voxel: no other within any kernel's reach, so that its column is the input's, bit for bit.
+  std::vector<bool> alone;
+  int iterations = 0;        ///< made
+  double last_change = 0.0;  ///< largest |change| of a probability in the last of them
 };
 
 /// Mean-field inference of [Krähenbühl and Koltun 2011, algorithm 1], all voxels at once, from
 /// Q_i(l) ~ max(p_i(l), floor):
 ///   Q_i(l) <- exp(log max(p_i(l), floor) + sum_m w_m sum_{j != i} k_m(i, j) Q_j(l)) / Z_i
-/// Uses up to `jobs` threads; the result does not depend on how many. No voxels: an empty result.
-/// Throws Error on sizes that differ, parameters out of range, numbers that are not finite, columns
-/// that are no distribution.
+/// A voxel that is alone takes no part and keeps its column; without a kernel all are. Uses up to
+/// `jobs` threads; the result does not depend on how many. No voxels: an empty result. Throws Error
+/// on sizes that differ, parameters or voxel_m out of range, keys more than 2^20 apart on an axis,
+/// columns that are no distribution.
 [[nodiscard]] CrfResult refine(const CrfVoxels& voxels, const Crf& params, int jobs = 1);
 
 /// Throws Error naming the parameter that is out of range.

@@ -59,9 +59,10 @@ Eigen::VectorXf column_of(const ClassBeliefs& beliefs, const CrfTask& task, doub
   return (column / column.sum()).cast<float>();
 }
 
-CrfTask task_of(std::span<const Eigen::Vector3d> centres_m, std::span<const Colour> colours,
+CrfTask task_of(std::span<const VoxelKey> keys, double voxel_m, std::span<const Colour> colours,
                 std::span<const ClassBeliefs> beliefs, CrfRest rest) {
   CrfTask task;
+  task.voxels.voxel_m = voxel_m;
   task.classes = named_classes(beliefs);
   const std::size_t labels = task.classes.size() + (rest == CrfRest::label ? 1 : 0);
   Eigen::MatrixXf& columns = task.voxels.probability;
@@ -73,7 +74,7 @@ CrfTask task_of(std::span<const Eigen::Vector3d> centres_m, std::span<const Colo
         column_of(beliefs[i], task, share, rest);
     task.voxel_of.push_back(i);
     task.share.push_back(rest == CrfRest::apart ? share : 1.0);
-    task.voxels.centres_m.push_back(centres_m[i]);
+    task.voxels.keys.push_back(keys[i]);
     if (!colours.empty()) task.voxels.colours.push_back(colours[i]);
   }
   columns.conservativeResize(Eigen::NoChange, static_cast<Eigen::Index>(task.voxel_of.size()));
@@ -114,18 +115,19 @@ Colour mean_colour(const std::vector<BelievedVoxel>& voxels) {
 
 }  // namespace
 
-std::vector<ClassBeliefs> refine_beliefs(std::span<const Eigen::Vector3d> centres_m,
+std::vector<ClassBeliefs> refine_beliefs(std::span<const VoxelKey> keys, double voxel_m,
                                          std::span<const Colour> colours,
                                          std::span<const ClassBeliefs> beliefs, const Crf& crf,
                                          int jobs) {
-  if (centres_m.size() != beliefs.size() || (!colours.empty() && colours.size() != beliefs.size()))
-    throw Error("crf: " + std::to_string(centres_m.size()) + " centres and " +
+  if (keys.size() != beliefs.size() || (!colours.empty() && colours.size() != beliefs.size()))
+    throw Error("crf: " + std::to_string(keys.size()) + " keys and " +
                 std::to_string(colours.size()) + " colours for " + std::to_string(beliefs.size()) +
                 " voxels; give one each a voxel");
-  const CrfTask task = task_of(centres_m, colours, beliefs, crf.rest);
+  const CrfTask task = task_of(keys, voxel_m, colours, beliefs, crf.rest);
   const CrfResult result = refine(task.voxels, crf, jobs);
   std::vector<ClassBeliefs> refined(beliefs.begin(), beliefs.end());
   for (std::size_t column = 0; column < task.voxel_of.size(); ++column) {
+    if (result.alone[column]) continue;
     ClassBeliefs& voxel = refined[task.voxel_of[column]];
     const auto entries = voxel.entries();
     const bool names_others = !entries.empty() && !is_named(entries.back());
@@ -138,15 +140,16 @@ std::vector<ClassBeliefs> refine_beliefs(std::span<const Eigen::Vector3d> centre
 void refine(SemanticMap& map, const Crf& crf, int jobs) {
   std::vector<BelievedVoxel> voxels = map.believed_voxels();
   const Colour elsewhere = mean_colour(voxels);
-  std::vector<Eigen::Vector3d> centres_m;
+  std::vector<VoxelKey> keys;
   std::vector<Colour> colours;
   std::vector<ClassBeliefs> beliefs;
   for (BelievedVoxel& voxel : voxels) {
-    centres_m.push_back(centre_of(voxel.key, map.edge_m()));
+    keys.push_back(voxel.key);
     colours.push_back(voxel.colour.value_or(elsewhere));
     beliefs.push_back(std::move(voxel.beliefs));
   }
-  std::vector<ClassBeliefs> refined = refine_beliefs(centres_m, colours, beliefs, crf, jobs);
+  std::vector<ClassBeliefs> refined =
+      refine_beliefs(keys, map.edge_m(), colours, beliefs, crf, jobs);
   for (std::size_t n = 0; n < voxels.size(); ++n)
     map.set_beliefs(voxels[n].key, std::move(refined[n]));
 }

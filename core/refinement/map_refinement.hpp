@@ -14,9 +14,11 @@ namespace mapscore {
 /// Refines the beliefs of a map's voxels by the dense CRF (docs/refinement.md); same order. The
 /// CRF's labels are the classes that some voxel names, background only if named. Voxels that name
 /// no class: under CrfRest::apart they take no part and do not change; under CrfRest::label the
-/// label `unknown` starts with probability 1. Counts become probabilities; classes below 1e-6 are
-/// dropped. `colours` may be empty if the appearance kernel is off. Throws Error as refine().
-[[nodiscard]] std::vector<ClassBeliefs> refine_beliefs(std::span<const Eigen::Vector3d> centres_m,
+/// label `unknown` starts with probability 1. Voxels that are alone (CrfResult) do not change. In
+/// the others counts become probabilities and classes below 1e-6 are dropped. `colours` may be
+/// empty if the appearance kernel is off. Throws Error as refine().
+[[nodiscard]] std::vector<ClassBeliefs> refine_beliefs(std::span<const VoxelKey> keys,
+                                                       double voxel_m,
                                                        std::span<const Colour> colours,
                                                        std::span<const ClassBeliefs> beliefs,
                                                        const Crf& crf, int jobs = 1);

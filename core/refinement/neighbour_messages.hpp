@@ -6,6 +6,7 @@
 #include "core/refinement/dense_crf.hpp"
 
 #include <functional>
+#include <vector>
 
 namespace mapscore {
 
@@ -13,8 +14,15 @@ namespace mapscore {
 /// both labels x voxels. Safe to share between threads.
 using Messages = std::function<void(const Eigen::MatrixXf&, Eigen::MatrixXf&, int)>;
 
-/// The CRF's messages by a search of each voxel's neighbours, in cells of half the cut-off. Throws
-/// Error where the cells would be more than 2^20 on an axis.
-[[nodiscard]] Messages neighbour_messages(const CrfVoxels& voxels, const Crf& params, int jobs);
+struct NeighbourMessages {
+  Messages send;
+  std::vector<bool> alone;  ///< by voxel: no other within the cut-off of any kernel
+};
+
+/// The CRF's messages by a search of each voxel's neighbours. Reads keys, which lie within 0 ..
+/// 2^20 - 1, voxel_m and colours. No voxel's sums depend on any but its neighbours, nor on the
+/// order of voxels whose keys differ.
+[[nodiscard]] NeighbourMessages neighbour_messages(const CrfVoxels& voxels, const Crf& params,
+                                                   int jobs);
 
 }  // namespace mapscore

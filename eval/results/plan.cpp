@@ -107,12 +107,21 @@ Study for_lattice_ceiling(Study config) {
   return config;
 }
 
+/// The version of the refinement's results, of those that have had several; so that a new one makes
+/// no trials new but those with that refinement.
+std::string refinement_version(const Study& config) {
+  for (const MethodSettings& method : config.methods)
+    if (std::holds_alternative<Crf>(method.refinement))
+      return fmt::format("crf_version: {}\n", Crf::kVersion);
+  return "";
+}
+
 SeedlessTask make_task(Study config, Labels labels, const std::string& recording_hash,
                        PoseFiles& files) {
   SeedlessTask task;
-  task.before_seed =
-      fmt::format("scoring_version: {}\nrecording: {}\nlabels: {}\nseed_index: ", kScoringVersion,
-                  recording_hash, labels == Labels::truth ? "truth" : "detected");
+  task.before_seed = fmt::format(
+      "scoring_version: {}\n{}recording: {}\nlabels: {}\nseed_index: ", kScoringVersion,
+      refinement_version(config), recording_hash, labels == Labels::truth ? "truth" : "detected");
   task.after_seed =
       '\n' + to_key_yaml(determining(config, files.content(config), files.objects(config)));
   task.config = std::move(config);

@@ -21,7 +21,7 @@ void refine_walls(benchmark::State& state) {
   const CrfVoxels voxels = testing::noisy_corner(static_cast<int>(state.range(1)),
                                                  static_cast<int>(state.range(2)), 0.2);
   for (auto _ : state) benchmark::DoNotOptimize(refine(voxels, params, 1));
-  state.counters["voxels"] = static_cast<double>(voxels.centres_m.size());
+  state.counters["voxels"] = static_cast<double>(voxels.keys.size());
 }
 BENCHMARK(refine_walls)
     ->ArgNames({"lattice", "side", "labels", "sigma_percent"})

@@ -12,11 +12,11 @@ namespace {
 
 using Entries = std::vector<ClassProbability>;
 
-/// Voxels in a row, 5 cm apart.
-std::vector<Eigen::Vector3d> row(std::size_t count) {
-  std::vector<Eigen::Vector3d> centres;
-  for (std::size_t i = 0; i < count; ++i) centres.emplace_back(0.05 * static_cast<double>(i), 0, 0);
-  return centres;
+/// Voxels in a row.
+std::vector<VoxelKey> keys_in_row(std::size_t count) {
+  std::vector<VoxelKey> keys;
+  for (std::size_t i = 0; i < count; ++i) keys.push_back({static_cast<int>(i), 0, 0});
+  return keys;
 }
 
 Crf smoothness_only() {
@@ -28,7 +28,7 @@ Crf smoothness_only() {
 std::vector<ClassBeliefs> refined(const std::vector<ClassBeliefs>& beliefs, CrfRest rest) {
   Crf crf = smoothness_only();
   crf.rest = rest;
-  return refine_beliefs(row(beliefs.size()), {}, beliefs, crf);
+  return refine_beliefs(keys_in_row(beliefs.size()), 0.05, {}, beliefs, crf);
 }
 
 /// Class 3 all along, and one voxel in the middle of class 7, seen once.
@@ -76,9 +76,26 @@ TEST(BeliefRefinement, CountsAreProbabilitiesAndOthersStayNamed) {
   EXPECT_NEAR(refined(others, CrfRest::apart)[1].weight(kOtherClasses), 0.3, 1e-5);
 }
 
+TEST(BeliefRefinement, VoxelAloneKeepsItsBeliefs) {
+  std::vector<ClassBeliefs> beliefs = one_wrong();
+  for (const ClassBeliefs& alone :
+       {ClassBeliefs(Entries{{3, 0.7}, {7, 1e-9}}), ClassBeliefs(Entries{{1, 6.0}, {2, 2.0}}),
+        ClassBeliefs(Entries{{7, 0.4}, {kOtherClasses, 0.6}})}) {
+    beliefs.resize(7);
+    beliefs.push_back(alone);
+    std::vector<VoxelKey> keys = keys_in_row(8);
+    keys[7].j = -5;
+    for (const CrfRest rest : {CrfRest::apart, CrfRest::label}) {
+      Crf crf = smoothness_only();
+      crf.rest = rest;
+      EXPECT_EQ(refine_beliefs(keys, 0.05, {}, beliefs, crf)[7], alone);
+    }
+  }
+}
+
 TEST(BeliefRefinement, SizesThatDifferAreRefused) {
   const std::vector<ClassBeliefs> beliefs(3);
-  EXPECT_THROW((void)refine_beliefs(row(2), {}, beliefs, smoothness_only()), Error);
+  EXPECT_THROW((void)refine_beliefs(keys_in_row(2), 0.05, {}, beliefs, smoothness_only()), Error);
 }
 
 }  // namespace

@@ -7,7 +7,8 @@
 
 namespace mapscore::testing {
 
-/// The plain twin of refine(): every pair of voxels, in doubles. Kernels end at `cutoff_sigmas`.
+/// The plain twin of refine(): every pair of voxels, in doubles. Kernels end at `cutoff_sigmas`,
+/// and a voxel alone within it keeps its column.
 [[nodiscard]] Eigen::MatrixXd plain_refine(const CrfVoxels& voxels, const Crf& params,
                                            double cutoff_sigmas);
 

@@ -134,6 +134,18 @@ TEST(Plan, KeysNameTheScoringVersionAndTheRecordingButNoPlace) {
   EXPECT_THAT(task.description, Not(HasSubstr("here.xml")));
 }
 
+/// So that a change of the CRF makes only those trials new.
+TEST(Plan, KeysNameTheCrfsVersionOnlyWhereThereIsACrf) {
+  const auto description = [](const std::string& refinement, Labels labels) {
+    const Study study = study_of("", {"methods.direct.refinement=" + refinement});
+    return task_of(study, trials(study)[0], labels, "recording").description;
+  };
+  EXPECT_THAT(description("{crf: {}}", Labels::detected),
+              HasSubstr("\ncrf_version: " + std::to_string(Crf::kVersion) + "\nrecording: "));
+  EXPECT_THAT(description("{none: {}}", Labels::detected), Not(HasSubstr("crf_version")));
+  EXPECT_THAT(description("{crf: {}}", Labels::truth), Not(HasSubstr("crf_version")));
+}
+
 /// So that what was swept before there was such a leaf is not computed again.
 TEST(Plan, KeysNameInstancesOnlyWhereTheyAreScored) {
   const auto description = [](const char* score) {
