@@ -107,23 +107,22 @@ Study for_lattice_ceiling(Study config) {
   return config;
 }
 
-/// The version of the refinement's results, of those that have had several; so that a new one makes
-/// no trials new but those with that refinement.
-std::string refinement_version(const Study& config) {
-  for (const MethodSettings& method : config.methods)
-    if (std::holds_alternative<Crf>(method.refinement))
-      return fmt::format("crf_version: {}\n", Crf::kVersion);
-  return "";
+/// Lines of the key for definitions that changed for some settings alone: a trial that has them is
+/// made anew, any other keeps its key. `config` is a determining one.
+std::string revisions(const Study& config) {
+  const sim::LabelDose labels = config.faults.labels.dose();
+  const bool asks_mean = labels.scores != 0.0 && labels.score_mean;
+  return asks_mean ? "label_scores: 2\n" : "";  // score_mean became the mean of all scores
 }
 
 SeedlessTask make_task(Study config, Labels labels, const std::string& recording_hash,
                        PoseFiles& files) {
   SeedlessTask task;
-  task.before_seed = fmt::format(
-      "scoring_version: {}\n{}recording: {}\nlabels: {}\nseed_index: ", kScoringVersion,
-      refinement_version(config), recording_hash, labels == Labels::truth ? "truth" : "detected");
-  task.after_seed =
-      '\n' + to_key_yaml(determining(config, files.content(config), files.objects(config)));
+  task.before_seed =
+      fmt::format("scoring_version: {}\nrecording: {}\nlabels: {}\nseed_index: ", kScoringVersion,
+                  recording_hash, labels == Labels::truth ? "truth" : "detected");
+  const Study decides = determining(config, files.content(config), files.objects(config));
+  task.after_seed = '\n' + to_key_yaml(decides) + revisions(decides);
   task.config = std::move(config);
   task.labels = labels;
   return task;

@@ -148,7 +148,10 @@ struct LabelDose {
     visit(s.island_reach_px,
           Field{"island_reach_px", "islands lie within a quarter of it and all of it", kPixels});
     visit(s.score_mean,
-          Field{"score_mean", "mean score; default: the chance of a right class", kShare});
+          Field{"score_mean",
+                "mean of the scores of right and wrong classes together, at dose 1; default: the "
+                "chance of a right class, with which scores are calibrated",
+                kShare});
     visit(s.score_concentration,
           Field{"score_concentration", "of the Beta distribution of scores", above(0, 1e6)});
   }

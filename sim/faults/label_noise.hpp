@@ -31,12 +31,14 @@ namespace mapscore::sim {
 
 /// Classes and scores as a network would have given them, in place. The named class is drawn from
 /// the true class's row of the matrix, or is wrong with the chance min(1, confusion), evenly over
-/// the other detected classes (none: the class stays). The score of a right class is drawn from
-/// Beta(a + 1, b), of a wrong one from Beta(a, b + 1), a = c m, b = c (1 - m), c =
-/// score_concentration, m = score_mean or the chance of a right class; with the latter,
-/// P(right | score) = score. The reported score is 1 - min(1, scores) (1 - score). Streams (seed,
-/// "labels.class" or "labels.score", frame, instance). Throws Error on a bad dose, and when the
-/// matrix has not a row for each detected class.
+/// the other detected classes (none: the class stays). Scores follow Beta(a, b), a = c m, b =
+/// c (1 - m), c = score_concentration, m = score_mean or the chance r of a right class: of a right
+/// class the score is drawn from Beta(a + 1, b), of a wrong one from Beta(a, b + 1), but from
+/// Beta(a, b) with the chance (r - m) / (r (1 - m)) of a right class where m < r, and with (m - r)
+/// / (m (1 - r)) of a wrong one where m > r. So P(right | score s) is s where m = r, else 1 - (1 -
+/// r) / (1 - m) (1 - s) or r / m s. The reported score is 1 - min(1, scores) (1 - score). Streams
+/// (seed, "labels.class", "labels.blind" or "labels.score", frame, instance). Throws Error on a bad
+/// dose, and when the matrix has not a row for each detected class.
 void corrupt_verdicts(std::vector<Detection>& detections, const ClassTable& table,
                       const LabelDose& dose, std::uint64_t seed, int frame);
 

@@ -86,6 +86,13 @@ class Confusion {
   std::vector<std::vector<double>> matrix_;
 };
 
+/// Chance that the score of a right class (`is_right`), or of a wrong one, is blind: drawn without
+/// regard to whether the class is right. `right`: the chance of a right class.
+double blind_chance(bool is_right, double right, double mean) {
+  if (is_right) return right > mean ? (right - mean) / (right * (1.0 - mean)) : 0.0;
+  return right < mean ? (mean - right) / (mean * (1.0 - right)) : 0.0;
+}
+
 }  // namespace
 
 void corrupt_verdicts(std::vector<Detection>& detections, const ClassTable& table,
@@ -99,11 +106,13 @@ void corrupt_verdicts(std::vector<Detection>& detections, const ClassTable& tabl
     const double first = of_class.uniform(), second = of_class.uniform();
     detection.class_id = confusion.named(truth, first, second);
     if (dose.scores == 0.0) continue;
-    const double mean = dose.score_mean.value_or(confusion.right(truth));
+    const double chance = confusion.right(truth), mean = dose.score_mean.value_or(chance);
     const double a = dose.score_concentration * mean, b = dose.score_concentration - a;
     const bool right = detection.class_id == truth;
+    RandomStream of_blind(seed, "labels.blind", {frame_index, detection.instance});
+    const double tells = of_blind.uniform() < blind_chance(right, chance, mean) ? 0.0 : 1.0;
     RandomStream of_score(seed, "labels.score", {frame_index, detection.instance});
-    const double score = beta_draw(a + (right ? 1.0 : 0.0), b + (right ? 0.0 : 1.0), of_score);
+    const double score = beta_draw(a + (right ? tells : 0.0), b + (right ? 0.0 : tells), of_score);
     detection.score = 1.0 - std::min(1.0, dose.scores) * (1.0 - score);
   }
 }

@@ -8,6 +8,7 @@
 #include "tests/eval/lab/tiny_experiment.hpp"
 #include "tests/support/expect_error.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <array>
@@ -154,6 +155,21 @@ TEST(Plan, KeysNameInstancesOnlyWhereTheyAreScored) {
   EXPECT_THAT(description(""), Not(HasSubstr("instances")));
   EXPECT_EQ(description("score: {instances: false}\n"), description(""));
   EXPECT_THAT(description("score: {instances: true}\n"), HasSubstr("\n  instances: true\n"));
+}
+
+/// So that no other trial is computed again.
+TEST(Plan, KeysNameTheRevisedMeanOfScoresOnlyWhereItIsAskedFor) {
+  const auto description = [](const char* labels) {
+    return plan_of(study_of(fmt::format("faults: {{labels: {}}}\n", labels)), "recording")
+        .tasks[0]
+        .description;
+  };
+  const auto revised = HasSubstr("\nlabel_scores: 2\n");
+  EXPECT_THAT(description("{scores: 1, score_mean: 0.8}"), revised);
+  EXPECT_THAT(description("{preset: typical, score_mean: 0.8}"), revised);
+  for (const char* labels : {"{}", "{preset: typical}", "{scores: 1, confusion: 0.2}",
+                             "{confusion: 0.2, score_mean: 0.8}"})
+    EXPECT_THAT(description(labels), Not(HasSubstr("label_scores"))) << labels;
 }
 
 TEST(Plan, RefusesASweepOfWhatIsRecorded) {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace mapscore::sim {
 namespace {
@@ -94,8 +95,8 @@ TEST(Verdicts, WithOneDetectedClassThereIsNoOther) {
 /// Scores of many verdicts, apart by whether the class is right.
 struct Scores {
   Moments all, right, wrong;
-  /// By tenth of the score: how many, and how many right.
-  std::array<double, 10> count{}, hits{};
+  /// By tenth of the score: how many, how many right, and the sum.
+  std::array<double, 10> count{}, hits{}, sums{};
 };
 
 Scores scores(const LabelDose& dose) {
@@ -111,6 +112,7 @@ Scores scores(const LabelDose& dose) {
       (right ? found.right : found.wrong).add(named[i].score);
       found.count.at(tenth) += 1;
       found.hits.at(tenth) += right;
+      found.sums.at(tenth) += named[i].score;
     }
   }
   return found;
@@ -129,11 +131,59 @@ TEST(Verdicts, ScoresTellTheShareOfRightClasses) {
 }
 
 TEST(Verdicts, ScoresTakeAMeanOfTheirOwn) {
-  const Scores found = scores({.scores = 1, .score_mean = 0.9, .score_concentration = 4});
-  EXPECT_EQ(found.wrong.count(), 0);
-  EXPECT_NEAR(found.right.mean(), (4 * 0.9 + 1) / 5, 0.02 * 0.92);
-  const double a = 4.6, b = 0.4;
-  EXPECT_NEAR(found.right.sd(), std::sqrt(a * b / ((a + b) * (a + b) * (a + b + 1))), 0.02 * 0.11);
+  struct Case {
+    double mean, confusion, concentration;
+  };
+  for (const auto& [mean, confusion, concentration] : std::vector<Case>{{0.9, 0, 4},
+                                                                        {0.8, 0, 5},
+                                                                        {0.8, 0.3, 5},
+                                                                        {0.3, 0.3, 10},
+                                                                        {0.99, 0.5, 10},
+                                                                        {0.05, 0.1, 0.5},
+                                                                        {0.6, 0.4, 10},
+                                                                        {0.5, 0.95, 200},
+                                                                        {0.4, 1, 2}}) {
+    SCOPED_TRACE(::testing::Message() << mean << ' ' << confusion << ' ' << concentration);
+    const Scores found = scores({.confusion = confusion,
+                                 .scores = 1,
+                                 .score_mean = mean,
+                                 .score_concentration = concentration});
+    const double sd = std::sqrt(mean * (1 - mean) / (concentration + 1));  // of Beta(a, b)
+    EXPECT_NEAR(found.all.mean(), mean, 4.5 * sd / std::sqrt(found.all.count()));
+    EXPECT_NEAR(found.all.sd(), sd, 0.02 * sd);
+    const double right = 1 - confusion;
+    for (std::size_t tenth = 0; tenth < 10; ++tenth) {  // what docs/methods.md says of a score
+      if (found.count.at(tenth) < 1000) continue;
+      const double score = found.sums.at(tenth) / found.count.at(tenth);
+      const double share =
+          mean > right ? right / mean * score : 1 - (1 - right) / (1 - mean) * (1 - score);
+      EXPECT_NEAR(found.hits.at(tenth) / found.count.at(tenth), share,
+                  4.5 * 0.5 / std::sqrt(found.count.at(tenth)));
+    }
+  }
+}
+
+TEST(Verdicts, ScoresOfClassesThatAreRightUnequallyOftenHaveOneMean) {
+  const Scores found = scores({.scores = 1,
+                               .confusion_matrix = {{0.9, 0.1, 0}, {0, 1, 0}, {0.5, 0.3, 0.2}},
+                               .score_mean = 0.75});
+  EXPECT_NEAR(found.all.mean(), 0.75, 4.5 * std::sqrt(0.75 * 0.25 / 11 / found.all.count()));
+}
+
+TEST(Verdicts, TheChanceOfARightClassIsTheMeanThatIsNotGiven) {
+  std::vector<Detection> given = detections(), left_out = detections();
+  corrupt_verdicts(given, three_classes(), {.confusion = 0.3, .scores = 1, .score_mean = 1 - 0.3},
+                   3, 0);
+  corrupt_verdicts(left_out, three_classes(), {.confusion = 0.3, .scores = 1}, 3, 0);
+  for (std::size_t i = 0; i < given.size(); ++i) EXPECT_EQ(given[i].score, left_out[i].score);
+}
+
+TEST(Verdicts, MeansOfNoneAndAllAreThatScore) {
+  for (const double confusion : {0.0, 0.3, 1.0})
+    for (const double mean : {0.0, 1.0}) {
+      const Scores found = scores({.confusion = confusion, .scores = 1, .score_mean = mean});
+      EXPECT_EQ(found.all.mean(), mean) << confusion;
+    }
 }
 
 TEST(Verdicts, TheDoseOfScoresIsHowFarTheyFall) {
