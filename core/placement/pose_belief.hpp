@@ -51,8 +51,11 @@ struct Draws {
   bool operator==(const Draws&) const = default;
 };
 
-/// A root L with L L^T = covariance, not triangular in general; works for semi-definite matrices,
-/// zero gives zero. Throws Error when the matrix is not symmetric positive semi-definite.
+/// The lower triangular L with L L^T = covariance, of Cholesky, diagonal 0 or more: L_ij = (E_ij -
+/// sum_k<j L_ik L_jk) / L_jj in the order x y z roll pitch yaw. The column of an axis of whose
+/// variance those before it leave nothing (1e-14) is zero. So semi-definite matrices have a root,
+/// zero gives zero, that of a diagonal is its square roots bit for bit, and it does not depend on
+/// which variance is greater. Throws Error when the matrix is not symmetric positive semi-definite.
 [[nodiscard]] Covariance6 covariance_root(const Covariance6& covariance);
 
 /// N poses T_map_base drawn from the belief. A zero covariance gives N copies of the mean, bit for

@@ -107,12 +107,27 @@ Study for_lattice_ceiling(Study config) {
   return config;
 }
 
+/// Whether poses may be drawn from a covariance that is not diagonal.
+bool draws_correlated(const Study& config) {
+  if (const auto& full = config.faults.pose.covariance_m_rad)
+    for (std::size_t i = 0; i < full->size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if ((*full)[i][j] != 0.0 || (*full)[j][i] != 0.0) return true;
+  return config.localization.source != PoseSource::gaussian &&
+         std::visit([](const auto& rule) { return rule.draws.covariance; }, config.fusion) ==
+             CovarianceUse::full;
+}
+
 /// Lines of the key for definitions that changed for some settings alone: a trial that has them is
 /// made anew, any other keeps its key. `config` is a determining one.
 std::string revisions(const Study& config) {
+  std::string lines;
   const sim::LabelDose labels = config.faults.labels.dose();
-  const bool asks_mean = labels.scores != 0.0 && labels.score_mean;
-  return asks_mean ? "label_scores: 2\n" : "";  // score_mean became the mean of all scores
+  if (labels.scores != 0.0 && labels.score_mean)
+    lines += "label_scores: 2\n";  // score_mean became the mean of all scores
+  if (draws_correlated(config))
+    lines += "covariance_root: 2\n";  // became Cholesky's, in the order of the axes
+  return lines;
 }
 
 SeedlessTask make_task(Study config, Labels labels, const std::string& recording_hash,

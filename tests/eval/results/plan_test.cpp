@@ -172,6 +172,27 @@ TEST(Plan, KeysNameTheRevisedMeanOfScoresOnlyWhereItIsAskedFor) {
     EXPECT_THAT(description(labels), Not(HasSubstr("label_scores"))) << labels;
 }
 
+TEST(Plan, KeysNameTheRevisedRootOnlyWhereACovarianceMayBeCorrelated) {
+  const auto description = [](const std::string& lines) {
+    return plan_of(study_of(lines), "recording").tasks[0].description;
+  };
+  const auto noise = [](const char* xy) {
+    return fmt::format(
+        "faults: {{pose: {{covariance_m_rad: [[.01,{0},0,0,0,0],[{0},.01,0,0,0,0],[0,0,0,0,0,0],"
+        "[0,0,0,0,0,0],[0,0,0,0,0,0],[0,0,0,0,0,0]]}}}}\n",
+        xy);
+  };
+  const std::string full = "fusion: {vote: {N: 2, covariance: full}}\n",
+                    odometry = "localization: {source: odometry}\n";
+  const auto revised = HasSubstr("\ncovariance_root: 2\n");
+  for (const std::string& lines : {noise("0.001"), noise("0.001") + full, odometry + full})
+    EXPECT_THAT(description(lines), revised) << lines;
+  for (const std::string& lines :
+       {std::string(), full, odometry, noise("0") + full, noise("0.001") + odometry,
+        "faults: {pose: {sigma_xy_m: 0.1}}\n" + full})
+    EXPECT_THAT(description(lines), Not(revised)) << lines;
+}
+
 TEST(Plan, RefusesASweepOfWhatIsRecorded) {
   mapscore::testing::expect_error("sweep.cameras.width_px: decides what is recorded", [] {
     (void)plan_of(study_of("sweep: {cameras.width_px: [64, 128]}\n"), "recording");
