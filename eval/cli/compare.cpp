@@ -16,7 +16,8 @@ struct CompareFlags {
 };
 
 void print_comparison(const CompareFlags& flags) {
-  std::cout << formatted(comparison_table(summarise_store(flags.results), flags.question),
+  const Figures figures = flags.format == "text" ? Figures::rounded : Figures::nine_digits;
+  std::cout << formatted(comparison_table(summarise_store(flags.results), flags.question, figures),
                          flags.format);
 }
 
@@ -38,6 +39,7 @@ void add_compare(CLI::App& program) {
   verb->footer(
       "One row for each cell of the grid and metric: difference of the means over the seeds, its\n"
       "95 % interval, p by sign-flip permutation, and p corrected for the number of rows (Holm).\n"
+      "csv and json have nine significant digits.\n"
       "Examples:\n"
       "  mapscore compare results/demo region_growing direct\n"
       "  mapscore compare results/demo erosion direct --metric precision,recall --group chair\n"

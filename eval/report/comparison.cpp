@@ -165,7 +165,8 @@ std::vector<ComparisonRow> compare_methods(const StudySummary& summary,
   return rows;
 }
 
-Table comparison_table(const StudySummary& summary, const ComparisonQuestion& question) {
+Table comparison_table(const StudySummary& summary, const ComparisonQuestion& question,
+                       Figures figures) {
   const std::vector<ComparisonRow> rows = compare_methods(summary, question);
   Table table;
   const auto with_p = std::ranges::count_if(
@@ -176,16 +177,19 @@ Table comparison_table(const StudySummary& summary, const ComparisonQuestion& qu
   table.columns.insert(table.columns.end(),
                        {"metric", "mean " + question.a, "mean " + question.b, "difference", "low",
                         "high", "spread", "p", "p (Holm)", "pairs"});
+  const auto text = [&](std::string (*rounded)(const std::optional<double>&)) {
+    return figures == Figures::rounded ? rounded : nine_digits;
+  };
+  const auto mean = text(figure), difference = text(signed_figure), p = text(probability);
   for (const ComparisonRow& row : rows) {
     const PairedComparison& paired = row.paired;
     std::vector<std::string> cells;
     for (const auto& [path, value] : row.cell.doses) cells.push_back(value);
-    cells.insert(
-        cells.end(),
-        {row.metric, figure(paired.mean_a), figure(paired.mean_b),
-         signed_figure(paired.difference.mean), signed_figure(paired.difference.low),
-         signed_figure(paired.difference.high), name_of(paired.difference.kind),
-         probability(paired.p), probability(row.p_holm), std::to_string(paired.difference.seeds)});
+    cells.insert(cells.end(),
+                 {row.metric, mean(paired.mean_a), mean(paired.mean_b),
+                  difference(paired.difference.mean), difference(paired.difference.low),
+                  difference(paired.difference.high), name_of(paired.difference.kind), p(paired.p),
+                  p(row.p_holm), std::to_string(paired.difference.seeds)});
     table.rows.push_back(std::move(cells));
   }
   return table;

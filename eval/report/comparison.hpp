@@ -33,9 +33,13 @@ struct ComparisonRow {
 [[nodiscard]] std::vector<ComparisonRow> compare_methods(const StudySummary& summary,
                                                          const ComparisonQuestion& question);
 
-/// The same for people: both means, the difference a - b, its interval (or range), p, p (Holm) and
+/// Figures of a table: four decimals for people, or nine significant digits for programs.
+enum class Figures { rounded, nine_digits };
+
+/// The same as a table: both means, the difference a - b, its interval (or range), p, p (Holm) and
 /// pairs. Errors as above.
 [[nodiscard]] Table comparison_table(const StudySummary& summary,
-                                     const ComparisonQuestion& question);
+                                     const ComparisonQuestion& question,
+                                     Figures figures = Figures::rounded);
 
 }  // namespace mapscore::eval

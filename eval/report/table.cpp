@@ -89,6 +89,10 @@ std::string cell_text(const std::optional<double>& value, std::string_view forma
   return value ? fmt::format(fmt::runtime(format), *value) : "-";
 }
 
+std::string nine_digits(const std::optional<double>& value) {
+  return cell_text(value, "{:.9g}");
+}
+
 std::string column_of(const SweepAxis& axis, const std::vector<SweepAxis>& sweep) {
   const auto last_part = [](const SweepAxis& of) { return of.path.substr(of.path.rfind('.') + 1); };
   const auto alike = std::count_if(sweep.begin(), sweep.end(), [&](const SweepAxis& other) {

@@ -26,6 +26,9 @@ struct Table {
 [[nodiscard]] std::string cell_text(const std::optional<double>& value,
                                     std::string_view format = "{:.3f}");
 
+/// A figure for programs, as CSV has it: nine significant digits, `-` where undefined.
+[[nodiscard]] std::string nine_digits(const std::optional<double>& value);
+
 /// Scores of every method at every cell for one group of classes ("pooled", "macro" or a class), at
 /// tolerance 0 and, where scored, 1, by distance and of instances, with both ceilings.
 [[nodiscard]] Table score_table(const StudySummary& summary, const std::string& group);

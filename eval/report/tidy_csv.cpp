@@ -32,10 +32,6 @@ std::vector<Metric> counts_as_metrics(const ClassCounts& counts) {
   return metrics;
 }
 
-std::string nine_digits(const std::optional<double>& value) {
-  return cell_text(value, "{:.9g}");
-}
-
 /// `best`: of each of the summary's groups.
 void write_result(const ResultLine& line, std::size_t seed, const StudySummary& summary,
                   const std::vector<BestThreshold>& best, std::ostream& out) {

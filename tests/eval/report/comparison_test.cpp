@@ -105,6 +105,22 @@ TEST(ComparisonTable, PrintsUndefinedFiguresAsDashes) {
   EXPECT_THAT(table.rows[0], ElementsAre("0", "f1", "-", "-", "-", "-", "-", "-", "-", "-", "0"));
 }
 
+TEST(ComparisonTable, HasNineDigitsForPrograms) {
+  // Precisions of three seeds: 0.98, 0.97, 0.96 and 0.94, 0.93, and of the last seed 70 of 90.
+  StudySummary summary = summary_of(3);
+  ClassCounts& last = summary.trials.at(1).results.at(2).counts.at(1);
+  last.predicted = 90;
+  last.true_predicted = 70;
+  const ComparisonQuestion question{"direct", "erosion", "cup", {"precision"}};
+  const Table table = comparison_table(summary, question, Figures::nine_digits);
+  EXPECT_THAT(table.rows[0], ElementsAre("0", "precision", "0.97", "0.882592593", "0.0874074074",
+                                         "0.04", "0.182222222", "range", "0.25", "0.5", "3"));
+  EXPECT_THAT(to_csv(table), HasSubstr("\n0,precision,0.97,0.882592593,0.0874074074,"));
+  EXPECT_THAT(to_json(table), HasSubstr("\"difference\": 0.0874074074,"));
+  EXPECT_EQ(comparison_table(summary, question).rows[0][4], "+0.0874");
+  EXPECT_EQ(comparison_table(summary, question).columns, table.columns);
+}
+
 TEST(Comparison, ListsWhatThereIs) {
   const StudySummary summary = summary_of(2);
   const auto error = [&](const std::string& part, const ComparisonQuestion& question) {
