@@ -77,6 +77,12 @@ class Reference {
         by_the_file ? "-" : text, range == "any" ? "" : range, field.meaning);
   }
 
+  /// The default beneath: what holds where neither the file nor a preset gives the key.
+  template <class T, class Keys>
+  void leaf(const std::string& path, const Field& field, const Given<T, Keys>& value) {
+    leaf(path, field, value.value);
+  }
+
   void row(std::string_view key, std::string_view type, std::string_view unit,
            std::string_view preset, std::string_view range, std::string_view meaning) {
     text_ +=
@@ -87,7 +93,9 @@ class Reference {
       "# Keys of a study file\n\n"
       "Made by the program from the lists of fields of the parameters (core/parameters.hpp). A key "
       "whose default is - may be left\nout. The dotted path of a key is what sweeps and "
-      "flags name it by; NAME is a method's name, PATH the path of a leaf.\n\n"
+      "flags name it by; NAME is a method's name, PATH the path of a leaf. Defaults\nare those of "
+      "the default "
+      "preset and scan_model; another brings its own.\n\n"
       "| key | type | unit | default | range | meaning |\n"
       "| --- | --- | --- | --- | --- | --- |\n";
 };

@@ -278,6 +278,10 @@ TEST(StudyReference, NamesTypeUnitDefaultAndRange) {
   EXPECT_THAT(reference, HasSubstr("| `voxel_m` | number | m | 0.05 | above 0, up to 10 |"));
   EXPECT_THAT(reference, HasSubstr("| `methods.NAME.segmentation.erosion.radius_px` | whole number "
                                    "| px | 5 |"));
+  EXPECT_THAT(reference, HasSubstr("| `faults.labels.score_concentration` | number |  | 10 |"));
+  EXPECT_THAT(reference, HasSubstr("| `faults.labels.score_mean` | number |  | - |"));
+  EXPECT_THAT(reference, HasSubstr("| `faults.labels.confusion_matrix` | list of list of number |  "
+                                   "| [] |"));
   EXPECT_THAT(reference, HasSubstr("| `faults.pose.kind` | white, walk, constant |  | white |"));
 }
 
