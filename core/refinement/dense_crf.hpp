@@ -40,8 +40,6 @@ struct Crf {
   static constexpr std::string_view kKind = "crf";
   static constexpr std::string_view kMeaning =
       "a fully connected conditional random field over the map's voxels (docs/refinement.md)";
-  /// Of the result for the same input; part of the keys of trials with a CRF, and of no others.
-  static constexpr int kVersion = 2;
   double smoothness_weight = 3, smoothness_sigma_m = 0.06;
   double appearance_weight = 3, appearance_sigma_m = 0.12, appearance_sigma_colour = 20;
   bool normalised = true;   ///< k_ij / sqrt(n_i n_j), n_i = sum_j k_ij; false: k_ij as it is

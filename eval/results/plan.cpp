@@ -127,6 +127,8 @@ std::string revisions(const Study& config) {
     lines += "label_scores: 2\n";  // score_mean became the mean of all scores
   if (draws_correlated(config))
     lines += "covariance_root: 2\n";  // became Cholesky's, in the order of the axes
+  if (std::holds_alternative<Crf>(config.methods.front().refinement))
+    lines += "crf: 2\n";  // whole voxels decide its cut-off, and voxels alone keep their beliefs
   return lines;
 }
 
