@@ -10,6 +10,7 @@ statistics_check.py PROGRAM    sweeps methods and doses over 22 seeds, takes one
 import csv
 import io
 import json
+import math
 import os
 import re
 import sys
@@ -119,13 +120,31 @@ def row_expected(tidy, a, b, group, dose, metric):
             if None not in pair]
     names = f"mean {a}", f"mean {b}", "difference", "low", "high", "p"
     if not both:
-        return {"pairs": "0", "spread": "-", **dict.fromkeys(names)}, 0.0
+        return {"pairs": "0", "spread": "-", **dict.fromkeys(names)}, 0.0, {}
     of_a, of_b = zip(*both)
     d = [x - y for x, y in both]
     p, luck = sign_flip_p(of_a, of_b, 0.0 if metric in EXACT else DIGIT)
     kind = "range" if len(both) < 10 else "95% interval"
+    of_ends = (0.0, 0.0) if metric in EXACT else told_error_of_ends(of_a, of_b)
     return {"pairs": str(len(both)), "spread": kind,
-            **dict(zip(names, (mean(of_a), mean(of_b), mean(d), *spread(d), p), strict=True))}, luck
+            **dict(zip(names, (mean(of_a), mean(of_b), mean(d), *spread(d), p), strict=True))}, luck, dict(
+                zip(("low", "high"), of_ends, strict=True))
+
+
+def told_error(value):
+    """Half a unit of the last of nine significant digits."""
+    return 0.5 * 10.0 ** (math.floor(math.log10(abs(value))) - 8) if value else 0.0
+
+
+def told_error_of_ends(of_a, of_b):
+    """By how much both ends may be off, to first order, since the seeds' values are told to nine digits."""
+    d = [x - y for x, y in zip(of_a, of_b)]
+    before, errors = spread(d), [0.0, 0.0]
+    for i, (x, y) in enumerate(zip(of_a, of_b)):
+        off = told_error(x) + told_error(y)
+        after = spread(d[:i] + [d[i] + off] + d[i + 1:])
+        errors = [error + abs(b - a) for error, b, a in zip(errors, before, after)]
+    return errors
 
 
 def check_compare(findings, tidy, text, a, b, group):
@@ -135,13 +154,14 @@ def check_compare(findings, tidy, text, a, b, group):
     where = f"{tidy.seeds} seeds, {a} - {b}, {group}"
     findings.hold_equal(f"{where}: rows", cells, {(dose, metric) for dose in DOSES_M for metric in COMPARED})
     for row in rows:
-        expected, luck = row_expected(tidy, a, b, group, float(row[LEAF]), row["metric"])
+        expected, luck, of_ends = row_expected(tidy, a, b, group, float(row[LEAF]), row["metric"])
         for name, value in expected.items():
             here = f"{where}, {row[LEAF]} m, {row['metric']}: {name}"
             if name in ("pairs", "spread"):
                 findings.hold_equal(here, row[name], value)
             else:
-                findings.hold(here, row[name], value, luck + 1e-12 if name == "p" else 2 * DIGIT)
+                findings.hold(here, row[name], value,
+                              luck + 1e-12 if name == "p" else max(2 * DIGIT, of_ends.get(name, 0.0)))
         p = expected["p"]
         findings.middling_p += p is not None and 0.01 < p < 0.9
         findings.dropped += 0 < int(row["pairs"]) < tidy.seeds
