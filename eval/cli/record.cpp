@@ -28,6 +28,8 @@ void record(const RecordFlags& flags) {
                 "study");
   Study study = is_scene ? study_of_scene(flags.source, flags.overrides)
                          : load_study(flags.source, flags.overrides);
+  if (study.scene && study.recording)
+    throw Error("recording: `record` renders the scene anew and would not read it; leave it out");
   if (!flags.motion.empty()) study.motion = std::filesystem::absolute(flags.motion).string();
   if (flags.bake && has_verdict_faults(study))
     std::cerr << "record: note: wrong classes and scores are not baked: images of instance ids "

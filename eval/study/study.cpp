@@ -17,20 +17,8 @@ void check_method_name(const YamlValue& at, const std::string& name) {
     at.fail(fmt::format("{} cannot name a method; use letters, digits, _ and -", yaml_text(name)));
 }
 
-namespace {
-
-/// Sets what a path leads to.
-struct Setter {
-  const YamlValue& at;
-
-  void operator()(const Field& field, auto& leaf) const { read_leaf(at, field.range, leaf); }
-  void choice(Choice auto& choice) const { read_choice(at, choice); }
-};
-
-}  // namespace
-
 void set_leaf(Study& study, std::string_view path, const YamlValue& at) {
-  at_leaf_below(at, study, path, Setter{at});
+  at_leaf_below(at, study, path, [&](const StudyLeaf& leaf) { leaf.read(at); });
 }
 
 void set_leaf(Study& study, std::string_view path, const std::string& yaml_value) {
@@ -46,12 +34,10 @@ void set_leaves(Study& study, const std::vector<std::string>& overrides) {
   }
 }
 
-std::string leaf_text(const Study& study, std::string_view path) {
+std::string leaf_text(Study study, std::string_view path) {
   std::string text;
-  const auto get = [&](const Field&, const auto& leaf) {
-    text = Leaf<std::remove_cvref_t<decltype(leaf)>>::text(leaf);
-  };
-  at_leaf_below(YamlValue{{}, "", 0, std::string(path)}, study, path, get);
+  at_leaf_below(YamlValue{{}, "", 0, std::string(path)}, study, path,
+                [&](const StudyLeaf& leaf) { text = leaf.text(); });
   return text;
 }
 
@@ -121,10 +107,10 @@ bool reads_colour(const Study& study) {
   });
 }
 
-Field field_of(const Study& study, std::string_view path) {
+Field field_of(Study study, std::string_view path) {
   Field found;
-  const auto get = [&](const Field& field, const auto&) { found = field; };
-  at_leaf_below(YamlValue{{}, "", 0, std::string(path)}, study, path, get);
+  at_leaf_below(YamlValue{{}, "", 0, std::string(path)}, study, path,
+                [&](const StudyLeaf& leaf) { found = leaf.field; });
   return found;
 }
 

@@ -175,7 +175,7 @@ void set_leaf(Study& study, std::string_view path, const std::string& yaml_value
 void set_leaves(Study& study, const std::vector<std::string>& overrides);
 
 /// Canonical text of the leaf at a dotted path; an unset optional leaf is "-". Throws as set_leaf.
-[[nodiscard]] std::string leaf_text(const Study& study, std::string_view path);
+[[nodiscard]] std::string leaf_text(Study study, std::string_view path);
 
 /// Throws an Error that states where the value at a dotted path was written, and `problem`.
 using Blame = std::function<void(std::string_view path, const std::string& problem)>;
@@ -228,7 +228,7 @@ void check(const Study& study);
 [[nodiscard]] bool reads_colour(const Study& study);
 
 /// The field of the leaf at a dotted path. Throws as set_leaf.
-[[nodiscard]] Field field_of(const Study& study, std::string_view path);
+[[nodiscard]] Field field_of(Study study, std::string_view path);
 
 /// True when the leaf decides what a recording holds (scene, trajectory, cameras, ...), so that a
 /// sweep over it needs a recording for each of its values.

@@ -8,8 +8,8 @@
 #include "files/text.hpp"
 
 #include <fmt/format.h>
+#include <opencv2/core.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <set>
 
@@ -89,11 +89,12 @@ void check_covariance(const sim::PoseNoise& pose, const Blame& blame) {
   try {  // the very test of the mapper, so that what is accepted here is not refused there
     (void)covariance_root(E);
   } catch (const Error&) {
-    const double least = Eigen::SelfAdjointEigenSolver<Covariance6>(E).eigenvalues().minCoeff();
+    cv::Mat eigenvalues;  // the last is the least; Eigen's own solver compiles for seconds
+    cv::eigen(cv::Mat(6, 6, CV_64F, E.data()), eigenvalues);
     blame(kCovariancePath,
           fmt::format("is not positive semi-definite: its least eigenvalue is {:.3g}; write the "
                       "covariance of a distribution",
-                      least));
+                      eigenvalues.at<double>(5)));
   }
 }
 

@@ -59,8 +59,9 @@ class RawSweep {
 
   static SweepAxis read_axis(const Study& study, const std::string& path, const YamlValue& values) {
     Study probe = study;
-    at_leaf_below(values, probe, path, [&](const Field& field, const auto&) {
-      if (!field.swept) values.fail(fmt::format("{} cannot be swept; remove it", path));
+    at_leaf_below(values, probe, path, [&](const StudyLeaf& leaf) {
+      (void)leaf.text();  // a choice has none, and cannot be swept
+      if (!leaf.field.swept) values.fail(fmt::format("{} cannot be swept; remove it", path));
     });
     SweepAxis axis{path, {}};
     for (const YamlValue& value : values.elements()) {

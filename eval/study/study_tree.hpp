@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -117,12 +118,20 @@ void read_tree(const YamlValue& at, const Field& field, T& value) {
 
 // --- one leaf ------------------------------------------------------------------------------------
 
-/// Calls act(field, leaf) for the leaf at the dotted path `rest` below `value`. If the path ends at
-/// a choice and `act` has a member choice, calls act.choice(choice) instead. Throws Error, with the
-/// place `at`, when `rest` names no leaf.
-template <class T, class Act>
+/// A leaf or a choice that a path leads to, whatever its type, so that the tree is compiled once
+/// for all that is done with its leaves.
+struct StudyLeaf {
+  const Field& field;
+  const std::function<void(const YamlValue&)>& read;  ///< sets it; throws Error
+  const std::function<std::string()>& text;           ///< throws Error for a choice
+};
+using LeafAct = std::function<void(const StudyLeaf&)>;
+
+/// Calls act(leaf) for what stands at the dotted path `rest` below `value`. Throws Error, with the
+/// place `at`, when `rest` names no leaf and no choice.
+template <class T>
 void at_leaf(const YamlValue& at, const Field& field, T& value, std::string_view rest,
-             const Act& act);
+             const LeafAct& act);
 
 /// "head.tail" -> head, tail.
 [[nodiscard]] inline std::pair<std::string_view, std::string_view> split_path(
@@ -141,8 +150,8 @@ void at_leaf(const YamlValue& at, const Field& field, T& value, std::string_view
   at.fail(fmt::format("unknown key '{}'; {}", key, suggestion(key, keys)));
 }
 
-template <Node T, class Act>
-void at_leaf_below(const YamlValue& at, T& node, std::string_view path, const Act& act) {
+template <Node T>
+void at_leaf_below(const YamlValue& at, T& node, std::string_view path, const LeafAct& act) {
   const auto [head, tail] = split_path(path);
   bool found = false;
   for_each_child(node, [&, head = head, tail = tail](auto& child, const Field& field) {
@@ -150,15 +159,23 @@ void at_leaf_below(const YamlValue& at, T& node, std::string_view path, const Ac
     found = true;
     at_leaf(at, field, child, tail, act);
   });
-  if (!found) fail_on_key(at, head, keys_of(node));
+  if (found) return;
+  if constexpr (Choice<T>)
+    if (kind_named<T>(head))
+      at.fail(
+          fmt::format("the kind here is '{}', not '{}'; choose it as a whole, as {{{}: {{...}}}}",
+                      kind_of(node), head, head));
+  fail_on_key(at, head, keys_of(node));
 }
 
-template <class T, class Act>
+template <class T>
 void at_leaf(const YamlValue& at, const Field& field, T& value, std::string_view rest,
-             const Act& act) {
-  if constexpr (requires { act.choice(value); })
-    if (rest.empty()) return act.choice(value);
-  if constexpr (std::same_as<std::remove_const_t<T>, Sweep>) {
+             const LeafAct& act) {
+  if constexpr (Choice<T>)
+    if (rest.empty())
+      return act({field, [&](const YamlValue& yaml) { read_choice(yaml, value); },
+                  [&]() -> std::string { fail_on_key(at, "", keys_of(value)); }});
+  if constexpr (std::same_as<T, Sweep>) {
     at.fail("the sweep is not a leaf; change it in the file or by a flag sweep.PATH=[...]");
   } else if constexpr (Node<T>) {
     at_leaf_below(at, value, rest, act);
@@ -166,7 +183,8 @@ void at_leaf(const YamlValue& at, const Field& field, T& value, std::string_view
     if (!rest.empty())
       at.fail(
           fmt::format("'{}' is a value and has no key '{}'; end the path there", field.key, rest));
-    act(field, value);
+    act({field, [&](const YamlValue& yaml) { read_leaf(yaml, field.range, value); },
+         [&] { return Leaf<T>::text(value); }});
   }
 }
 

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <iterator>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -48,9 +47,8 @@ void write_csv(std::ostream& out, const SurfaceTruth& truth, const VisibleTruth*
                const std::vector<std::string>& names) {
   std::string text = "i,j,k,class,touch_only,samples\n";
   for (const SurfaceVoxel& voxel : truth.voxels()) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{:d},{}\n", voxel.key.i, voxel.key.j,
-                   voxel.key.k, names.at(voxel.class_id), voxel.touch_only,
-                   samples_at(visible, voxel));
+    text += fmt::format("{},{},{},{},{:d},{}\n", voxel.key.i, voxel.key.j, voxel.key.k,
+                        names.at(voxel.class_id), voxel.touch_only, samples_at(visible, voxel));
     take(out, text);
   }
   take(out, text, 0);

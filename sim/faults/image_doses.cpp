@@ -25,7 +25,9 @@ void check_matrix(const std::vector<std::vector<double>>& matrix) {
     demand(matrix[row].size() == matrix.size(), name, "the matrix is not square; mend its length");
     double sum = 0.0;
     for (const double share : matrix[row]) {
-      demand(share >= 0.0, name, "holds a share that is negative or no number; give 0 or more");
+      demand(share >= 0.0, name,
+             "holds, times `scale`, a share that is negative or no number; give 0 or more, or a "
+             "lesser scale");
       sum += share;
     }
     demand(std::abs(sum - 1.0) < 1e-6, name, "does not add up to 1; mend its shares");

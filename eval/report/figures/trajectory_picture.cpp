@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -228,16 +227,14 @@ PlanarEllipse two_sigma_ellipse(const PoseEstimate& belief) {
   if (!belief.covariance.allFinite())
     throw Error(fmt::format("belief at ({}, {}) m: its covariance is not finite; leave it out",
                             belief.mean.x_m, belief.mean.y_m));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
-      Eigen::Matrix2d(belief.covariance.topLeftCorner<2, 2>()));
-  const Eigen::Vector2d longer = axes.eigenvectors().col(1);
-  const auto full_axis = [&](int i) {
-    return 4.0 * std::sqrt(std::max(0.0, axes.eigenvalues()[i]));
-  };
+  const double xx = belief.covariance(0, 0), xy = belief.covariance(0, 1),
+               yy = belief.covariance(1, 1);
+  const double mean = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);  // of the eigenvalues
+  const auto full_axis = [](double variance) { return 4.0 * std::sqrt(std::max(0.0, variance)); };
   return {{belief.mean.x_m, belief.mean.y_m},
-          full_axis(1),
-          full_axis(0),
-          wrapped_angle(belief.mean.yaw_rad + std::atan2(longer.y(), longer.x()))};
+          full_axis(mean + spread),
+          full_axis(mean - spread),
+          wrapped_angle(belief.mean.yaw_rad + std::atan2(2 * xy, xx - yy) / 2)};
 }
 
 FigureSheet trajectory_figure(const OccupancyGrid& grid,

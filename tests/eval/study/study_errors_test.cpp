@@ -144,10 +144,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "6: sweep.voxel_m.x: 'voxel_m' is a value and has no key 'x'; end the path there"},
         BadLine{"sweep_unknown_method", "sweep: {methods.erosoin.place: [points]}\n",
                 "6: sweep.methods.erosoin.place: unknown key 'erosoin'; did you mean 'erosion'?"},
-        BadLine{"sweep_other_kind",
-                "sweep: {methods.erosion.segmentation.region_growing.radius_factor: [1]}\n",
-                "6: sweep.methods.erosion.segmentation.region_growing.radius_factor: unknown key "
-                "'region_growing'; write one of erosion"},
+        BadLine{
+            "sweep_other_kind",
+            "sweep: {methods.erosion.segmentation.region_growing.radius_factor: [1]}\n",
+            "6: sweep.methods.erosion.segmentation.region_growing.radius_factor: the kind here is "
+            "'erosion', not 'region_growing'; choose it as a whole, as {region_growing: "
+            "{...}}"},
         BadLine{"sweep_seeds", "sweep: {seeds: [1, 2]}\n",
                 "6: sweep.seeds: seeds cannot be swept; remove it"},
         BadLine{"sweep_instances", "sweep: {score.instances: [true, false]}\n",
