@@ -16,10 +16,11 @@ sys.dont_write_bytecode = True
 warnings.filterwarnings("ignore", message="Values in x were outside bounds")  # SLSQP talks
 
 from convex import corners_of
-from crate_recording import check_recording, write_recording
+from crate_recording import HERE, check_recording, write_recording
 from distances import cube_distances
 from recording import map_from_world, moved
 from segmentation import eroded, exponential, grow_region, register
+from streams import Stream
 from surfaces import KINDS, Box, Cylinder, Ellipsoid, Plane, Sphere
 from truth import Samples, cubes_of, pack, surface_truth, unpack, visible_truth, voxels_of
 
@@ -153,6 +154,24 @@ def check_truth():
     expect("yaw 90 of the map", moved(map_from_world((1, 2, 3), np.pi / 2), np.array([1.0, 5, 3])), (3, 0, 0), 1e-12)
 
 
+# ---- random streams -----------------------------------------------------------------------------------------------
+
+def check_streams():
+    """Against the table of docs/methods.md: seed, purpose, indices, first words, uniforms, normals."""
+    with open(os.path.join(HERE, "..", "..", "docs", "methods.md"), encoding="utf-8") as page:
+        rows = [[cell.strip() for cell in line.strip("| \n").split("|")] for line in page if "| 0x" in line]
+    expect("methods.md names four streams", len(rows), 4)
+    for seed, purpose, indices, words, uniforms, normals in rows:
+        name = int(seed), purpose.strip("`"), *(int(index) for index in indices.split(", ") if index != "none")
+        told = [[float(value) for value in column.split(", ")] for column in (uniforms, normals)]
+        stream = Stream(*name)
+        expect(f"stream {name}: words", [hex(int(word)) for word in stream.words(3)] == words.split(", "), True)
+        expect(f"stream {name}: uniforms", Stream(*name).uniforms(2), told[0], 1e-16)
+        expect(f"stream {name}: normals", Stream(*name).normals(3), told[1], 1e-15)
+        single = Stream(*name)
+        expect(f"stream {name}: normals one by one", [single.normal() for _ in range(3)], told[1], 1e-15)
+
+
 # ---- segmentation -------------------------------------------------------------------------------------------------
 
 def check_segmentation():
@@ -202,6 +221,7 @@ def check_segmentation():
 if __name__ == "__main__":
     check_shapes()
     check_truth()
+    check_streams()
     check_segmentation()
     with tempfile.TemporaryDirectory() as temporary:
         write_recording(os.path.join(temporary, "recording"))
