@@ -11,7 +11,6 @@ import csv
 import io
 import json
 import os
-import shutil
 import sys
 import tempfile
 
@@ -24,13 +23,11 @@ sys.dont_write_bytecode = True
 import map_scores
 from agreement import differences
 from distances import KeptDistances
-from drives import program, record
+from drives import corner_scene, program, record
 from foreign_cases import Bench, point_clouds, voxel_lists
 from foreign_trees import label_folders, resampled, trees
 from recording import Recording
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-ENDINGS = (".xml", ".classes.yaml")
 TRAJECTORY = {"waypoints_m_deg": [[0.213, 0.317, 37], [0.157, 1.013, 11], [0.423, 1.437, 3]], "frames_per_s": 1.1}
 
 
@@ -62,9 +59,7 @@ def main(mapscore, scenes):
     mapscore, compared, lines = os.path.abspath(mapscore), 0, []
     map_scores.surface_distances = KeptDistances()
     with tempfile.TemporaryDirectory() as folder:
-        for source in (os.path.join(scenes, "robot.xml"), *(os.path.join(HERE, "corner" + end) for end in ENDINGS)):
-            shutil.copy(source, folder)
-        scene = os.path.join(folder, "corner.xml")
+        scene = corner_scene(scenes, folder)
         recording = record(mapscore, scene, TRAJECTORY, folder)
         bench = Bench(Recording(recording), scene, folder)
         for case in all_cases(bench):

@@ -76,12 +76,23 @@ class Recording:
                            self.path("depth_label", os.path.basename(depth_image)), transform(pose[1:8])))
         return frames
 
+    def depth_number(self, frame):
+        """The number of a frame's depth image in depth.txt."""
+        return self.depth_paths().index(frame[1])
+
+    def depth_paths(self):
+        return [self.path(row[1]) for row in table_rows(self.path("depth.txt"))]
+
     def read_image(self, path):
         return np.asarray(Image.open(path)).astype(np.int64)
 
     def read_depth(self, path):
         """Planar z of every pixel, row-major, 0 where it is not to be used."""
-        z = self.read_image(path) / 5000.0
+        return self.depth_of(self.read_image(path))
+
+    def depth_of(self, stored):
+        """The same of an image's stored values."""
+        z = stored / 5000.0
         usable = (z > 0) & (z >= self.depth["range_min_m"]) & (z <= self.depth["range_max_m"])
         return np.where(usable, z, 0.0)
 
