@@ -65,6 +65,11 @@ endforeach()
 add_test(NAME independent_ruler.foreign_maps
          COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/foreign_maps.py
                  $<TARGET_FILE:mapscore> ${PROJECT_SOURCE_DIR}/scenes)
+foreach(what draws rules verdicts)
+  add_test(NAME independent_ruler.fused_${what}
+           COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/fused_maps.py
+                   $<TARGET_FILE:mapscore> ${PROJECT_SOURCE_DIR}/scenes ${what})
+endforeach()
 foreach(what depth labels)
   add_test(NAME independent_ruler.faulty_${what}
            COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/faulty_images.py

@@ -11,8 +11,8 @@ from recording import moved
 from truth import pack
 
 
-def in_view_and_free(recording, frame, T_map_depth, depth, edge, indices):
-    """Whether each voxel's centre is in view of the frame and not behind what it shows."""
+def in_view(recording, T_map_depth, depth, edge, indices, behind=0):
+    """Whether each voxel's centre is in view of the depth image and at most so many metres behind what it shows."""
     camera = recording.depth
     gap = (indices + 0.5) * edge - T_map_depth[:3, 3]
     R = T_map_depth[:3, :3]
@@ -25,7 +25,7 @@ def in_view_and_free(recording, frame, T_map_depth, depth, edge, indices):
     shown = np.zeros(len(z))
     shown[inside] = depth[v[inside], u[inside]]
     result = np.zeros(len(indices), bool)
-    result[ahead] = (shown != 0) & (z <= shown)
+    result[ahead] = (shown != 0) & (z <= shown + behind)
     return result
 
 
@@ -50,7 +50,7 @@ def free_voxels(truth):
         depth = recording.read_image(frame[1]) / 5000.0
         T_map_depth = truth.lattice.T_map_world @ frame[3] @ recording.T_base_depth
         for indices in voxels_around(recording, T_map_depth, depth, truth.voxel):
-            found.append(pack(indices[in_view_and_free(recording, frame, T_map_depth, depth, truth.voxel, indices)]))
+            found.append(pack(indices[in_view(recording, T_map_depth, depth, truth.voxel, indices)]))
     free = np.unique(np.concatenate(found))
     return free[~np.isin(free, truth.any_surface) & ~np.isin(free, truth.sampled_voxels())]
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the mapscore authors
 # SPDX-License-Identifier: MIT
-"""Writes OctoMap's octree files, .ot and .bt, from voxels by index; written from the format alone.
+"""Writes OctoMap's octree files, .ot and .bt, from voxels by index, and reads our own .ot; written from the format alone.
 
 A tree has 16 levels; the finest voxel i has key i + 32768; bit n of a child's number tells the half on axis n. Eight equal
 leaves of one parent become one leaf, as OctoMap prunes them.
@@ -9,6 +9,8 @@ leaves of one parent become one leaf, as OctoMap prunes them.
 import struct
 
 import numpy as np
+
+from truth import pack
 
 LEVELS, MIDDLE = 16, 32768
 
@@ -91,3 +93,46 @@ def semantic_payloads(log_odds, classes):
     """classes: of each voxel a list of (class, probability)."""
     return [struct.pack("<fH", value, len(rows)) + b"".join(struct.pack("<Hd", *row) for row in sorted(rows))
             for value, rows in zip(log_odds, classes)]
+
+
+class SemanticTree:
+    """A SemanticOcTree file: .voxels is key -> (log-odds, {class: weight}), pruned leaves as the voxels that they cover."""
+
+    def __init__(self, path):
+        with open(path, "rb") as file:
+            head, self.bytes = file.read().split(b"\ndata\n", 1)
+        if b"\nid SemanticOcTree\n" not in head:
+            raise ValueError(f"{path}: no SemanticOcTree")
+        self.at, codes, payloads = 0, [], []
+        for code, levels, payload in self.leaves(0, LEVELS):
+            codes.append(code + np.arange(8**levels))
+            payloads += [payload] * 8**levels
+        if self.at != len(self.bytes):
+            raise ValueError(f"{path}: {len(self.bytes) - self.at} bytes behind the last node")
+        self.voxels = dict(zip(pack(separated(np.concatenate(codes))).tolist(), payloads))
+
+    def take(self, kind):
+        self.at += struct.calcsize(kind)
+        return struct.unpack_from(kind, self.bytes, self.at - struct.calcsize(kind))
+
+    def leaves(self, code, levels):
+        """Number in depth-first order, levels below and payload of each leaf."""
+        log_odds, n = self.take("<fH")
+        weights = dict(self.take("<Hd") for _ in range(n & 0x7fff))
+        if n & 0x8000:  # a mean colour
+            self.take("<4I")
+        children, = self.take("<B")
+        if children == 0:
+            yield code << 3 * levels, levels, (log_odds, weights)
+        for child in range(8):
+            if children >> child & 1:
+                yield from self.leaves(code << 3 | child, levels - 1)
+
+
+def separated(code):
+    """Index of each voxel from its number in depth-first order."""
+    keys = np.zeros((len(code), 3), np.int64)
+    for bit in range(LEVELS):
+        for axis in range(3):
+            keys[:, axis] |= (code >> (3 * bit + axis) & 1) << bit
+    return keys - MIDDLE

@@ -18,9 +18,11 @@ sys.dont_write_bytecode = True
 
 from boxes import box_ious
 from drive_scores import DriveScores
-from map_scores import VoxelMap, joined_of
+from fusion import Blend, FusedMap, hits_of
+from map_scores import joined_of
 from recording import Recording, map_from_world, moved
-from segmentation import exponential, observe
+from segmentation import exponential, observe, observe_depth_labels
+from sights import exact_sight
 from truth import Samples, surface_truth, unpack, visible_truth, voxels_of
 
 
@@ -31,32 +33,6 @@ def depth_samples(recording, frame, T_map_world):
     classes = recording.classes_of(recording.read_image(depth_label_path)).reshape(-1)
     valid = cloud[:, 2] > 0
     return moved(T_map_world @ T_world_base @ recording.T_base_depth, cloud[valid]), classes[valid]
-
-
-def winners(keys, labels):
-    """Per voxel the class of most points, ties to the lower id."""
-    samples = Samples()
-    samples.add(keys, labels)
-    return samples.owners()[:2]
-
-
-class Map:
-    """Blend with one draw: M = K M + (1 - K) O for the voxels that a frame hits."""
-
-    def __init__(self, K, class_count):
-        self.K, self.class_count, self.cells = K, class_count, {}
-
-    def add(self, keys, labels):
-        for key, label in zip(keys.tolist(), labels.tolist()):
-            cell = self.cells.setdefault(key, np.zeros(self.class_count))
-            cell *= self.K
-            cell[label] += 1 - self.K
-
-    def voxels(self):
-        """Every voxel that a frame hit, with its most probable class, ties to the lower id."""
-        keys = np.array(sorted(self.cells), np.int64)
-        cells = np.array([self.cells[key] for key in keys.tolist()]).reshape(len(keys), self.class_count)
-        return VoxelMap(keys, np.ones(len(keys), bool), cells.argmax(axis=1), cells.max(axis=1))
 
 
 def maps_of(recording, options):
@@ -71,11 +47,14 @@ def maps_of(recording, options):
     believed = error @ recording.T_color_depth
     maps, frames = [], recording.frames
     for group in [[frame] for frame in frames] if options.unit == "frame" else [frames]:
-        fused, seen, parts = Map(options.K, max(recording.names) + 1), Samples(), []
+        fused, seen, parts = FusedMap(Blend(max(recording.names) + 1, K=options.K)), Samples(), []
         for frame in group:
-            points, classes, detections = observe(recording, frame, options, believed)
+            points, classes, scores_of_points, detections = (
+                observe_depth_labels(recording, frame, options) if options.labels == "depth_label" else
+                observe(recording, exact_sight(recording, frame), options, believed))
             placed = moved(T_map_world @ frame[3] @ recording.T_base_depth, points)
-            fused.add(*winners(voxels_of(placed, options.voxel_m), classes))
+            one_draw = voxels_of(placed, options.voxel_m), classes, scores_of_points
+            fused.add(*hits_of([one_draw], fused.rule.class_count))
             samples, sample_classes = depth_samples(recording, frame, T_map_world)
             seen.add(voxels_of(samples, options.voxel_m), sample_classes)
             parts.append((samples, sample_classes, box_ious(recording, frame, detections, options.voxel_m)))

@@ -13,13 +13,17 @@ from scipy.spatial import cKDTree
 from recording import moved
 
 
+def cross_product(vector):
+    x, y, z = vector
+    return np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+
+
 def exponential(vector):
     """Rotation matrix of a rotation vector (Rodrigues)."""
     angle = np.linalg.norm(vector)
     if angle == 0:
         return np.eye(3)
-    x, y, z = np.asarray(vector, float) / angle
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    cross = cross_product(np.asarray(vector, float) / angle)
     return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
 
 
@@ -118,28 +122,29 @@ def segment(mask, registered, cloud, options):
     return points, points if options.place == "points" else sensor_voxel_centres(points, options.voxel_m)
 
 
-def observe(recording, frame, options, believed):
-    """Points in depth_optical and their classes of one frame, and its detections as (instance, points kept)."""
-    label_path, depth_path, depth_label_path, _ = frame
+def observe_depth_labels(recording, frame, options):
+    """What the lattice ceiling is given: points in depth_optical, their classes and scores, and no detections."""
+    _, depth_path, depth_label_path, _ = frame
     cloud = recording.cloud(recording.read_depth(depth_path))
-    points, found, detections = [np.zeros((0, 3))], [np.zeros(0, np.int64)], []
-    if options.labels == "depth_label":
-        classes = recording.classes_of(recording.read_image(depth_label_path)).reshape(-1)
-        for label in sorted(recording.detected):
-            kept = cloud[(classes == label) & (cloud[:, 2] > 0)]
-            if options.place == "voxels":
-                kept = sensor_voxel_centres(kept, options.voxel_m)
-            points.append(kept)
-            found.append(np.full(len(kept), label))
-        return np.concatenate(points), np.concatenate(found), detections
-    labels = recording.read_image(label_path)
-    recording.classes_of(labels)
+    classes = recording.classes_of(recording.read_image(depth_label_path)).reshape(-1)
+    points, found = [np.zeros((0, 3))], [np.zeros(0, np.int64)]
+    for label in sorted(recording.detected):
+        kept = cloud[(classes == label) & (cloud[:, 2] > 0)]
+        points.append(sensor_voxel_centres(kept, options.voxel_m) if options.place == "voxels" else kept)
+        found.append(np.full(len(points[-1]), label))
+    found = np.concatenate(found)
+    return np.concatenate(points), found, np.ones(len(found)), []
+
+
+def observe(recording, sight, options, believed):
+    """Points in depth_optical, classes and scores of one frame, and its detections as (instance, points kept)."""
+    cloud = recording.cloud(sight.z)
     registered = register(recording, cloud, believed)
-    for instance in np.unique(labels):
-        label = int(recording.class_of[instance])
-        if label in recording.detected:
-            kept, placed = segment(labels == instance, registered, cloud, options)
-            detections.append((int(instance), kept))
-            points.append(placed)
-            found.append(np.full(len(placed), label))
-    return np.concatenate(points), np.concatenate(found), detections
+    points, found, scores, detections = [np.zeros((0, 3))], [np.zeros(0, np.int64)], [np.zeros(0)], []
+    for instance, (label, score) in sight.detections.items():
+        kept, placed = segment(sight.labels == instance, registered, cloud, options)
+        detections.append((instance, kept))
+        points.append(placed)
+        found.append(np.full(len(placed), label))
+        scores.append(np.full(len(placed), score))
+    return np.concatenate(points), np.concatenate(found), np.concatenate(scores), detections
