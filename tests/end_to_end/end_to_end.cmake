@@ -75,6 +75,8 @@ foreach(what depth labels)
            COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/faulty_images.py
                    $<TARGET_FILE:mapscore> ${PROJECT_SOURCE_DIR}/scenes ${what})
 endforeach()
+add_test(NAME independent_ruler.edge_aligned
+         COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/edge_aligned.py $<TARGET_FILE:mapscore>)
 add_test(NAME independent_ruler.selfcheck COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/selfcheck.py)
 add_test(NAME independent_ruler.statistics
          COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/statistics_check.py $<TARGET_FILE:mapscore>)

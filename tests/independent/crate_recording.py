@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 the mapscore authors
 # SPDX-License-Identifier: MIT
-"""A recording of a crate before a wall, whose scores are known by hand, and the ruler held against them."""
+"""Recordings of boxes before a wall; of one crate, whose scores are known by hand, with the ruler held against them."""
 
 import os
 import subprocess
 import sys
+from dataclasses import dataclass
 
 import numpy as np
 from PIL import Image
@@ -12,56 +13,78 @@ from PIL import Image
 HERE = os.path.dirname(os.path.abspath(__file__))
 OPTICAL_TO_BASE = (-0.5, 0.5, -0.5, 0.5)  # x right, y down, z forward -> x forward, y left, z up
 
-BOXES = [(1, (2.0, 2.2), (-0.3, 0.3), (0.7, 1.3)), (0, (3.0, 3.2), (-5, 5), (-4, 6))]  # instance, x, y, z ranges
-SIZE, FOCAL = (48, 64), 64.0
+@dataclass
+class Scene:
+    """Boxes as (instance, x, y, z ranges) before two cameras that look along world x from the height of 1 m."""
+    boxes: tuple
+    size: tuple  # rows, columns
+    focal: float
+    baseline: float = 0.0  # of the colour camera, to the right of the depth camera
+
+    def seen(self, eye):
+        """Planar depth and instance per pixel."""
+        v, u = np.indices(self.size)
+        cy, cx = ((count - 1) / 2 for count in self.size)
+        ray = np.stack([np.ones(self.size), -(u - cx) / self.focal, -(v - cy) / self.focal], axis=-1)
+        depth, instance = np.full(self.size, np.inf), np.zeros(self.size, int)
+        for number, *ranges in self.boxes:
+            first, last = np.zeros(self.size), np.full(self.size, np.inf)
+            for axis, (low, high) in enumerate(ranges):
+                a, b = (low - eye[axis]) / ray[..., axis], (high - eye[axis]) / ray[..., axis]
+                first, last = np.maximum(first, np.minimum(a, b)), np.minimum(last, np.maximum(a, b))
+            hit = (first <= last) & (first < depth)
+            depth[hit], instance[hit] = first[hit], number
+        return depth, instance
+
+    def images(self):
+        """Depth image in metres, its instances, and the instances of the colour image."""
+        return *self.seen((0, 0, 1)), self.seen((0, -self.baseline, 1))[1]
 
 
-def cast(eye):
-    """Planar depth and instance per pixel, looking along world x."""
-    v, u = np.indices(SIZE)
-    ray = np.stack([np.ones(SIZE), -(u - 31.5) / FOCAL, -(v - 23.5) / FOCAL], axis=-1)
-    depth, instance = np.full(SIZE, np.inf), np.zeros(SIZE, int)
-    for number, *ranges in BOXES:
-        first, last = np.zeros(SIZE), np.full(SIZE, np.inf)
-        for axis, (low, high) in enumerate(ranges):
-            a, b = (low - eye[axis]) / ray[..., axis], (high - eye[axis]) / ray[..., axis]
-            first, last = np.maximum(first, np.minimum(a, b)), np.minimum(last, np.maximum(a, b))
-        hit = (first <= last) & (first < depth)
-        depth[hit], instance[hit] = first[hit], number
-    return depth, instance
+WALL = (0, (3.0, 3.2), (-5, 5), (-4, 6))
+CRATE = Scene(((1, (2.0, 2.2), (-0.3, 0.3), (0.7, 1.3)), WALL), (48, 64), 64.0)
 
 
-def write_recording(folder, frames=2):
+def write_recording(folder, frames=2, scene=CRATE, depth=None, labels=None, T_color_depth=None):
+    """Of the scene; a depth image in metres, label image and calibration may take the places of the true ones."""
     for name in ("color", "depth", "label", "depth_label", "truth"):
         os.makedirs(os.path.join(folder, name))
-    depth, instance = cast((0, 0, 1))
+    true_depth, instance, true_labels = scene.images()
+    depth, labels = true_depth if depth is None else depth, true_labels if labels is None else labels
+    T_color_depth = (-scene.baseline, 0, 0, 0, 0, 0, 1) if T_color_depth is None else T_color_depth
     def write(name, text):
         with open(os.path.join(folder, name), "w", encoding="utf-8") as out:
             out.write(text)
     for n in range(frames):
-        for name, image in (("depth", np.rint(depth * 5000)), ("label", instance), ("depth_label", instance)):
+        Image.fromarray(np.zeros((*scene.size, 3), np.uint8)).save(os.path.join(folder, "color", f"{n:06d}.png"))
+        for name, image in (("depth", np.rint(depth * 5000)), ("label", labels), ("depth_label", instance)):
             Image.fromarray(image.astype(np.uint16)).save(os.path.join(folder, name, f"{n:06d}.png"))
     for name in ("color", "depth"):
         write(f"{name}.txt", "# stamp file\n" + "".join(f"{n}.5 {name}/{n:06d}.png\n" for n in range(frames)))
     write("groundtruth.txt", "".join(f"{n}.5 0 0 0 0 0 0 1\n" for n in range(frames)))
-    camera = "{width_px: 64, height_px: 48, fx_px: 64, fy_px: 64, cx_px: 31.5, cy_px: 23.5, rate_hz: 1"
-    pose = ", ".join(map(str, OPTICAL_TO_BASE))
+    (height, width), focal = scene.size, scene.focal
+    camera = (f"{{width_px: {width}, height_px: {height}, fx_px: {focal}, fy_px: {focal}, cx_px: {(width - 1) / 2}, "
+              f"cy_px: {(height - 1) / 2}, rate_hz: 1")
+    crates = range(1, max(labels.max(), *(number for number, *_ in scene.boxes)) + 1)
     write("recording.yaml", f"""format_version: 1
+scene: ""
+scene_hash: ""
+mujoco_version: ""
+seed: 1
 frame_count: {frames}
 has_truth: true
 color: {camera}}}
 depth: {camera}, range_min_m: 0.6, range_max_m: 8}}
-T_color_depth: [0, 0, 0, 0, 0, 0, 1]
-T_base_depth: [0, 0, 1, {pose}]
+T_color_depth: [{", ".join(map(str, T_color_depth))}]
+T_base_depth: [0, 0, 1, {", ".join(map(str, OPTICAL_TO_BASE))}]
 classes:
   - {{id: 0, name: background, colour: "808080", detect: false}}
   - {{id: 1, name: crate, colour: "FF0000", detect: true}}
 instances:
   - {{id: 0, name: background, class: 0}}
-  - {{id: 1, name: crate_1, class: 1}}
-""")
+""" + "".join(f"  - {{id: {n}, name: crate_{n}, class: 1}}\n" for n in crates))
     rows = ["kind,instance,name,px,py,pz,qx,qy,qz,qw,sx,sy,sz"]
-    for number, *ranges in BOXES:
+    for number, *ranges in scene.boxes:
         centre, half = [(a + b) / 2 for a, b in ranges], [(b - a) / 2 for a, b in ranges]
         rows.append(",".join(map(str, ["box", number, "geom", *centre, 0, 0, 0, 1, *half])))
     write("truth/shapes.csv", "\n".join(rows) + "\n")
@@ -79,7 +102,7 @@ def counts(folder, *flags):
 
 
 def check_recording(folder, expect):
-    """The crate fills columns 22..41 and rows 14..33 at 2 m: 400 pixels, 6 x 6 voxels. See BOXES."""
+    """The crate fills columns 22..41 and rows 14..33 at 2 m: 400 pixels, 6 x 6 voxels. See CRATE."""
     def pick(result, *names):
         return [result[name] for name in names]
     main = ("predicted", "true_predicted", "visible", "found", "samples")
@@ -113,7 +136,7 @@ def check_recording(folder, expect):
            [680, 680, 720, 800])
     # a tilt of 1.790 deg about the colour camera's y axis moves all by +2 px: column 22 shows wall column 20,
     # 23 wall column 21; nothing is torn because the tilt shifts all depths alike. z: 1.79 deg keeps rows within 0.1 px.
-    tilted = ("--rotation_deg", "0", str(np.degrees(2 / FOCAL)), "0")
+    tilted = ("--rotation_deg", "0", str(np.degrees(2 / CRATE.focal)), "0")
     result = counts(folder, *tilted)
     expect("rotation leaks two columns", pick(result, "predicted", "true_predicted", "false_leak"), [56, 36, 20])
     # place voxels: centres of sensor voxels x 0.1 k + 0.05 ... z 2.05 -> map x 2.08, y and z shift to the same cells

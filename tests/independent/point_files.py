@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the mapscore authors
 # SPDX-License-Identifier: MIT
-"""Writes point clouds and voxel lists: .ply and .pcd in all their encodings, .csv. Columns are numpy arrays by field name."""
+"""Writes point clouds and voxel lists: .ply and .pcd in all their encodings, .csv; reads binary .pcd.
+
+Columns are numpy arrays by field name.
+"""
 
 import csv
 import struct
@@ -96,6 +99,16 @@ def write_pcd(path, columns, encoding="ascii"):
             plain = b"".join(column.astype(column.dtype.newbyteorder("<")).tobytes() for column in columns.values())
             packed = lzf_compressed(plain)
             out.write(struct.pack("<II", len(packed), len(plain)) + packed)
+
+
+def read_pcd(path):
+    """A structure a point, of a binary file whose fields have one value each."""
+    with open(path, "rb") as file:
+        head, data = file.read().split(b"\nDATA binary\n", 1)
+    lines = dict(line.split(" ", 1) for line in head.decode().splitlines() if not line.startswith("#"))
+    kinds = [(name, f"<{kind.lower()}{size}") for name, kind, size in
+             zip(*(lines[key].split() for key in ("FIELDS", "TYPE", "SIZE")))]
+    return np.frombuffer(data, kinds, count=int(lines["POINTS"]))
 
 
 def write_csv(path, columns, header=True):
