@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include "core/fusion/fusion_rule.hpp"
 #include "tests/end_to_end/program.hpp"
 #include "tests/end_to_end/tiny_study.hpp"
 
@@ -66,7 +67,7 @@ TEST_F(MapResolutions, CoarserVoxelsAreFewerAndFindTheCrateToo) {
 }
 
 TEST_F(MapResolutions, EveryRuleAndFormat) {
-  for (const std::string rule : {"blend", "max_confidence", "vote", "bayes", "top3"}) {
+  for (const std::string& rule : kinds_of(FusionRule{})) {
     write_text(path("rule.yaml"), "recording: tiny\nfusion: {" + rule + ": {}}\n" +
                                       "methods: {direct: {segmentation: {direct: {}}}}\n");
     expect_done(

@@ -24,8 +24,9 @@ struct EdgeAligned {
   double search_px = 40, reach_px = 3;
 
   static void fields(auto& s, auto&& visit) {
-    visit(s.search_px,
-          Field{"search_px", "largest displacement of the masks that is looked for", {0, 200}});
+    visit(s.search_px, Field{"search_px",
+                             "largest turn that the search tries; the fit after it may go farther",
+                             {0, 200}});
     visit(s.reach_px,
           Field{"reach_px", "how far votes spread over a depth surface", above(0, 100)});
   }

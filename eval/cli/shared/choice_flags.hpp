@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -19,8 +20,8 @@
 
 namespace mapscore::eval {
 
-/// Flags of a choice between kinds: one that names the kind, and one for each parameter of each
-/// kind. Must stay where it is until the flags are parsed.
+/// Flags of a choice between kinds: one that names the kind, and one for each parameter of the
+/// kinds, which kinds share that name it alike. Must stay where it is until the flags are parsed.
 template <Choice Any>
 class ChoiceFlags {
  public:
@@ -53,20 +54,30 @@ class ChoiceFlags {
     for (const Any& kind : each_kind<Any>())
       if (!kind_.empty() && kind_ != kind_of(start_) && kind_of(kind) == kind_) chosen = kind;
     for (const auto& [key, parameter] : parameters_)
-      if (parameter.is_given() && parameter.kind != kind_of(chosen))
+      if (parameter.is_given() && !parameter.refusals.contains(std::string(kind_of(chosen))))
         throw Error(fmt::format("--{}: belongs to {} {}; leave it out of {}", key, flag_,
-                                parameter.kind, kind_of(chosen)));
+                                parameter.refusals.begin()->first, kind_of(chosen)));
     std::visit([this](auto& kind) { read_parameters(kind); }, chosen);
     return chosen;
   }
 
  private:
   struct Parameter {
-    std::string kind;
+    CLI::Option* option = nullptr;
     std::optional<std::string> text;
     bool flag = false;
+    /// By kind: why a text is no value; empty where it is one.
+    std::map<std::string, std::function<std::string(const std::string&)>> refusals;
 
     [[nodiscard]] bool is_given() const { return flag || text; }
+
+    /// Empty where the text is a value for some kind.
+    [[nodiscard]] std::string refusal(const std::string& value) const {
+      std::string last;
+      for (const auto& [kind, refusal_of] : refusals)
+        if ((last = refusal_of(value)).empty()) return last;
+      return last;
+    }
   };
 
   template <class Kind>
@@ -74,19 +85,21 @@ class ChoiceFlags {
     Kind::fields(kind, [&]<class T>(const T& member, const Field& field) {
       const std::string key(field.key), name = "--" + key;
       Parameter& parameter = parameters_[key];
-      parameter.kind = Kind::kKind;
+      parameter.refusals[std::string(Kind::kKind)] = [=](const std::string& text) {
+        return refusal(name, field, text, member);
+      };
       const std::string help =
           fmt::format("Of {}: {} [{}]", Kind::kKind, field.meaning, Leaf<T>::text(member));
-      if constexpr (std::same_as<T, bool>)
-        verb.add_flag(name, parameter.flag, help)->group(group);
+      if (parameter.option)
+        parameter.option->description(parameter.option->get_description() + "\n" + help);
+      else if constexpr (std::same_as<T, bool>)
+        parameter.option = verb.add_flag(name, parameter.flag, help)->group(group);
       else
-        verb.add_option(name, parameter.text, help)
-            ->group(group)
-            ->check(CLI::Validator(
-                [name, field, member](const std::string& text) {
-                  return refusal(name, field, text, member);
-                },
-                ""));
+        parameter.option =
+            verb.add_option(name, parameter.text, help)
+                ->group(group)
+                ->check(CLI::Validator(
+                    [&parameter](const std::string& text) { return parameter.refusal(text); }, ""));
     });
   }
 

@@ -103,9 +103,9 @@ class FusedTrial : public testing::TinyExperiment {
 TEST_F(FusedTrial, EveryRuleMapsTheSameVoxels) {
   const auto voxels = run("{blend: {N: 5}}").accounting.map_voxels;
   EXPECT_GT(voxels, 0);
-  for (const char* fusion : {"{max_confidence: {N: 5}}", "{vote: {N: 5}}", "{bayes: {N: 5}}",
-                             "{top3: {N: 5}}", "{blend: {N: 5, decay: view}}"})
-    EXPECT_EQ(run(fusion).accounting.map_voxels, voxels) << fusion;
+  for (const std::string& rule : kinds_of(DrawnFusion{}))
+    EXPECT_EQ(run("{" + rule + ": {N: 5}}").accounting.map_voxels, voxels) << rule;
+  EXPECT_EQ(run("{blend: {N: 5, decay: view}}").accounting.map_voxels, voxels);
 }
 
 TEST_F(FusedTrial, PriorsAreCheckedBeforeTheFirstFrame) {

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "eval/study/study.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -106,10 +107,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"detect_none", "detect: []\n",
                 "6: detect: names no class; write all, or a list of class names"},
         BadLine{"detect_twice", "detect: [cup, cup]\n", "6: detect: cup stands twice; keep one"},
-        BadLine{
-            "two_kinds", "fusion: {blend: {}, bayes: {}}\n",
-            "6: fusion: names 2 kinds; write one of blend, max_confidence, vote, bayes, top3, as "
-            "{blend: {}}"},
+        BadLine{"two_kinds", "fusion: {blend: {}, bayes: {}}\n",
+                fmt::format("6: fusion: names 2 kinds; write one of {}, as {{blend: {{}}}}",
+                            fmt::join(kinds_of(DrawnFusion{}), ", "))},
         BadLine{"unknown_kind", "fusion: {blond: {}}\n",
                 "6: fusion.blond: unknown kind 'blond'; did you mean 'blend'?"},
         BadLine{"ranges_crossed", "cameras:\n  range_min_m: 9\n",

@@ -34,6 +34,8 @@ using testing::synthetic_study;
 using testing::synthetic_summary;
 using testing::text_of;
 
+constexpr std::size_t kSheets = 10;  // files that a study of one axis gets
+
 // Erosion at 20 mm (cell 1): cups 0.06 + 0.02 = 0.08 false at seed 0 and 0.09 at seed 1, chairs
 // 0.04 more: of 200 predicted 20 and 22 are false, so precision is 0.9, 0.89, and 0.895 pooled. Its
 // ceilings: 16 and 4 of 200.
@@ -156,7 +158,7 @@ TEST_F(FiguresTest, WithoutASweepAllMethodsShareAPanelOverTheThreshold) {
 
 TEST_F(FiguresTest, DrawsPngAndPdfWithScriptAndDataBeside) {
   const std::vector<fs::path> files = draw_figures(one_axis(), folder_);
-  ASSERT_EQ(files.size(), 10u);
+  ASSERT_EQ(files.size(), kSheets);
   for (const fs::path& file : files) {
     SCOPED_TRACE(file.string());
     const std::string bytes = text_of(file);
@@ -186,7 +188,7 @@ TEST_F(FiguresTest, SameStudySameDataAndScript) {
 TEST_F(FiguresTest, NamesWithQuotesAreDrawn) {
   StudySummary summary = one_axis(1);
   summary.study.name = R"(a "study"\n of 'quotes')";
-  EXPECT_EQ(draw_figures(summary, folder_).size(), 10u);
+  EXPECT_EQ(draw_figures(summary, folder_).size(), kSheets);
 }
 
 TEST_F(FiguresTest, NoNameRunsAnything) {
@@ -196,7 +198,7 @@ TEST_F(FiguresTest, NoNameRunsAnything) {
   summary.study.name = "`touch " + marker + "` $(touch " + marker + ") @x %s";
   summary.table.classes[1].name = "`touch " + marker + "` 100%";
   summary.table.classes[2].name = "'.system('touch " + marker + "').'' it's ''";
-  EXPECT_EQ(draw_figures(summary, folder_).size(), 10u);
+  EXPECT_EQ(draw_figures(summary, folder_).size(), kSheets);
   for (const auto& entry : fs::directory_iterator(folder_))
     if (entry.path().extension() == ".gp") run_gnuplot(folder_, entry.path().filename().string());
   EXPECT_FALSE(fs::exists(marker));
