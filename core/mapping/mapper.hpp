@@ -62,8 +62,8 @@ class Mapper {
   void fuse(const Observation& observation, const Sight& seen, const PoseBelief& belief,
             RandomStream& stream);
 
-  /// Adds the colours behind the pixels of the masks to the map, for a refinement that reads them.
-  /// `bgr`: image of the colour camera.
+  /// Adds the colours of the registered pixels (masks and centres of boxes, docs/refinement.md) to
+  /// the map, for a refinement that reads them. `bgr`: image of the colour camera.
   void add_colours(const Sight& sight, const cv::Mat3b& bgr, const PoseBelief& belief);
 
   [[nodiscard]] const SemanticMap& map() const { return map_; }
