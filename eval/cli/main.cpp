@@ -5,6 +5,7 @@
 #include "eval/cli/verbs.hpp"
 #include "files/text.hpp"
 
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <filesystem>
@@ -13,6 +14,8 @@
 #include <streambuf>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -62,34 +65,47 @@ int complain(const std::string& message) {
 }
 
 /// CLI11 would only say that a verb is missing.
-void refuse_unknown_verb(const CLI::App& program, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+void refuse_unknown_verb(const CLI::App& program, const std::vector<std::string>& words) {
+  if (words.empty() || words.front().starts_with('-')) return;
   std::string verbs;
   for (const CLI::App* verb : program.get_subcommands({})) {
-    if (verb->get_name() == argv[1]) return;
+    if (verb->get_name() == words.front()) return;
     verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
   }
-  throw mapscore::Error(std::string("no verb '") + argv[1] + "'; there are: " + verbs);
+  throw mapscore::Error("no verb '" + words.front() + "'; there are: " + verbs);
 }
 
 /// An unset variable of a shell would otherwise pass for a flag that was not given.
-void refuse_empty_values(int argc, char** argv) {
-  for (int n = 1; n < argc; ++n) {
-    const std::string_view word = argv[n];
+void refuse_empty_values(const std::vector<std::string>& words) {
+  for (std::size_t n = 0; n < words.size(); ++n) {
+    const std::string& word = words[n];
     if (word.empty())
-      throw mapscore::Error(std::string("an empty value after '") + argv[n - 1] +
+      throw mapscore::Error("an empty value after '" + (n > 0 ? words[n - 1] : "mapscore") +
                             "'; give one, or leave the flag out");
     if (word.starts_with("--") && word.find('=') == word.size() - 1)
-      throw mapscore::Error(std::string(word) + ": has no value; give one, or leave the flag out");
+      throw mapscore::Error(word + ": has no value; give one, or leave the flag out");
   }
+}
+
+/// The words after the program's name; `help VERB` as `VERB --help`.
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.insert(words.begin() + (words.empty() ? 0 : 1), "--help");
+  }
+  return words;
 }
 
 int run(CLI::App& program, int argc, char** argv) {
   int exit_code = 0;
   mapscore::eval::add_verbs(program, exit_code);
-  refuse_unknown_verb(program, argc, argv);
-  refuse_empty_values(argc, argv);
-  program.parse(argc, argv);
+  std::vector<std::string> words = words_of(argc, argv);
+  refuse_unknown_verb(program, words);
+  refuse_empty_values(words);
+  std::ranges::reverse(words);  // as CLI11 takes them
+  program.name(argc > 0 ? argv[0] : "mapscore");
+  program.parse(std::move(words));
   std::cout.flush();
   return std::cout ? exit_code : complain("standard output cannot be written; is the disk full?");
 }
@@ -109,7 +125,9 @@ int main(int argc, char** argv) {
       "  mapscore sweep configs/demo.yaml -o results/demo     all trials of a study\n"
       "  mapscore table results/demo                          their scores\n"
       "  mapscore figures results/demo                        their figures and pictures\n"
-      "`mapscore VERB --help` tells more. Exit codes: 0 done, 1 the answer is no, 2 wrong input.");
+      "`mapscore help VERB` tells more. Exit codes: 0 done, 1 the answer is no or trials failed, "
+      "2\n"
+      "wrong input.");
   try {
     return run(program, argc, argv);
   } catch (const CLI::Success& request) {

@@ -16,6 +16,7 @@
 #include "eval/report/summary.hpp"
 #include "eval/report/table.hpp"
 #include "eval/report/tidy_csv.hpp"
+#include "eval/report/trial_list.hpp"
 #include "eval/results/plan.hpp"
 #include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"
@@ -26,7 +27,10 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace mapscore::eval {
 namespace {
@@ -34,7 +38,7 @@ namespace {
 struct RunFlags {
   StudyFlags study;
   WorkFlags work;
-  std::string method;
+  std::string method, key;
   int seed = 0;
   bool yes = false;
   ViewFlag view;
@@ -107,67 +111,169 @@ std::string score_command(const std::filesystem::path& map, const Study& study,
   return shown(command) + '\n';
 }
 
-void run(const RunFlags& flags) {
-  const std::optional<sim::View> view = flags.view.view();
-  const Study study = flags.study.load();
-  const std::filesystem::path results = flags.study.results_folder(study);
-  const TrialSpec spec = spec_of(study, flags);
+/// A trial to run, and all that it stands on.
+struct ChosenTrial {
+  Study study;
+  std::filesystem::path results;
+  Recording recording;
+  ClassTable table;
+  TrialSpec spec;
+  Role role = Role::trial;
+  Task task;
+  std::optional<TrialResult> stored = {};  ///< what the store holds of a repeated one
+};
+
+ChosenTrial trial_of_study(const RunFlags& flags) {
+  Study study = flags.study.load();
+  std::filesystem::path results = flags.study.results_folder(study);
+  TrialSpec spec = spec_of(study, flags);
   ShownRecording display(flags.work.quiet);
-  const Recording recording = recording_of(study, results, flags.work.jobs, display.progress());
+  Recording recording = recording_of(study, results, flags.work.jobs, display.progress());
   if (const std::string note = note_on_baked(recording.info()); !note.empty())
     std::cerr << "run: " << note << '\n';
-  const ClassTable table = detected_table(study, recording.info().table);
-  const Task task = task_of(study, spec, Labels::detected, recording.content_hash());
-  check_truth_size(task.config, recording, 1, flags.yes);
-  const bool by_frame = task.config.score.unit == ScoreUnit::frame;
+  ClassTable table = detected_table(study, recording.info().table);
+  Task task = task_of(study, spec, Labels::detected, recording.content_hash());
+  return {std::move(study), std::move(results), std::move(recording), std::move(table),
+          std::move(spec),  Role::trial,        std::move(task)};
+}
 
-  Bench bench(recording, table, reads_colour(study), flags.work.memory_bytes);
+/// The one task whose key begins with `begin`.
+ListedTask task_of_key(const Plan& plan, const std::string& begin, const std::string& results) {
+  std::vector<ListedTask> found;
+  visit_tasks(plan, [&](const ListedTask& listed) {
+    if (plan.tasks.key(listed.task).starts_with(begin)) found.push_back(listed);
+    return found.size() < 2;
+  });
+  if (found.size() == 1) return found.front();
+  throw Error(fmt::format("--trial {}: {}; `mapscore trials {}` lists the keys", begin,
+                          found.empty() ? "no trial of the study has this key"
+                                        : "several keys begin so; write more of it",
+                          results));
+}
+
+ChosenTrial trial_of_store(const RunFlags& flags) {
+  const std::string& results = flags.study.file;
+  if (!flags.study.overrides.empty())
+    throw Error("--set: stands beside --trial, which repeats a trial as it is; leave one out");
+  const std::filesystem::path file = store_file(results);
+  const ResultStore store = ResultStore::open_existing(file);
+  StudyRecord record = read_study(store, file.parent_path());
+  const Plan plan = plan_of(record.study, record.recording_hash);
+  ListedTask listed = task_of_key(plan, flags.key, results);
+  const std::filesystem::path place = (file.parent_path() / record.recording).lexically_normal();
+  Recording recording = Recording::open(place);
+  if (recording.content_hash() != record.recording_hash)
+    throw Error(place.string() +
+                ": is another recording than that of the study's trials; sweep again");
+  Task task = plan.tasks[listed.task];
+  auto stored = store.find(task.key);
+  return {
+      std::move(record.study),
+      flags.study.results.empty() ? file.parent_path() : std::filesystem::path(flags.study.results),
+      std::move(recording),
+      std::move(record.table),
+      std::move(listed.spec),
+      listed.role,
+      std::move(task),
+      std::move(stored)};
+}
+
+std::string name_of(const ChosenTrial& chosen) {
+  return chosen.role == Role::trial ? chosen.spec.method : name_of(chosen.role);
+}
+
+void print_scores(const ChosenTrial& chosen, const TrialRun& trial, const TrialResult& result,
+                  const std::filesystem::path& folder) {
+  const auto& [study, results, recording, table, spec, role, task, stored] = chosen;
+  const bool by_frame = task.config.score.unit == ScoreUnit::frame;
+  std::cout << fmt::format("# {} seed {}{}{}, voxels of {} m, each {} scored, threshold {}\n",
+                           name_of(chosen), spec.seed_index, spec.cell.doses.empty() ? "" : " ",
+                           text_of(spec.cell), task.config.voxel_m, by_frame ? "frame" : "map",
+                           trial.threshold())
+            << score_text(result, table) << shown(folder / "map.ot")
+            << (by_frame ? " (of the last frame)\n" : "\n") << shown(folder / "map_colour.ot")
+            << '\n'
+            << score_command(folder / "map.ot", study, recording, table, task, trial.threshold());
+}
+
+void print_pictures_of(const ChosenTrial& chosen, const RunFlags& flags, Bench& bench,
+                       const TrialRun& trial, const std::filesystem::path& folder) {
+  const auto& [study, results, recording, table, spec, role, task, stored] = chosen;
+  if (role != Role::trial) return print_pictures({{}, "it is a ceiling; its map is there"});
+  const PictureChoice choice{spec.cell.doses, spec.method, spec.seed_index, flags.work.memory_bytes,
+                             flags.view.view()};
+  print_pictures(draw_pictures(study, table, recording, choice, folder, [&] {
+    return task.config.score.unit == ScoreUnit::frame
+               ? map_trials(study, bench, choice)  // of the fullest frame, not the last
+               : std::vector{judged_trial(study, trial, task, table, spec, {})};
+  }));
+}
+
+/// Whether a repeated trial has the counts that are stored; prints it.
+bool same_as_stored(const ChosenTrial& chosen, const TrialResult& result) {
+  if (!chosen.stored) {
+    std::cout << "# not in the store\n";
+    return true;
+  }
+  const bool same = to_json(*chosen.stored) == to_json(result);
+  std::cout << (same ? "# counts equal to those stored\n" : "# counts DIFFER from those stored\n");
+  return same;
+}
+
+int run(const RunFlags& flags) {
+  static_cast<void>(flags.view.view());  // refused before the work
+  const ChosenTrial chosen = flags.key.empty() ? trial_of_study(flags) : trial_of_store(flags);
+  const Task& task = chosen.task;
+  check_truth_size(task.config, chosen.recording, 1, flags.yes);
+
+  Bench bench(chosen.recording, chosen.table, reads_colour(task.config), flags.work.memory_bytes);
   const std::unique_ptr<TrialRun> trial = bench.start(task);
   trial->keep_frames();
   Progress progress("run", "frames", flags.work.quiet);
   bench.run(*trial, [&](int done, int all) { progress.show(done, all); });
   const std::filesystem::path folder =
-      results / "runs" /
-      fmt::format("{}-seed{}-{}", spec.method, spec.seed_index, task.key.substr(0, 8));
+      chosen.results / "runs" /
+      fmt::format("{}-seed{}-{}", name_of(chosen), chosen.spec.seed_index, task.key.substr(0, 8));
   const FolderLock lock(folder);
   std::filesystem::create_directories(folder);
   const TrialResult result = trial->finish();  // which refines the map
   trial->map().save(folder / "map.ot");
-  trial->map().export_color(folder / "map_colour.ot", table, trial->threshold());
-  std::cout << fmt::format("# {} seed {}{}{}, voxels of {} m, each {} scored, threshold {}\n",
-                           spec.method, spec.seed_index, spec.cell.doses.empty() ? "" : " ",
-                           text_of(spec.cell), task.config.voxel_m, by_frame ? "frame" : "map",
-                           trial->threshold())
-            << score_text(result, table) << shown(folder / "map.ot")
-            << (by_frame ? " (of the last frame)\n" : "\n") << shown(folder / "map_colour.ot")
-            << '\n'
-            << score_command(folder / "map.ot", study, recording, table, task, trial->threshold());
-  write_frames(*trial, table, folder / "frames.csv");
-  const PictureChoice choice{spec.cell.doses, spec.method, spec.seed_index, flags.work.memory_bytes,
-                             view};
-  print_pictures(draw_pictures(study, table, recording, choice, folder, [&] {
-    return by_frame ? map_trials(study, bench, choice)  // of the fullest frame, not the last
-                    : std::vector{judged_trial(study, *trial, task, table, spec, {})};
-  }));
+  trial->map().export_color(folder / "map_colour.ot", chosen.table, trial->threshold());
+  print_scores(chosen, *trial, result, folder);
+  const bool same = flags.key.empty() || same_as_stored(chosen, result);
+  write_frames(*trial, chosen.table, folder / "frames.csv");
+  print_pictures_of(chosen, flags, bench, *trial, folder);
+  return same ? 0 : 1;
 }
 
 }  // namespace
 
-void add_run(CLI::App& program) {
-  const auto [verb, flags] =
-      add_verb<RunFlags>(program, "run", "One trial, with its map and pictures of its errors", run);
+void add_run(CLI::App& program, int& exit_code) {
+  auto* verb = program.add_subcommand("run", "One trial, with its map and pictures of its errors");
+  const auto flags = std::make_shared<RunFlags>();
+  verb->callback([flags, &exit_code] { exit_code = run(*flags); });
   flags->study.add_to(*verb);
   flags->work.add_to(*verb);
   add_yes_flag(*verb, flags->yes);
-  verb->add_option("--method", flags->method, "Name of a method of the study [the first]");
-  verb->add_option("--seed", flags->seed, "Index of the seed [0]");
+  auto* method =
+      verb->add_option("--method", flags->method, "Name of a method of the study [the first]");
+  auto* seed = verb->add_option("--seed", flags->seed, "Index of the seed [0]");
+  verb->add_option("--trial", flags->key,
+                   "With a results folder as STUDY: repeat the trial whose key begins so, and "
+                   "compare its counts with those stored")
+      ->excludes(method)
+      ->excludes(seed);
   flags->view.add_to(*verb);
   verb->footer(
-      "The trial is the first cell of the sweep; --set changes doses.\n"
+      "The trial is the first cell of the sweep; --set changes doses. --trial ends with 1 when "
+      "the\n"
+      "counts differ from those stored.\n"
       "Examples:\n"
       "  mapscore run configs/demo.yaml --method region_growing\n"
       "  mapscore run configs/demo.yaml --view 4 1 2.2 5.5 3 0.8\n"
-      "  mapscore run configs/demo.yaml --set 'sweep={}' --set faults.depth.preset=astra");
+      "  mapscore run configs/demo.yaml --set 'sweep={}' --set faults.depth.preset=astra\n"
+      "  mapscore run results/demo --trial 5c1f09ab     as `mapscore trials results/demo` lists "
+      "it");
 }
 
 }  // namespace mapscore::eval

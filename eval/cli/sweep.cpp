@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "eval/cli/shared/live_status.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
+#include "eval/cli/shared/stop_signal.hpp"
+#include "eval/cli/shared/sweep_size.hpp"
 #include "eval/cli/shared/truth_source.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/runner.hpp"
@@ -13,12 +16,15 @@
 #include "eval/results/plan.hpp"
 #include "eval/results/store.hpp"
 #include "eval/results/study_store.hpp"
+#include "files/folder_lock.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <iostream>
+#include <memory>
+#include <optional>
 
 namespace mapscore::eval {
 namespace {
@@ -28,7 +34,7 @@ struct SweepFlags {
   WorkFlags work;
   std::string shard = "1/1";
   std::vector<std::string> merged;
-  bool yes = false;
+  bool yes = false, dry_run = false;
 };
 
 /// "i/n" with 1 <= i <= n.
@@ -61,10 +67,100 @@ std::string lattice_note(const TaskList& tasks, const ResultStore& store, const 
   return check.note();
 }
 
-void sweep(const SweepFlags& flags) {
+/// The stores of `--merge`. Throws Error where one is none.
+std::vector<ResultStore> merged_stores(const SweepFlags& flags) {
+  std::vector<ResultStore> stores;
+  for (const std::string& other : flags.merged)
+    stores.push_back(ResultStore::open_existing(store_file(other)));
+  return stores;
+}
+
+/// Keeps other sweeps out of the folder, so that none binds it to another study while this one
+/// runs. Waits for one that is there, and says so.
+void enter(const std::filesystem::path& results, bool quiet, std::optional<FolderLock>& lock) {
+  lock.emplace(results, WhenTaken::go_on);
+  if (!lock->taken()) return;
+  const auto other = read_status(results);
+  if (!quiet)
+    std::cerr << fmt::format("sweep: {} is in use{}; waiting until that sweep ends\n",
+                             shown(results), other ? " by " + shown(other->who) : "");
+  lock.emplace(results);
+}
+
+/// Where a sweep works.
+struct Workplace {
+  const SweepFlags& flags;
+  const Study& study;
+  std::filesystem::path results;
+  const Recording& recording;
+  const ClassTable& table;
+  const Plan& plan;
+};
+
+/// The store, bound to the study, with the trials of `merged`.
+ResultStore bound_store(const Workplace& at, const std::vector<ResultStore>& merged) {
+  ResultStore store = ResultStore::open(at.results / "results.sqlite");
+  if (!at.flags.work.quiet) note_other_study(store, at.results, at.study);
+  write_study(store,
+              {at.study, at.table, at.recording.content_hash(),
+               std::filesystem::relative(at.recording.folder(), at.results).string()},
+              at.results);
+  for (std::size_t n = 0; n < merged.size(); ++n) {
+    const int taken = store.merge(merged[n]);
+    if (!at.flags.work.quiet)
+      std::cerr << fmt::format("sweep: {} trials taken over from {}\n", taken,
+                               shown(at.flags.merged[n]));
+  }
+  return store;
+}
+
+RunnerOutcome computed(const Workplace& at, ResultStore& store, const StopSignal& stop) {
+  const WorkFlags& work = at.flags.work;
+  const auto [shard, shards] = parse_shard(at.flags.shard);
+  SweepStatus first;
+  first.study = at.study.name;
+  first.shard = at.flags.shard;
+  first.jobs = work.jobs;
+  first.missing =
+      static_cast<std::int64_t>(missing_tasks(at.plan.tasks, store.keys(), shard, shards).size());
+  LiveStatus status(std::move(first), at.results, at.recording.frame_count());
+  Progress progress("sweep", "frame evaluations", work.quiet);
+  RunnerOptions options{work.jobs, work.memory_bytes, shard, shards};
+  options.progress = [&](std::int64_t done, std::int64_t total) {
+    progress.show(done, total);
+    status.progress(done, total);
+  };
+  options.ended = [&](std::size_t done, std::size_t failed) { status.ended(done, failed); };
+  options.stop = [&] { return stop.taken() != 0; };
+  RunnerOutcome outcome = run_plan(at.plan, at.recording, at.table, store, options);
+  status.end(outcome.stopped ? "stopped" : "finished");
+  return outcome;
+}
+
+/// The failures, and what to do about them. Throws Error where nothing but failed.
+void tell_failures(const RunnerOutcome& outcome, const std::filesystem::path& results) {
+  if (outcome.failures.empty()) return;
+  const TrialFailure& first = outcome.failures.front();
+  const std::string how = outcome.failures.size() > 1 ? fmt::format("{} trials failed, the first: ",
+                                                                    outcome.failures.size())
+                                                      : "1 trial failed: ";
+  if (outcome.computed == 0 && !outcome.stopped) throw Error(how + first.reason);
+  std::cerr << fmt::format(
+      "sweep: {}{}; `mapscore trials {} --state failed` lists them, the same sweep tries them "
+      "again\n",
+      how, shown(first.reason), shell_word(results.native()));
+}
+
+int sweep(const SweepFlags& flags) {
   const Study study = flags.study.load();
   const std::filesystem::path results = flags.study.results_folder(study);
   const auto [shard, shards] = parse_shard(flags.shard);
+  const std::vector<ResultStore> merged = merged_stores(flags);
+  if (flags.dry_run) {
+    print_dry_run(study, results, shard, shards);
+    return 0;
+  }
+  SweepSize(study, results).refuse_many(flags.yes);
 
   ShownRecording display(flags.work.quiet);
   const Recording recording = recording_of(study, results, flags.work.jobs, display.progress());
@@ -74,38 +170,40 @@ void sweep(const SweepFlags& flags) {
   const Plan plan = plan_of(study, recording.content_hash());
   check_truth_size(study, recording, plan.tasks.size(), flags.yes);
 
-  ResultStore store = ResultStore::open(results / "results.sqlite");
-  if (!flags.work.quiet) note_other_study(store, results, study);
-  write_study(store,
-              {study, table, recording.content_hash(),
-               std::filesystem::relative(recording.folder(), results).string()},
-              results);
-  for (const std::string& other : flags.merged) {
-    const int taken = store.merge(ResultStore::open_existing(store_file(other)));
-    if (!flags.work.quiet)
-      std::cerr << fmt::format("sweep: {} trials taken over from {}\n", taken, shown(other));
+  std::optional<FolderLock> lock;
+  enter(results, flags.work.quiet, lock);
+  const Workplace at{flags, study, results, recording, table, plan};
+  ResultStore store = bound_store(at, merged);
+  const StopSignal stop;
+  const RunnerOutcome outcome = computed(at, store, stop);
+  tell_failures(outcome, results);
+  if (outcome.stopped) {
+    std::cerr << fmt::format(
+        "sweep: stopped; {} of {} trials are in {}; the same command goes on where it stopped\n",
+        held_tasks(store, plan.tasks), plan.tasks.size(), shown(results / "results.sqlite"));
+    return 128 + stop.taken();
   }
-  Progress progress("sweep", "frame evaluations", flags.work.quiet);
-  const RunnerOutcome outcome =
-      run_plan(plan, recording, table, store,
-               {flags.work.jobs, flags.work.memory_bytes, shard, shards,
-                [&](std::int64_t done, std::int64_t total) { progress.show(done, total); }});
   if (!flags.work.quiet)
     std::cerr << fmt::format(
         "sweep {}: {} trials computed, {} already there or of other shards; {}\n", study.name,
         outcome.computed, outcome.reused, shown(results / "results.sqlite"));
   if (const std::string note = lattice_note(plan.tasks, store, table); !note.empty())
     std::cerr << "sweep: note: " << note << '\n';
+  return outcome.failures.empty() ? 0 : 1;
 }
 
 }  // namespace
 
-void add_sweep(CLI::App& program) {
-  const auto [verb, flags] =
-      add_verb<SweepFlags>(program, "sweep", "Compute all trials of a study; resumes", sweep);
+void add_sweep(CLI::App& program, int& exit_code) {
+  auto* verb = program.add_subcommand("sweep", "Compute all trials of a study; resumes");
+  const auto flags = std::make_shared<SweepFlags>();
+  verb->callback([flags, &exit_code] { exit_code = sweep(*flags); });
   flags->study.add_to(*verb);
   flags->work.add_to(*verb);
-  add_yes_flag(*verb, flags->yes);
+  add_yes_flag(*verb, flags->yes,
+               "Begin a sweep of very many trials, or a truth that takes much memory");
+  verb->add_flag("--dry-run", flags->dry_run,
+                 "Only print how many trials there are, how many are missing, and for how long");
   verb->add_option("--shard", flags->shard,
                    "Only every n-th trial: i/n, for several processes or machines");
   verb->add_option("--merge", flags->merged, "Take over the trials of another results folder first")
@@ -113,9 +211,14 @@ void add_sweep(CLI::App& program) {
   verb->footer(
       "Records the scene first if its recording is not there. A trial that the store holds is "
       "never\n"
-      "computed again, so a killed sweep goes on where it stopped.\n"
+      "computed again, so a killed sweep goes on where it stopped. A trial that fails is left "
+      "out,\n"
+      "and tried again by the next sweep. `mapscore status` tells from another shell how far it "
+      "is.\n"
+      "Ends with 1 when some trials failed, with 130 by Ctrl-C; then what is done is kept.\n"
       "Examples:\n"
       "  mapscore sweep configs/demo.yaml\n"
+      "  mapscore sweep configs/demo.yaml --dry-run\n"
       "  mapscore sweep configs/demo.yaml -o /data/demo --jobs 8 --memory 4GiB\n"
       "  mapscore sweep configs/demo.yaml --set seeds=20 --set voxel_m=0.02\n"
       "  mapscore sweep configs/demo.yaml -o part2 --shard 2/2\n"

@@ -23,11 +23,12 @@ template <class Flags>
 }
 
 /// Each function adds one verb to the program. A verb's callback does the work and throws Error
-/// when the input is wrong; `check` sets `exit_code` to 1 when the answer is no.
+/// when the input is wrong; `exit_code` is set to 1 when the answer is no: scores fell, trials
+/// failed, counts of a repeated trial differ.
 void add_record(CLI::App& program);
-void add_run(CLI::App& program);
+void add_run(CLI::App& program, int& exit_code);
 void add_frames(CLI::App& program);
-void add_sweep(CLI::App& program);
+void add_sweep(CLI::App& program, int& exit_code);
 void add_map(CLI::App& program);
 void add_localize(CLI::App& program);
 void add_segment(CLI::App& program);
@@ -35,6 +36,8 @@ void add_objects(CLI::App& program);
 void add_truth(CLI::App& program);
 void add_score(CLI::App& program);
 void add_resolutions(CLI::App& program);
+void add_status(CLI::App& program);
+void add_trials(CLI::App& program);
 void add_table(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_figures(CLI::App& program);
@@ -43,9 +46,13 @@ void add_info(CLI::App& program);
 
 /// All of them, in the order of the help.
 inline void add_verbs(CLI::App& program, int& exit_code) {
+  add_record(program);
+  add_run(program, exit_code);
+  add_frames(program);
+  add_sweep(program, exit_code);
   for (const auto add :
-       {add_record, add_run, add_frames, add_sweep, add_map, add_localize, add_segment, add_objects,
-        add_truth, add_score, add_resolutions, add_table, add_compare, add_figures})
+       {add_map, add_localize, add_segment, add_objects, add_truth, add_score, add_resolutions,
+        add_status, add_trials, add_table, add_compare, add_figures})
     add(program);
   add_check(program, exit_code);
   add_info(program);

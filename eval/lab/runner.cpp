@@ -6,14 +6,11 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "eval/lab/bench.hpp"
+#include "eval/lab/strand.hpp"
 #include "eval/lab/truth_cache.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
-#include <map>
-#include <memory>
 #include <mutex>
 #include <new>
 #include <span>
@@ -27,8 +24,8 @@ namespace {
 /// Maps that are under way at once when the frames do not all fit into memory.
 constexpr std::size_t kTrialsAtOnce = 64;
 
-/// Maps of a strand at most; those that carve hold all free space too and are many times as large.
-constexpr std::size_t kTrialsOfAStrand = 16, kCarvingTrialsOfAStrand = 4;
+/// Maps of a strand at most.
+constexpr std::size_t kTrialsOfAStrand = 16;
 
 /// Frames of a block where each is scored by itself: their truths are shared by the trials that
 /// walk them together, and let go then.
@@ -45,89 +42,8 @@ std::size_t bytes_of_a_frame(const Recording& recording, bool colour) {
          (colour ? sizeof(cv::Vec3b) * pixels(color) : 0);
 }
 
-/// Positions of the missing tasks of this shard, those of one lattice together.
-std::vector<std::size_t> missing_tasks(const TaskList& tasks, const ResultStore& store,
-                                       const RunnerOptions& options) {
-  const auto done = store.keys();
-  std::vector<std::size_t> missing;
-  for (auto position = static_cast<std::size_t>(options.shard - 1); position < tasks.size();
-       position += static_cast<std::size_t>(options.shards))
-    if (done.empty() || !done.contains(tasks.key(position))) missing.push_back(position);
-  std::ranges::stable_sort(missing, {}, [&tasks](std::size_t position) {
-    return std::pair(tasks.seed_index(position), tasks.config(position).voxel_m);
-  });
-  return missing;
-}
-
-/// Trials whose methods see the same, under way together: what they see of a frame is made once.
-class Strand {
- public:
-  explicit Strand(std::vector<std::size_t> positions) : positions_(std::move(positions)) {}
-
-  [[nodiscard]] std::size_t size() const { return positions_.size(); }
-
-  void start(const TaskList& tasks, Bench& bench) {
-    std::shared_ptr<const Sights> sights;
-    for (const std::size_t position : positions_) {
-      const Task& task = *tasks_.emplace_back(std::make_unique<const Task>(tasks[position]));
-      trials_.push_back(bench.start(task, sights));
-      sights = trials_.back()->sights();
-    }
-  }
-  [[nodiscard]] bool started() const { return !trials_.empty(); }
-
-  void advance(Bench& bench, int index) {
-    const Sights& sights = *trials_.front()->sights();
-    const std::shared_ptr<const Frame> frame = bench.frame(index, sights.depth_of(index));
-    const Sight sight = sights.of(*frame);
-    for (const auto& trial : trials_) trial->advance(*frame, sight);
-  }
-
-  /// Scores the maps and lets go of them: done(task, result) for each trial.
-  void finish(const auto& done) {
-    for (std::size_t n = 0; n < trials_.size(); ++n) {
-      done(*tasks_[n], trials_[n]->finish());
-      trials_[n].reset();
-    }
-    trials_.clear();
-    tasks_.clear();
-  }
-
- private:
-  std::vector<std::size_t> positions_;
-  std::vector<std::unique_ptr<const Task>> tasks_;
-  std::vector<std::unique_ptr<TrialRun>> trials_;
-};
-
-/// Strands of at most `most` trials, in the order of the first of each.
-std::vector<Strand> strands_of(const TaskList& tasks, const std::vector<std::size_t>& missing,
-                               std::size_t most) {
-  std::map<std::string, std::size_t> kinds;     // of sights
-  std::map<const Study*, std::size_t> kind_of;  // a configuration serves all seeds
-  std::map<std::pair<int, std::size_t>, std::size_t> open;
-  std::vector<std::vector<std::size_t>> strands;
-  for (const std::size_t position : missing) {
-    const Study& config = tasks.config(position);
-    const auto [entry, is_new] = kind_of.try_emplace(&config);
-    if (is_new)
-      entry->second = kinds
-                          .try_emplace(fmt::format("{} {}", config.voxel_m,
-                                                   Sights::key(config, tasks.labels(position))),
-                                       kinds.size())
-                          .first->second;
-    const std::pair key(tasks.seed_index(position), entry->second);
-    const auto strand = open.find(key);
-    const std::size_t fitting =
-        config.occupancy.carve ? std::min(most, kCarvingTrialsOfAStrand) : most;
-    if (strand != open.end() && strands[strand->second].size() < fitting) {
-      strands[strand->second].push_back(position);
-    } else {
-      open[key] = strands.size();
-      strands.push_back({position});
-    }
-  }
-  return {strands.begin(), strands.end()};
-}
+/// What ends the strands of a sweep that is to stop.
+struct Stopped {};
 
 /// Everything that the trials of one recording share.
 class Sweep {
@@ -143,8 +59,8 @@ class Sweep {
         bench_(recording, table, colour, options.memory_bytes,
                static_cast<std::size_t>(std::max(1, options.jobs)) + 1) {}
 
-  /// `missing`: positions of tasks. Gives how many frames were made under faults.
-  [[nodiscard]] std::size_t run(const std::vector<std::size_t>& missing) {
+  /// `missing`: positions of tasks.
+  void run(const std::vector<std::size_t>& missing) {
     const int block = block_of_frames(missing);
     const bool all_fit = block == recording_.frame_count();
     std::vector<Strand> strands = strands_of(tasks_, missing, trials_of_a_strand(missing.size()));
@@ -152,11 +68,19 @@ class Sweep {
     for (std::span rest(strands); !rest.empty();) {
       std::size_t count = 0, trials = 0;
       while (count < rest.size() && (all_fit || trials < kTrialsAtOnce))
-        trials += rest[count++].size();
+        trials += rest[count++].planned();
       run_batch(rest.first(count), block);
       rest = rest.subspan(count);
     }
-    return sights_;
+  }
+
+  /// What was done so far.
+  [[nodiscard]] RunnerOutcome outcome() {
+    RunnerOutcome outcome;
+    outcome.computed = computed_;
+    outcome.sights = sights_;
+    outcome.failures = std::exchange(failures_, {});
+    return outcome;
   }
 
  private:
@@ -181,21 +105,43 @@ class Sweep {
   void run_batch(std::span<Strand> batch, int block) {
     for (int first = 0; first < recording_.frame_count(); first += block) {
       const int end = std::min(first + block, recording_.frame_count());
-      for_each_in_parallel(batch.size(), options_.jobs, [&](std::size_t i) {
-        Strand& strand = batch[i];
-        if (!strand.started()) strand.start(tasks_, bench_);
-        for (int index = first; index < end; ++index) {
-          strand.advance(bench_, index);
-          ++sights_;
-          report(strand.size());
-        }
-        if (end < recording_.frame_count()) return;
-        strand.finish([this](const Task& task, const TrialResult& result) {
-          const std::scoped_lock lock(store_mutex_);
-          store_.add(task.key, task.description, result);
-        });
-      });
+      for_each_in_parallel(batch.size(), options_.jobs,
+                           [&](std::size_t i) { advance(batch[i], first, end); });
     }
+  }
+
+  /// Takes a strand over the frames from `first` to before `end`.
+  void advance(Strand& strand, int first, int end) {
+    int index = first;
+    const auto failed = [&](const Task& task, const std::string& reason) {
+      total_ -= recording_.frame_count() - index;
+      keep_failure(task, reason);
+    };
+    if (!strand.started()) strand.start(tasks_, bench_, failed);
+    for (; index < end && strand.size() > 0; ++index) {
+      if (options_.stop && options_.stop()) throw Stopped();
+      strand.advance(bench_, index, failed);
+      ++sights_;
+      report(strand.size());
+    }
+    if (end < recording_.frame_count()) return;
+    index = end;
+    strand.finish([this](const Task& task, const TrialResult& result) { keep(task, result); },
+                  failed);
+  }
+
+  void keep(const Task& task, const TrialResult& result) {
+    const std::scoped_lock lock(store_mutex_);
+    store_.add(task.key, task.description, result);
+    ++computed_;
+    if (options_.ended) options_.ended(computed_, failures_.size());
+  }
+
+  void keep_failure(const Task& task, const std::string& reason) {
+    const std::scoped_lock lock(store_mutex_);
+    store_.add_failure(task.key, reason);
+    failures_.push_back({task.key, reason});
+    if (options_.ended) options_.ended(computed_, failures_.size());
   }
 
   /// Tells of a frame that so many trials took.
@@ -212,29 +158,53 @@ class Sweep {
   const RunnerOptions& options_;
   bool colour_;
   Bench bench_;
-  std::mutex store_mutex_;
-  std::atomic<std::int64_t> done_{0};
+  std::mutex store_mutex_;  // guards the two below
+  std::size_t computed_ = 0;
+  std::vector<TrialFailure> failures_;
+  std::atomic<std::int64_t> done_{0}, total_{0};  ///< frame evaluations
   std::atomic<std::size_t> sights_{0};
-  std::int64_t total_ = 0;
 };
 
 }  // namespace
 
+std::vector<std::size_t> missing_tasks(const TaskList& tasks,
+                                       const std::unordered_set<std::string>& held, int shard,
+                                       int shards) {
+  std::vector<std::size_t> missing;
+  for (auto position = static_cast<std::size_t>(shard - 1); position < tasks.size();
+       position += static_cast<std::size_t>(shards))
+    if (held.empty() || !held.contains(tasks.key(position))) missing.push_back(position);
+  std::ranges::stable_sort(missing, {}, [&tasks](std::size_t position) {
+    return std::pair(tasks.seed_index(position), tasks.config(position).voxel_m);
+  });
+  return missing;
+}
+
 RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
                        ResultStore& store, const RunnerOptions& options) {
   const TaskList& tasks = plan.tasks;
-  const std::vector<std::size_t> missing = missing_tasks(tasks, store, options);
-  const bool colour = std::ranges::any_of(
-      missing, [&](std::size_t position) { return reads_colour(tasks.config(position)); });
-  std::size_t sights = 0;
-  if (!missing.empty()) try {
-      sights = Sweep(tasks, recording, table, store, options, colour).run(missing);
+  const std::vector<std::size_t> missing =
+      missing_tasks(tasks, store.keys(), options.shard, options.shards);
+  RunnerOutcome outcome;
+  if (!missing.empty()) {
+    const bool colour = std::ranges::any_of(
+        missing, [&](std::size_t position) { return reads_colour(tasks.config(position)); });
+    Sweep sweep(tasks, recording, table, store, options, colour);
+    bool stopped = false;
+    try {
+      sweep.run(missing);
+    } catch (const Stopped&) {
+      stopped = true;
     } catch (const std::bad_alloc&) {
       throw Error(
           "out of memory in a trial; use fewer --jobs, less --memory or larger voxels; what is "
           "done stays in the store");
     }
-  return {missing.size(), tasks.size() - missing.size(), sights};
+    outcome = sweep.outcome();
+    outcome.stopped = stopped;
+  }
+  outcome.reused = tasks.size() - missing.size();
+  return outcome;
 }
 
 }  // namespace mapscore::eval

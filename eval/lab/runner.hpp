@@ -11,27 +11,47 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <unordered_set>
+#include <vector>
 
 namespace mapscore::eval {
 
 struct RunnerOptions {
   int jobs = 1;                                     ///< worker threads
   std::size_t memory_bytes = std::size_t{1} << 30;  ///< decoded frames held at once
-  int shard = 1, shards = 1;  ///< this process does every shards-th missing task
-  std::function<void(std::int64_t done, std::int64_t total)> progress;  ///< in frame evaluations
+  int shard = 1, shards = 1;  ///< this process does every shards-th task that is missing
+  std::function<void(std::int64_t done, std::int64_t total)> progress =
+      {};  ///< in frame evaluations
+  /// After each trial, one call at a time: how many were computed and how many failed so far.
+  std::function<void(std::size_t computed, std::size_t failed)> ended = {};
+  std::function<bool()> stop = {};  ///< asked before each frame, from all threads
+};
+
+/// A trial that could not be computed.
+struct TrialFailure {
+  std::string key, reason;
 };
 
 struct RunnerOutcome {
   std::size_t computed = 0;  ///< tasks done now
-  std::size_t reused = 0;    ///< tasks that the store had
+  std::size_t reused = 0;    ///< tasks that the store had, or that other shards have
   std::size_t sights = 0;  ///< frames under faults that were made, each for all trials that see it
+  std::vector<TrialFailure> failures;  ///< in no order
+  bool stopped = false;                ///< by RunnerOptions::stop
 };
+
+/// Positions of the tasks of a shard that are not in the store, those of one lattice together.
+[[nodiscard]] std::vector<std::size_t> missing_tasks(const TaskList& tasks,
+                                                     const std::unordered_set<std::string>& held,
+                                                     int shard, int shards);
 
 /// Computes the tasks of a plan that the store does not hold and adds each to it as soon as it is
 /// done. Trials walk the frames together in blocks that fit the memory, so that a frame is decoded
-/// once for many trials. The results depend on neither jobs, memory nor shards. The first exception
-/// of a worker ends the others and is rethrown, std::bad_alloc as an Error that says what helps;
-/// what was done stays in the store.
+/// once for many trials. The results depend on neither jobs, memory nor shards. A trial that throws
+/// is stored as failed, with its reason, and the others go on. What the store or a function of the
+/// options throws ends all and is rethrown, std::bad_alloc as an Error that says what helps; what
+/// was done stays in the store.
 RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
                        ResultStore& store, const RunnerOptions& options);
 

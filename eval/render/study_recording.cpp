@@ -163,6 +163,13 @@ std::string recording_name(const Study& study, const sim::World& world) {
                      hash.high64 >> 16);
 }
 
+/// Where the recording of a study is rendered to. Throws Error when the study does not fit the
+/// scene's classes.
+fs::path rendered_folder(const Study& study, const sim::World& world, const fs::path& results) {
+  check_classes(study, world.classes());
+  return results / "recordings" / recording_name(study, world);
+}
+
 }  // namespace
 
 sim::World world_of_scene(const fs::path& scene) {
@@ -197,13 +204,19 @@ Recording recording_of(const Study& study, const fs::path& results, int jobs,
   check_pose_files(study);
   if (study.recording) return replayed(study);
   const sim::World world = world_of(study);
-  check_classes(study, world.classes());
-  const fs::path folder = results / "recordings" / recording_name(study, world);
+  const fs::path folder = rendered_folder(study, world, results);
   const FolderLock lock(folder.parent_path());  // of several shards one records, the others wait
   if (!fs::exists(folder))
     record_world(study, world, drive_of(study, world, progress.waypoints), folder, jobs,
                  progress.images);
   return Recording::open(folder);
+}
+
+std::optional<Recording> recording_there(const Study& study, const fs::path& results) {
+  check_pose_files(study);
+  if (study.recording) return replayed(study);
+  const fs::path folder = rendered_folder(study, world_of(study), results);
+  return fs::exists(folder) ? std::optional(Recording::open(folder)) : std::nullopt;
 }
 
 SceneSurfaces surfaces_of_scene(const fs::path& scene) {
@@ -237,6 +250,11 @@ void record_study(const Study&, const fs::path&, int, const RecordingProgress&, 
 }
 
 Recording recording_of(const Study& study, const fs::path&, int, const RecordingProgress&) {
+  if (!study.recording) refuse();
+  return replayed(study);
+}
+
+std::optional<Recording> recording_there(const Study& study, const fs::path&) {
   if (!study.recording) refuse();
   return replayed(study);
 }

@@ -59,6 +59,10 @@ void record_study(const Study& study, const std::filesystem::path& folder, int j
 [[nodiscard]] Recording recording_of(const Study& study, const std::filesystem::path& results,
                                      int jobs, const RecordingProgress& progress);
 
+/// The same without rendering: nothing where there is none yet.
+[[nodiscard]] std::optional<Recording> recording_there(const Study& study,
+                                                       const std::filesystem::path& results);
+
 /// Drawn surfaces and classes of a scene by itself.
 struct SceneSurfaces {
   ClassTable table;

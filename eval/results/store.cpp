@@ -20,6 +20,7 @@ constexpr int kStoreFormat = 1;
 constexpr const char* kTexts = "texts (name TEXT PRIMARY KEY, value TEXT NOT NULL)";
 constexpr const char* kTrials =
     "trials (key TEXT PRIMARY KEY, description TEXT NOT NULL, result TEXT NOT NULL)";
+constexpr const char* kFailed = "failed ";  ///< and the key: name of the text that says why
 constexpr const char* kAddTrial = "INSERT OR IGNORE INTO trials VALUES (?, ?, ?)";
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
@@ -189,6 +190,19 @@ std::unordered_set<std::string> ResultStore::keys() const {
 void ResultStore::add(const std::string& key, const std::string& description,
                       const TrialResult& result) {
   execute(kAddTrial, {key, description, to_json(result)});
+  execute("DELETE FROM texts WHERE name = ?", {kFailed + key});
+}
+
+void ResultStore::add_failure(const std::string& key, const std::string& reason) {
+  set_text(kFailed + key, reason);
+}
+
+std::map<std::string, std::string> ResultStore::failures() const {
+  Statement query(database_.get(), file_, "SELECT name, value FROM texts WHERE name LIKE ?",
+                  {std::string(kFailed) + '%'});
+  std::map<std::string, std::string> reasons;
+  while (query.step()) reasons[query.text(0).substr(std::string(kFailed).size())] = query.text(1);
+  return reasons;
 }
 
 std::optional<TrialResult> ResultStore::find(const std::string& key) const {

@@ -8,6 +8,7 @@
 #include "eval/score/metric.hpp"
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -88,6 +89,10 @@ class ResultStore {
   /// made from.
   void add(const std::string& key, const std::string& description, const TrialResult& result);
   [[nodiscard]] std::optional<TrialResult> find(const std::string& key) const;
+  /// Keeps why a trial failed until it is added.
+  void add_failure(const std::string& key, const std::string& reason);
+  /// Reasons by key.
+  [[nodiscard]] std::map<std::string, std::string> failures() const;
   /// Takes over the trials of another store that are not here yet. Returns how many.
   int merge(const ResultStore& other);
 

@@ -6,10 +6,19 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
 namespace mapscore::eval {
+
+std::string duration_text(double seconds) {
+  constexpr double kMost = 1e12;
+  const auto whole = static_cast<std::int64_t>(std::clamp(seconds, 0.0, kMost) + 0.5);
+  const std::int64_t minutes = whole / 60;
+  if (minutes < 60) return fmt::format("{}:{:02}", minutes, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", minutes / 60, minutes % 60, whole % 60);
+}
 
 Progress::Progress(std::string what, std::string unit, bool quiet)
     : what_(std::move(what)),
@@ -40,8 +49,7 @@ std::string Progress::line(std::int64_t done, std::int64_t total, double seconds
   if (done == total) return text + fmt::format(", {:.1f} s", seconds);
   if (done == 0) return text;
   const double left = seconds * static_cast<double>(total - done) / static_cast<double>(done);
-  const auto whole = static_cast<std::int64_t>(left + 0.5);
-  return text + fmt::format(", {}:{:02} left", whole / 60, whole % 60);
+  return text + fmt::format(", {} left", duration_text(left));
 }
 
 }  // namespace mapscore::eval

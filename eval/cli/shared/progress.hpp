@@ -13,6 +13,9 @@
 
 namespace mapscore::eval {
 
+/// m:ss, or h:mm:ss from an hour on.
+[[nodiscard]] std::string duration_text(double seconds);
+
 /// Progress with time left, on standard error: a line that renews itself on a terminal, otherwise a
 /// line every ten seconds. Members may be called from several threads.
 class Progress {

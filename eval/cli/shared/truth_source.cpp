@@ -45,8 +45,8 @@ std::optional<double> time_of(const LatticeFlags& flags, const Recording& record
 
 }  // namespace
 
-void add_yes_flag(CLI::App& verb, bool& yes) {
-  verb.add_flag("--yes", yes, "Make a truth that takes much memory without asking");
+void add_yes_flag(CLI::App& verb, bool& yes, const char* help) {
+  verb.add_flag("--yes", yes, help);
 }
 
 void LatticeFlags::add_to(CLI::App& verb) {

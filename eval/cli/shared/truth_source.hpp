@@ -21,7 +21,8 @@
 namespace mapscore::eval {
 
 /// `--yes`: a truth is made however much memory it takes.
-void add_yes_flag(CLI::App& verb, bool& yes);
+void add_yes_flag(CLI::App& verb, bool& yes,
+                  const char* help = "Make a truth that takes much memory without asking");
 
 /// Flags that say on which lattice the truth is taken, and of what.
 struct LatticeFlags {

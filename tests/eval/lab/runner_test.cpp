@@ -6,7 +6,10 @@
 #include "tests/eval/lab/tiny_experiment.hpp"
 #include "tests/support/expect_error.hpp"
 
+#include <fmt/format.h>
+
 #include <atomic>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <new>
@@ -170,13 +173,71 @@ TEST_F(Runner, OutOfMemoryInATrialSaysWhatHelps) {
   });
 }
 
-TEST_F(Runner, ABrokenImageIsAnErrorThatNamesIt) {
-  std::ofstream(folder() / "tiny/depth/000002.png") << "broken";
+/// The trajectory of the second cell covers the first frame alone.
+TEST_F(Runner, AFailingTrialCostsThatTrialAlone) {
+  const auto write = [&](const char* name, const char* end) {
+    std::ofstream file(folder() / name);
+    for (const char* stamp : {"0", end}) file << stamp << " 0 0 0 0 0 0 1\n";
+  };
+  write("whole.txt", "10");
+  write("short.txt", "0.1");
+  const Plan swept = plan(testing::study_of(
+      fmt::format("localization: {{source: trajectory, trajectory: {0}/whole.txt}}\n"
+                  "sweep: {{localization.trajectory: [{0}/whole.txt, {0}/short.txt]}}\n",
+                  folder().string())));
   ResultStore results = store();
-  mapscore::testing::expect_error("depth/000002.png", [&] {
-    run_plan(plan_with_pose_noise(), recording(), table(), results, one_job());
-  });
+  RunnerOptions options = one_job();
+  std::size_t computed = 0, failed = 0;
+  options.ended = [&](std::size_t c, std::size_t f) { computed = c, failed = f; };
+  std::int64_t done = 0, total = 1;
+  options.progress = [&](std::int64_t d, std::int64_t t) { done = d, total = t; };
+  const RunnerOutcome outcome = run_plan(swept, recording(), table(), results, options);
+  EXPECT_EQ(outcome.computed, swept.tasks.size() - 1);
+  ASSERT_EQ(outcome.failures.size(), 1u);
+  const TrialFailure& failure = outcome.failures.front();
+  EXPECT_EQ(failure.key, swept.tasks.key(swept.trials[1].task));
+  EXPECT_NE(failure.reason.find("short.txt"), std::string::npos) << failure.reason;
+  EXPECT_EQ(results.failures(),
+            (std::map<std::string, std::string>{{failure.key, failure.reason}}));
+  EXPECT_EQ(computed, outcome.computed);
+  EXPECT_EQ(failed, 1u);
+  EXPECT_EQ(done, total) << "what failed is not waited for";
+  EXPECT_EQ(run_plan(swept, recording(), table(), results, one_job()).failures.size(), 1u)
+      << "tried again";
+}
+
+TEST_F(Runner, ABrokenImageFailsAllThatNeedItAndIsMended) {
+  const auto image = folder() / "tiny/depth/000002.png";
+  const auto kept = folder() / "kept.png";
+  std::filesystem::copy_file(image, kept);
+  std::ofstream(image) << "broken";
+  const Plan all = plan_with_pose_noise();
+  ResultStore results = store();
+  const RunnerOutcome broken = run_plan(all, recording(), table(), results, one_job());
+  EXPECT_EQ(broken.failures.size(), all.tasks.size());
+  for (const TrialFailure& failure : broken.failures)
+    EXPECT_NE(failure.reason.find("depth/000002.png"), std::string::npos) << failure.reason;
   EXPECT_TRUE(results.keys().empty());
+  EXPECT_EQ(results.failures().size(), all.tasks.size());
+  std::filesystem::copy_file(kept, image, std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(run_plan(all, recording(), table(), results, one_job()).computed, all.tasks.size());
+  EXPECT_TRUE(results.failures().empty());
+}
+
+TEST_F(Runner, StopsBeforeTheNextFrameAndGoesOnLater) {
+  const Plan all = plan_with_pose_noise();
+  ResultStore results = store();
+  RunnerOptions options = one_job();
+  int frames = 0;
+  options.stop = [&] { return ++frames > 9; };
+  const RunnerOutcome outcome = run_plan(all, recording(), table(), results, options);
+  EXPECT_TRUE(outcome.stopped);
+  EXPECT_GT(outcome.computed, 0u);
+  EXPECT_EQ(outcome.computed, results.keys().size());
+  EXPECT_LT(outcome.computed, all.tasks.size());
+  const RunnerOutcome rest = run_plan(all, recording(), table(), results, one_job());
+  EXPECT_FALSE(rest.stopped);
+  EXPECT_EQ(rest.computed, all.tasks.size() - outcome.computed);
 }
 
 }  // namespace

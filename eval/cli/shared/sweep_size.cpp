@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/cli/shared/sweep_size.hpp"
+
+#include "core/error.hpp"
+#include "eval/cli/shared/progress.hpp"
+#include "eval/lab/runner.hpp"
+#include "eval/render/study_recording.hpp"
+#include "eval/results/plan.hpp"
+#include "eval/results/store.hpp"
+#include "eval/results/study_store.hpp"
+#include "files/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr std::size_t kManyTrials = 100'000;
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+SweepSize::SweepSize(const Study& study, const std::filesystem::path& results)
+    : cells_(cells(study).size()),
+      methods_(study.methods.size()),
+      seeds_(static_cast<std::size_t>(study.seeds)),
+      last_(read_status(results)) {}
+
+std::string SweepSize::grid() const {
+  return fmt::format("{} x {} x {} = {}", counted(cells_, "cell"), counted(methods_, "method"),
+                     counted(seeds_, "seed"), counted(cells_ * methods_ * seeds_, "trial"));
+}
+
+std::string SweepSize::time_of(std::size_t trials) const {
+  if (trials == 0) return "none";
+  if (!last_ || last_->seconds_per_trial <= 0.0)
+    return "unknown, no sweep into this folder has measured it yet";
+  return fmt::format("about {}, at {:.3g} s a trial, as the last sweep there with --jobs {}",
+                     duration_text(last_->seconds_per_trial * static_cast<double>(trials)),
+                     last_->seconds_per_trial, last_->rate_jobs);
+}
+
+void SweepSize::refuse_many(bool yes) const {
+  const std::size_t trials = cells_ * methods_ * seeds_;
+  if (trials > kManyTrials && !yes)
+    throw Error(
+        fmt::format("{}; time: {}; sweep fewer values, or add --yes", grid(), time_of(trials)));
+}
+
+void print_dry_run(const Study& study, const std::filesystem::path& results, int shard,
+                   int shards) {
+  const SweepSize size(study, results);
+  const std::optional<Recording> recording = recording_there(study, results);
+  if (recording) static_cast<void>(detected_table(study, recording->info().table));
+  const TaskList tasks = plan_of(study, recording ? recording->content_hash() : "").tasks;
+  std::unordered_set<std::string> held;
+  std::size_t failed = 0;
+  const std::filesystem::path file = results / "results.sqlite";
+  if (recording && std::filesystem::exists(file)) {
+    const ResultStore store = ResultStore::open_existing(file);
+    held = store.keys();
+    const auto failures = store.failures();
+    for (std::size_t n = 0; n < tasks.size() && !failures.empty(); ++n)
+      failed += failures.contains(tasks.key(n)) && !held.contains(tasks.key(n)) ? 1 : 0;
+  }
+  const std::size_t missing = missing_tasks(tasks, held, 1, 1).size();
+  const std::size_t ours = missing_tasks(tasks, held, shard, shards).size();
+  std::cout << fmt::format("study {}: {}, {} with ceilings\n", shown(study.name), size.grid(),
+                           tasks.size())
+            << fmt::format(
+                   "{}: {} there, {} missing{}{}\n", shown(results), tasks.size() - missing,
+                   missing, failed ? fmt::format(", {} of them failed before", failed) : "",
+                   shards > 1 ? fmt::format(", {} in shard {}/{}", ours, shard, shards) : "")
+            << "recording: "
+            << (recording ? fmt::format("{}, {} frames", shown(recording->folder()),
+                                        recording->frame_count())
+                          : "not there, is rendered first")
+            << fmt::format("\ntime: {}\n", size.time_of(ours));
+}
+
+}  // namespace mapscore::eval
