@@ -137,14 +137,14 @@ RunnerOutcome computed(const Workplace& at, ResultStore& store, const StopSignal
   return outcome;
 }
 
-/// The failures, and what to do about them. Throws Error where nothing but failed.
+/// The failures, and what to do about them. Throws Error where all there is failed.
 void tell_failures(const RunnerOutcome& outcome, const std::filesystem::path& results) {
   if (outcome.failures.empty()) return;
   const TrialFailure& first = outcome.failures.front();
   const std::string how = outcome.failures.size() > 1 ? fmt::format("{} trials failed, the first: ",
                                                                     outcome.failures.size())
                                                       : "1 trial failed: ";
-  if (outcome.computed == 0 && !outcome.stopped) throw Error(how + first.reason);
+  if (outcome.computed + outcome.reused == 0 && !outcome.stopped) throw Error(how + first.reason);
   std::cerr << fmt::format(
       "sweep: {}{}; `mapscore trials {} --state failed` lists them, the same sweep tries them "
       "again\n",

@@ -156,8 +156,8 @@ struct Study {
 
 /// Reads a study file. `overrides` are `path=value` texts of flags, applied after the file in their
 /// order; a value is YAML (`faults.pose.sigma_xy_m=0.02`, `sweep.voxel_m=[0.05, 0.1]`, `sweep={}`).
-/// Every value and every cell of the sweep is checked. Throws Error "FILE:LINE: key.path: what;
-/// mend".
+/// Every value and every cell of the sweep is checked, and that trajectory, cameras and lidar do
+/// not stand beside a recording. Throws Error "FILE:LINE: key.path: what; mend".
 [[nodiscard]] Study load_study(const std::filesystem::path& file,
                                const std::vector<std::string>& overrides = {});
 

@@ -103,6 +103,24 @@ YamlValue source_of(std::string_view path, const YamlValue& root,
   return find(root, path);
 }
 
+/// A recording is replayed as it is. Keys of the file stay where a flag alone names the recording,
+/// which then takes the place of what they would render.
+void refuse_beside_recording(const YamlValue& root, const std::vector<Override>& overrides) {
+  const auto is_of = [](const std::string& path, const std::string& key) {
+    return path == key || path.starts_with(key + '.');
+  };
+  const bool in_file = root.has("recording");
+  if (!in_file && std::ranges::find(overrides, "recording", &Override::path) == overrides.end())
+    return;
+  for (const std::string key : {"trajectory", "cameras", "lidar"}) {
+    constexpr const char* kWhy =
+        "cannot act beside recording, which is replayed as it is; remove it";
+    for (const Override& change : overrides)
+      if (is_of(change.path, key)) change.at.fail(kWhy);
+    if (in_file && root.has(key)) find(root, key).fail(kWhy);
+  }
+}
+
 }  // namespace
 
 Study parse_study(const std::string& text, const std::filesystem::path& file,
@@ -133,7 +151,11 @@ Study load_study(const std::filesystem::path& file, const std::vector<std::strin
   if (!stream || std::filesystem::is_directory(file))
     throw Error(name + ": cannot be read; give the path of a study file");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return parse_study(text, file, overrides);
+  Study study = parse_study(text, file, overrides);
+  std::vector<Override> changes;
+  for (const std::string& one : overrides) changes.push_back(parse_override(one));
+  refuse_beside_recording(parse_yaml(text, name), changes);
+  return study;
 }
 
 }  // namespace mapscore::eval

@@ -84,6 +84,10 @@ bool Process::kill() {
   return WIFSIGNALED(status_);
 }
 
+void Process::interrupt() {
+  if (!ended()) ::kill(id_, SIGINT);
+}
+
 bool Process::ended() {
   if (!reaped_) reaped_ = waitpid(id_, &status_, WNOHANG) == id_;
   return reaped_;

@@ -36,6 +36,8 @@ class Process {
 
   /// Ends it as a power cut would (SIGKILL) and waits for it. False when it had ended by itself.
   bool kill();
+  /// Ctrl-C.
+  void interrupt();
   [[nodiscard]] bool ended();
   [[nodiscard]] Outcome wait();
 

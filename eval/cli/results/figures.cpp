@@ -77,9 +77,11 @@ void draw_from_recording(const FigureFlags& flags, const PictureChoice& choice,
 
 void figures(const FigureFlags& flags) {
   const PictureChoice choice = choice_of(flags);
+  const fs::path file = store_file(flags.results);
+  check_choice(read_study(ResultStore::open_existing(file), file.parent_path()).study, choice);
   const StudySummary summary = summarise_store(flags.results);
-  const fs::path folder = flags.folder.empty() ? store_file(flags.results).parent_path() / "figures"
-                                               : fs::path(flags.folder);
+  const fs::path folder =
+      flags.folder.empty() ? file.parent_path() / "figures" : fs::path(flags.folder);
   const FolderLock lock(folder);
   print(write_tables(summary, folder));
   print(draw_figures(summary, folder));

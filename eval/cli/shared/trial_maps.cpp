@@ -7,11 +7,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace mapscore::eval {
 
+void check_choice(const Study& study, const PictureChoice& choice) {
+  static_cast<void>(chosen_cell(study, choice));
+  const bool has_method =
+      !choice.method || std::ranges::any_of(study.methods, [&](const MethodSettings& method) {
+        return method.name == *choice.method;
+      });
+  if (!has_method || choice.seed_index < 0 || choice.seed_index >= study.seeds)
+    throw Error(fmt::format("{}seed {}: the study has no such trial; seeds: 0 to {}",
+                            choice.method ? "method " + *choice.method + ", " : "",
+                            choice.seed_index, study.seeds - 1));
+}
+
 std::vector<JudgedMap> map_trials(const Study& study, Bench& bench, const PictureChoice& choice) {
+  check_choice(study, choice);
   const Cell cell = chosen_cell(study, choice);
   const Recording& recording = bench.recording();
   const ClassTable& table = bench.table();
@@ -35,10 +49,6 @@ std::vector<JudgedMap> map_trials(const Study& study, Bench& bench, const Pictur
     }
     maps.push_back(judged_trial(study, *run, task, table, spec, alone));
   }
-  if (maps.empty())
-    throw Error(fmt::format("{}seed {}: the study has no such trial; seeds: 0 to {}",
-                            choice.method ? "method " + *choice.method + ", " : "",
-                            choice.seed_index, study.seeds - 1));
   return maps;
 }
 

@@ -4,6 +4,7 @@
 #include "eval/study/study.hpp"
 
 #include "core/error.hpp"
+#include "tests/support/expect_error.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -260,6 +261,32 @@ TEST(Study, LoadsAFileFromDisk) {
   const Study study = load_study(folder / "kitchen.yaml");
   EXPECT_EQ(study.name, "kitchen");
   EXPECT_EQ(study.base_folder, folder);
+  std::filesystem::remove_all(folder);
+}
+
+/// The recording is replayed as it is; a flag may put one in the place of what is rendered.
+TEST(Study, RefusesWhatCannotActBesideARecording) {
+  const auto folder = std::filesystem::temp_directory_path() / "mapscore_study_recording_test";
+  std::filesystem::create_directories(folder);
+  const std::string methods = "methods: {d: {segmentation: {direct: {}}}}\n";
+  const auto load = [&](const std::string& text, const std::vector<std::string>& flags) {
+    std::ofstream(folder / "study.yaml") << text + methods;
+    return load_study(folder / "study.yaml", flags);
+  };
+  const std::string rendered = "scene: a.xml\ntrajectory: {waypoints_m_deg: [[0, 0, 0]]}\n";
+  EXPECT_EQ(load(rendered, {"recording=there"}).recording, "there");
+  const std::string why = "cannot act beside recording";
+  for (const char* key :
+       {"trajectory: {max_frames: 2}\n", "cameras: {width_px: 64}\n", "lidar: {}\n"})
+    mapscore::testing::expect_error(
+        why, [&] { (void)load(std::string("recording: there\n") + key, {}); });
+  mapscore::testing::expect_error(
+      why, [&] { (void)load("recording: there\n", {"cameras.width_px=64"}); });
+  mapscore::testing::expect_error(why, [&] {
+    (void)load(rendered, {"recording=there", "trajectory.max_frames=2"});
+  });
+  const Study stored = load(rendered, {"recording=there"});
+  EXPECT_EQ(parse_study(to_yaml(stored), folder / "study.yaml"), stored) << "a store is read again";
   std::filesystem::remove_all(folder);
 }
 
