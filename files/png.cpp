@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "files/png_rows.hpp"
+#include "files/zlib_text.hpp"
 
 #include <fmt/format.h>
 #include <libdeflate.h>
@@ -76,19 +77,10 @@ std::string header_of(cv::Size size, const PixelType& type) {
   return header.append(3, '\0');  // deflate, adaptive filters, not interlaced
 }
 
-std::string deflate(const std::string& bytes, int level) {
-  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-      libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
-  std::string out(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
-  out.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), out.data(),
-                                      out.size()));
-  return out;
-}
-
 std::string png_of(const std::string& pixels, cv::Size size, const PixelType& type) {
   std::string png(kSignature);
   append_chunk(png, "IHDR", header_of(size, type));
-  append_chunk(png, "IDAT", deflate(filter_rows(pixels, layout_of(size, type)), type.level));
+  append_chunk(png, "IDAT", zlib_packed(filter_rows(pixels, layout_of(size, type)), type.level));
   append_chunk(png, "IEND", {});
   return png;
 }

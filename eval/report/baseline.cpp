@@ -46,7 +46,7 @@ std::vector<BaselineRow> baseline_of(const StudySummary& summary) {
        {&summary.trials, &summary.registration_ceilings, &summary.lattice_ceilings})
     for (const ResultLine& line : *lines)
       for (const std::string& group : summary.groups())
-        for (const Metric& metric : metrics_of_group(line.pooled, summary.table, group))
+        for (const Metric& metric : pooled_metrics(line, summary.table, group))
           if (std::ranges::count(kKept, metric.name) > 0)
             rows.push_back({description_of(line), group, metric.name, metric.value});
   return rows;

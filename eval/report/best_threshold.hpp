@@ -30,7 +30,7 @@ struct BestThreshold {
 [[nodiscard]] BestThreshold best_threshold(std::span<const ClassCurve> seeds);
 
 /// Of one group of StudySummary::groups(); macro is the mean over the detected classes with visible
-/// voxels. Throws Error when there is no such group.
+/// voxels. The line holds its results. Throws Error when there is no such group.
 [[nodiscard]] BestThreshold best_threshold(const ResultLine& line, const ClassTable& table,
                                            std::string_view group);
 

@@ -8,23 +8,95 @@
 #include "eval/results/study_store.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
+#include <unordered_set>
 #include <utility>
 
 namespace mapscore::eval {
 namespace {
 
-/// Adds one seed's result to the line at `place`, which may be the first behind the last.
-void add(Role role, const TrialSpec& spec, const TrialResult& result, std::size_t place,
-         std::vector<ResultLine>& lines) {
-  if (place == lines.size()) lines.push_back({role, spec.method, spec.cell, {}, {}, {}});
-  ResultLine& line = lines[place];
-  line.seeds.push_back(spec.seed_index);
-  line.results.push_back(result);
-  pool_into(line.pooled, result.counts);
+/// A store and the tasks of its study, shared by the lines that read their results from it.
+struct Source {
+  ResultStore store;
+  Plan plan;
+};
+
+std::vector<TrialResult> read_results(const Source& source, const std::vector<std::size_t>& tasks) {
+  std::vector<TrialResult> results;
+  for (const std::size_t task : tasks) {
+    const std::string key = source.plan.tasks.key(task);
+    auto result = source.store.find(key);
+    if (!result) throw Error("trial " + key + ": gone from the store; sweep again");
+    results.push_back(std::move(*result));
+  }
+  return results;
 }
+
+/// The seeds of a line, and the tasks of each and of its ceilings.
+struct LineTasks {
+  TrialSpec spec;  ///< of the first seed
+  std::vector<int> seeds;
+  std::vector<std::size_t> trial, registration_ceiling, lattice_ceiling;
+};
+
+/// Those of the seeds whose three tasks are there; lines without any are left out.
+std::vector<LineTasks> lines_of(const Plan& plan, const Study& study, const auto& is_there) {
+  const std::size_t methods = study.methods.size();
+  const auto seeds = static_cast<std::size_t>(study.seeds);
+  std::vector<LineTasks> lines;
+  for (std::size_t first = 0; first < plan.trials.size(); first += methods * seeds) {  // a cell
+    for (std::size_t method = 0; method < methods; ++method) {
+      LineTasks line{plan.trials[first + method].spec, {}, {}, {}, {}};
+      for (std::size_t seed = 0; seed < seeds; ++seed) {
+        const PlannedTrial trial = plan.trials[first + seed * methods + method];
+        if (!is_there(trial.task) || !is_there(trial.registration_ceiling) ||
+            !is_there(trial.lattice_ceiling))
+          continue;
+        line.seeds.push_back(trial.spec.seed_index);
+        line.trial.push_back(trial.task);
+        line.registration_ceiling.push_back(trial.registration_ceiling);
+        line.lattice_ceiling.push_back(trial.lattice_ceiling);
+      }
+      if (!line.seeds.empty()) lines.push_back(std::move(line));
+    }
+  }
+  return lines;
+}
+
+/// Forms the lines of a summary one after the other; those of the same tasks share their figures.
+class LineReader {
+ public:
+  LineReader(std::shared_ptr<const Source> source, const ClassTable& table,
+             std::vector<std::string> groups)
+      : source_(std::move(source)), table_(table), groups_(std::move(groups)) {}
+
+  /// `tasks`: those of the role.
+  [[nodiscard]] ResultLine line(Role role, const LineTasks& of,
+                                const std::vector<std::size_t>& tasks) {
+    ResultLine line{role, of.spec.method, of.spec.cell, of.seeds, {}, {}};
+    line.in_store = [source = source_, tasks] { return read_results(*source, tasks); };
+    std::shared_ptr<const LineDigest>& digest = digests_[tasks];
+    if (!digest) {
+      ResultLine full = loaded(line);
+      std::vector<std::string> groups = groups_;
+      if (role == Role::lattice_ceiling && std::ranges::count(groups, kPooled) == 0)
+        groups.emplace_back(kPooled);  // which lattice_note reads
+      digest = std::make_shared<const LineDigest>(full, table_, groups);
+      if (digests_.size() == 1) line.pooled = std::move(full.pooled);  // of the first line
+    }
+    line.digest = digest;
+    return line;
+  }
+
+ private:
+  std::shared_ptr<const Source> source_;
+  const ClassTable& table_;
+  std::vector<std::string> groups_;
+  std::map<std::vector<std::size_t>, std::shared_ptr<const LineDigest>> digests_;
+};
 
 /// Throws Error when the store lacks trials of the plan.
 void check_all_there(const ResultStore& store, const TaskList& tasks,
@@ -37,10 +109,17 @@ void check_all_there(const ResultStore& store, const TaskList& tasks,
         results.string(), missing, tasks.size(), results.string()));
 }
 
-std::vector<TrialResult> read_results(const ResultStore& store, const TaskList& tasks) {
-  std::vector<TrialResult> found;
-  for (std::size_t n = 0; n < tasks.size(); ++n) found.push_back(store.find(tasks.key(n)).value());
-  return found;
+void check_groups(const std::vector<std::string>& wanted, const std::vector<std::string>& known) {
+  for (const std::string& group : wanted)
+    if (std::ranges::count(known, group) == 0)
+      throw Error(fmt::format("class '{}': not scored in this study; there are: {}", group,
+                              fmt::join(known, ", ")));
+}
+
+/// How much of an unfinished sweep is there.
+std::string interim_note(const ResultStore& store, const TaskList& tasks) {
+  return fmt::format("INTERIM: {} of {} trials and ceilings are there; figures will change",
+                     held_tasks(store, tasks), tasks.size());
 }
 
 Estimate estimate(const BestThreshold& best, std::optional<double> ChosenScore::*figure) {
@@ -65,15 +144,23 @@ bool StudySummary::has_metric(std::string_view metric) const {
 
 std::string StudySummary::lattice_note() const {
   LatticeCheck check(table);
-  for (const ResultLine& line : lattice_ceilings)
-    for (const TrialResult& result : line.results) check.add(result.counts);
+  for (const ResultLine& line : lattice_ceilings) {
+    const Estimate precision = estimate(line, table, kPooled, "precision");
+    const Estimate recall = estimate(line, table, kPooled, "recall");
+    for (std::size_t s = 0; s < precision.by_seed.size(); ++s)
+      check.add(precision.by_seed[s], recall.by_seed[s]);
+  }
   return check.note();
 }
 
 void LatticeCheck::add(const Counts& ceiling) {
   const ClassCounts pooled = pool_detected(ceiling, table_);
-  least_precision_ = std::min(least_precision_, precision(pooled).value_or(1.0));
-  least_recall_ = std::min(least_recall_, recall(pooled).value_or(1.0));
+  add(precision(pooled), recall(pooled));
+}
+
+void LatticeCheck::add(std::optional<double> precision, std::optional<double> recall) {
+  least_precision_ = std::min(least_precision_, precision.value_or(1.0));
+  least_recall_ = std::min(least_recall_, recall.value_or(1.0));
 }
 
 std::string LatticeCheck::note() const {
@@ -103,26 +190,52 @@ std::size_t held_tasks(const ResultStore& store, const TaskList& tasks) {
   return held;
 }
 
-StudySummary summarise_store(const std::filesystem::path& results) {
+StudySummary summarise_store(const std::filesystem::path& results, const SummaryOptions& options) {
   const std::filesystem::path file = store_file(results);
-  const ResultStore store = ResultStore::open_existing(file);
+  ResultStore store = ResultStore::open_existing(file);
   const StudyRecord record = read_study(store, file.parent_path());
-  const Plan plan = plan_of(record.study, record.recording_hash);
-  check_all_there(store, plan.tasks, results);
-  const std::vector<TrialResult> found = read_results(store, plan.tasks);
-
   StudySummary summary{record.study, record.table, {}, {}, {}};
-  std::map<std::pair<int, std::string>, std::size_t> places;  // by cell and method
-  for (const PlannedTrial trial : plan.trials) {
-    const TrialSpec& spec = trial.spec;
-    const std::size_t place =
-        places.try_emplace({spec.cell.index, spec.method}, places.size()).first->second;
-    add(Role::trial, spec, found[trial.task], place, summary.trials);
-    add(Role::registration_ceiling, spec, found[trial.registration_ceiling], place,
-        summary.registration_ceilings);
-    add(Role::lattice_ceiling, spec, found[trial.lattice_ceiling], place, summary.lattice_ceilings);
+  check_groups(options.groups, summary.groups());
+  const auto source = std::make_shared<const Source>(
+      Source{std::move(store), plan_of(record.study, record.recording_hash)});
+  const TaskList& tasks = source->plan.tasks;
+  std::unordered_set<std::string> held;
+  if (options.interim && held_tasks(source->store, tasks) < tasks.size()) {
+    held = source->store.keys();
+    summary.interim = interim_note(source->store, tasks);
+  } else {
+    check_all_there(source->store, tasks, results);
   }
+  LineReader reader(source, summary.table,
+                    options.groups.empty() ? summary.groups() : options.groups);
+  for (const LineTasks& line : lines_of(source->plan, record.study, [&](std::size_t task) {
+         return summary.interim.empty() || held.contains(tasks.key(task));
+       })) {
+    summary.trials.push_back(reader.line(Role::trial, line, line.trial));
+    summary.registration_ceilings.push_back(
+        reader.line(Role::registration_ceiling, line, line.registration_ceiling));
+    summary.lattice_ceilings.push_back(
+        reader.line(Role::lattice_ceiling, line, line.lattice_ceiling));
+  }
+  if (summary.trials.empty())
+    throw Error(fmt::format("{}: no trial is there with both of its ceilings yet; wait, or go on",
+                            results.string()));
   return summary;
+}
+
+ResultLine loaded(const ResultLine& line) {
+  ResultLine full = line;
+  if (!line.in_store) return full;
+  full.results = line.in_store();
+  full.pooled.clear();
+  for (const TrialResult& result : full.results) pool_into(full.pooled, result.counts);
+  full.digest.reset();
+  full.in_store = nullptr;
+  return full;
+}
+
+ClassCounts pooled_counts(const ResultLine& line, const ClassTable& table) {
+  return line.digest ? line.digest->pooled() : pool_detected(line.pooled, table);
 }
 
 ClassCounts counts_of_group(const Counts& counts, const ClassTable& table, std::string_view group) {
@@ -139,8 +252,18 @@ std::vector<Metric> metrics_of_group(const Counts& counts, const ClassTable& tab
                          : metrics_of(counts_of_group(counts, table, group));
 }
 
+std::vector<Metric> pooled_metrics(const ResultLine& line, const ClassTable& table,
+                                   std::string_view group) {
+  if (line.digest)
+    if (auto metrics = line.digest->pooled_metrics(group)) return *metrics;
+  return metrics_of_group(line.in_store ? loaded(line).pooled : line.pooled, table, group);
+}
+
 Estimate estimate(const ResultLine& line, const ClassTable& table, std::string_view group,
                   const std::string& metric) {
+  if (line.digest)
+    if (auto formed = line.digest->estimate(group, metric)) return *formed;
+  if (line.in_store) return estimate(loaded(line), table, group, metric);
   if (metric == kBestF1) return estimate(best_threshold(line, table, group), &ChosenScore::f1);
   if (metric == kBestThreshold)
     return estimate(best_threshold(line, table, group), &ChosenScore::threshold);

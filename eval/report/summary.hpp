@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "eval/report/line_digest.hpp"
 #include "eval/results/plan.hpp"
 #include "eval/results/store.hpp"
 #include "eval/score/metrics.hpp"
@@ -14,6 +15,8 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,15 +39,24 @@ enum class Role { trial, registration_ceiling, lattice_ceiling };
       static_cast<std::size_t>(role));
 }
 
-/// All seeds of one method at one cell of the grid, or of its ceiling.
+/// All seeds of one method at one cell of the grid, or of its ceiling. The results of one that is
+/// read from a store stay there (see `loaded`), since those of a large study fill the memory.
 struct ResultLine {
   Role role = Role::trial;
   std::string method;
   Cell cell;
-  std::vector<int> seeds;            ///< indices, in the order of `results`
-  std::vector<TrialResult> results;  ///< one a seed
-  Counts pooled;                     ///< counts summed over the seeds
+  std::vector<int> seeds;                                   ///< indices, in the order of `results`
+  std::vector<TrialResult> results;                         ///< one a seed
+  Counts pooled;                                            ///< counts summed over the seeds
+  std::shared_ptr<const LineDigest> digest = {};            ///< of a line from a store
+  std::function<std::vector<TrialResult>()> in_store = {};  ///< reads the results of such a line
 };
+
+/// The line with its results and pooled counts. Throws Error when they cannot be read.
+[[nodiscard]] ResultLine loaded(const ResultLine& line);
+
+/// Plain counts of the detected classes together, over all seeds of a line.
+[[nodiscard]] ClassCounts pooled_counts(const ResultLine& line, const ClassTable& table);
 
 /// A figure of a line: formed from the pooled counts, and its spread over the seeds.
 struct Estimate {
@@ -53,13 +65,16 @@ struct Estimate {
   std::vector<std::optional<double>> by_seed = {};  ///< in the order of the line's seeds
 };
 
-/// The results of one study, complete and in the order of its grid. Immutable.
+/// The results of one study in the order of its grid, complete unless `interim` says otherwise.
+/// Immutable.
 struct StudySummary {
   Study study;
   ClassTable table;
   std::vector<ResultLine> trials;
   /// Ceilings of `trials[i]`; lines that agree for several trials are repeated.
   std::vector<ResultLine> registration_ceilings, lattice_ceilings;
+  /// Of an unfinished sweep: how much is there, for captions; empty for a complete one.
+  std::string interim = {};
 
   /// "pooled", "macro", then the detected classes.
   [[nodiscard]] std::vector<std::string> groups() const;
@@ -80,6 +95,8 @@ class LatticeCheck {
   explicit LatticeCheck(const ClassTable& table) : table_(table) {}
 
   void add(const Counts& ceiling);
+  /// Its pooled figures.
+  void add(std::optional<double> precision, std::optional<double> recall);
   /// What to tell the reader of the scores; empty where all is well.
   [[nodiscard]] std::string note() const;
 
@@ -94,10 +111,19 @@ class LatticeCheck {
 /// How many tasks of a plan the store holds.
 [[nodiscard]] std::size_t held_tasks(const ResultStore& store, const TaskList& tasks);
 
-/// Opens the store of a study (`results` is the folder or its results.sqlite) and reads all its
-/// trials. Throws Error when there is none, or when trials are missing (says how many, and the
-/// command that goes on).
-[[nodiscard]] StudySummary summarise_store(const std::filesystem::path& results);
+/// What a summary is to hold.
+struct SummaryOptions {
+  std::vector<std::string> groups = {};  ///< that figures are formed of at once; none: all
+  /// Take an unfinished sweep: of each line the seeds that are there with both ceilings; lines
+  /// without any are left out.
+  bool interim = false;
+};
+
+/// Opens the store of a study (`results` is the folder or its results.sqlite) and forms the figures
+/// of all its trials, line by line. Throws Error when there is none, or when trials are missing
+/// (says how many, and the command that goes on).
+[[nodiscard]] StudySummary summarise_store(const std::filesystem::path& results,
+                                           const SummaryOptions& options = {});
 
 /// Counts of one group of groups() that is not macro. Throws Error when there is no such class.
 [[nodiscard]] ClassCounts counts_of_group(const Counts& counts, const ClassTable& table,
@@ -106,6 +132,10 @@ class LatticeCheck {
 /// Metrics of a line's counts for one group of groups(). Throws Error as above.
 [[nodiscard]] std::vector<Metric> metrics_of_group(const Counts& counts, const ClassTable& table,
                                                    std::string_view group);
+
+/// The same of a line's pooled counts.
+[[nodiscard]] std::vector<Metric> pooled_metrics(const ResultLine& line, const ClassTable& table,
+                                                 std::string_view group);
 
 /// Of a metric of metrics_of_group, or kBestF1 or kBestThreshold. Throws Error when there is no
 /// such metric.

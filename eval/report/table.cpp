@@ -37,6 +37,7 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
       "threshold: best on all seeds",
       "ceilings: lattice = true labels on the depth pixels, true pose; registration = the method "
       "at dose zero"};
+  if (!summary.interim.empty()) caption.insert(caption.begin(), summary.interim);
   if (const std::string note = summary.lattice_note(); !note.empty())
     caption.push_back("note: " + note);
   if (study.score.asked.instances)
@@ -115,6 +116,7 @@ Table score_table(const StudySummary& summary, const std::string& group) {
   for (const SweepAxis& axis : summary.study.sweep)
     table.columns.push_back(column_of(axis, summary.study.sweep));
   table.columns.push_back("method");
+  if (!summary.interim.empty()) table.columns.push_back("seeds there");
   for (const auto& [title, name] : metrics) table.columns.push_back(title);
   table.columns.insert(table.columns.end(),
                        {"F1 spread", "registration F1", "lattice precision", "lattice recall"});
@@ -127,6 +129,7 @@ Table score_table(const StudySummary& summary, const std::string& group) {
     std::vector<std::string> row;
     for (const auto& [path, value] : line.cell.doses) row.push_back(value);
     row.push_back(line.method);
+    if (!summary.interim.empty()) row.push_back(std::to_string(line.seeds.size()));
     for (const auto& [title, name] : metrics) row.push_back(pooled(line, name));
     row.push_back(spread(estimate(line, summary.table, group, "f1").over_seeds));
     row.push_back(pooled(summary.registration_ceilings[i], "f1"));

@@ -81,7 +81,7 @@ void write_tidy_csv(const StudySummary& summary, std::ostream& out) {
   out << csv_line(columns);
   for (const auto* lines :
        {&summary.trials, &summary.registration_ceilings, &summary.lattice_ceilings})
-    for (const ResultLine& line : *lines) write_line(line, summary, out);
+    for (const ResultLine& line : *lines) write_line(loaded(line), summary, out);
 }
 
 void write_frames_csv(std::span<const FrameResult> frames, const ClassTable& table,

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -157,14 +158,27 @@ void counts_from_json(const json& object, ClassCounts& counts) {
       ClassCounts::parts());
 }
 
+/// The counts of a class before, that those of a class are equal to.
+ClassCounts earlier_of(const Counts& counts, std::int64_t place) {
+  if (place >= static_cast<std::int64_t>(counts.size()))
+    throw Error(
+        fmt::format("stored result: there is no class {} before; delete the store and sweep "
+                    "again",
+                    place));
+  return counts[static_cast<std::size_t>(place)];
+}
+
 }  // namespace
 
 std::string to_json(const TrialResult& result) {
   json object;
   object["accounting"] = counts_to_json(result.accounting);
-  object["classes"] = json::array();
-  for (const ClassCounts& counts : result.counts)
-    object["classes"].push_back(counts_to_json(counts));
+  json& classes = object["classes"] = json::array();
+  for (auto counts = result.counts.begin(); counts != result.counts.end(); ++counts) {
+    const auto alike = std::find(result.counts.begin(), counts, *counts);
+    classes.push_back(alike == counts ? counts_to_json(*counts)
+                                      : json(std::distance(result.counts.begin(), alike)));
+  }
   return object.dump();
 }
 
@@ -172,8 +186,12 @@ TrialResult result_from_json(const std::string& text) try {
   const json object = json::parse(text);
   TrialResult result;
   counts_from_json(object.at("accounting"), result.accounting);
-  for (const json& counts : object.at("classes"))
-    counts_from_json(counts, result.counts.emplace_back());
+  for (const json& counts : object.at("classes")) {
+    if (counts.is_number())
+      result.counts.push_back(earlier_of(result.counts, count_of(counts)));
+    else
+      counts_from_json(counts, result.counts.emplace_back());
+  }
   return result;
 } catch (const json::exception& error) {
   throw Error(std::string("stored result: not readable (") + error.what() +

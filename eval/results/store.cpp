@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/results/store_trouble.hpp"
 #include "files/text.hpp"
+#include "files/zlib_text.hpp"
 
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -21,7 +22,7 @@ constexpr const char* kTexts = "texts (name TEXT PRIMARY KEY, value TEXT NOT NUL
 constexpr const char* kTrials =
     "trials (key TEXT PRIMARY KEY, description TEXT NOT NULL, result TEXT NOT NULL)";
 constexpr const char* kFailed = "failed ";  ///< and the key: name of the text that says why
-constexpr const char* kAddTrial = "INSERT OR IGNORE INTO trials VALUES (?, ?, ?)";
+constexpr const char* kAddTrial = "INSERT OR IGNORE INTO trials VALUES (?, ?, CAST(? AS BLOB))";
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
   throw Error(file.string() + ": " + reason);
@@ -84,9 +85,16 @@ class Statement {
   sqlite3_stmt* statement_ = nullptr;
 };
 
-/// The result of one row, whose file an Error names.
-TrialResult result_of(const std::string& text, const std::filesystem::path& file) try {
-  return result_from_json(text);
+/// A result as it stands in a row.
+std::string packed(const TrialResult& result) {
+  constexpr int kLevel = 6;
+  return zlib_packed(to_json(result), kLevel);
+}
+
+/// The result of one row, whose file an Error names. Older rows hold plain JSON.
+TrialResult result_of(const std::string& bytes, const std::filesystem::path& file) try {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 26;
+  return result_from_json(bytes.starts_with('{') ? bytes : zlib_unpacked(bytes, kMostBytes));
 } catch (const Error& error) {
   fail(file, error.what());
 }
@@ -189,7 +197,7 @@ std::unordered_set<std::string> ResultStore::keys() const {
 
 void ResultStore::add(const std::string& key, const std::string& description,
                       const TrialResult& result) {
-  execute(kAddTrial, {key, description, to_json(result)});
+  execute(kAddTrial, {key, description, packed(result)});
   execute("DELETE FROM texts WHERE name = ?", {kFailed + key});
 }
 

@@ -17,8 +17,10 @@ struct CompareFlags {
 
 void print_comparison(const CompareFlags& flags) {
   const Figures figures = flags.format == "text" ? Figures::rounded : Figures::nine_digits;
-  std::cout << formatted(comparison_table(summarise_store(flags.results), flags.question, figures),
-                         flags.format);
+  std::cout << formatted(
+      comparison_table(summarise_store(flags.results, {{flags.question.group}, false}),
+                       flags.question, figures),
+      flags.format);
 }
 
 }  // namespace

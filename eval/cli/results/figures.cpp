@@ -30,7 +30,7 @@ struct FigureFlags {
   std::string results, folder;
   std::vector<std::string> trial;
   PictureChoice choice;  ///< but for what trial and view say
-  bool no_pictures = false;
+  bool no_pictures = false, interim = false;
   ViewFlag view;
 };
 
@@ -79,9 +79,11 @@ void figures(const FigureFlags& flags) {
   const PictureChoice choice = choice_of(flags);
   const fs::path file = store_file(flags.results);
   check_choice(read_study(ResultStore::open_existing(file), file.parent_path()).study, choice);
-  const StudySummary summary = summarise_store(flags.results);
+  const StudySummary summary = summarise_store(flags.results, {{}, flags.interim});
   const fs::path folder =
-      flags.folder.empty() ? file.parent_path() / "figures" : fs::path(flags.folder);
+      !flags.folder.empty()
+          ? fs::path(flags.folder)
+          : file.parent_path() / (summary.interim.empty() ? "figures" : "interim_figures");
   const FolderLock lock(folder);
   print(write_tables(summary, folder));
   print(draw_figures(summary, folder));
@@ -94,7 +96,8 @@ void add_figures(CLI::App& program) {
   const auto [verb, flags] = add_verb<FigureFlags>(
       program, "figures", "Draw figures and pictures of a swept study", figures);
   verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
-  verb->add_option("-o,--output", flags->folder, "Folder of the pictures [RESULTS/figures]");
+  verb->add_option("-o,--output", flags->folder,
+                   "Folder of the pictures [RESULTS/figures, or RESULTS/interim_figures]");
   verb->add_option("--trial", flags->trial,
                    "Dose whose maps are drawn, path=value of a swept path; may be repeated [the "
                    "middle of each]")
@@ -104,6 +107,7 @@ void add_figures(CLI::App& program) {
       ->check(CLI::NonNegativeNumber);
   flags->view.add_to(*verb);
   add_memory_flag(*verb, flags->choice.memory_bytes);
+  add_interim_flag(*verb, flags->interim);
   verb->add_flag("--no-pictures", flags->no_pictures, "Figures and tables alone");
   verb->footer(
       "Writes trials.csv, table.txt, figures (PNG, PDF, and the gnuplot script and numbers they "

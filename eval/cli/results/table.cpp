@@ -3,16 +3,11 @@
 
 #include "eval/report/table.hpp"
 
-#include "core/error.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/report/tidy_csv.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
 #include <iostream>
 
 namespace mapscore::eval {
@@ -20,16 +15,13 @@ namespace {
 
 struct TableFlags {
   std::string results, group{kPooled}, format = "text";
-  bool tidy = false;
+  bool tidy = false, interim = false;
 };
 
 void print_table(const TableFlags& flags) {
-  const StudySummary summary = summarise_store(flags.results);
+  const StudySummary summary = summarise_store(
+      flags.results, {{flags.tidy ? std::string(kPooled) : flags.group}, flags.interim});
   if (flags.tidy) return write_tidy_csv(summary, std::cout);
-  const std::vector<std::string> groups = summary.groups();
-  if (std::find(groups.begin(), groups.end(), flags.group) == groups.end())
-    throw Error(fmt::format("--class {}: not scored in this study; there are: {}", flags.group,
-                            fmt::join(groups, ", ")));
   std::cout << formatted(score_table(summary, flags.group), flags.format);
 }
 
@@ -43,9 +35,11 @@ void add_table(CLI::App& program) {
                    "pooled, macro, or the name of a detected class [pooled]");
   add_format_flag(*verb, flags->format);
   verb->add_flag("--tidy", flags->tidy, "Everything as tidy CSV: a row a trial, class and metric");
+  add_interim_flag(*verb, flags->interim);
   verb->footer(
       "Examples:\n"
       "  mapscore table results/demo\n"
+      "  mapscore table results/demo --interim          while the sweep runs\n"
       "  mapscore table results/demo --class chair --format csv\n"
       "  mapscore table results/demo --tidy > demo.csv");
 }

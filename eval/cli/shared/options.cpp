@@ -70,6 +70,11 @@ void add_format_flag(CLI::App& verb, std::string& format) {
       ->check(CLI::IsMember({"text", "csv", "json"}));
 }
 
+void add_interim_flag(CLI::App& verb, bool& interim) {
+  verb.add_flag("--interim", interim,
+                "Take an unfinished sweep: of each line the seeds that are there, marked INTERIM");
+}
+
 std::string formatted(const Table& table, const std::string& format) {
   if (format == "csv") return to_csv(table);
   return format == "json" ? to_json(table) : to_text(table);

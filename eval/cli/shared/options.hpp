@@ -63,6 +63,9 @@ struct ViewFlag {
 void add_format_flag(CLI::App& verb, std::string& format);
 [[nodiscard]] std::string formatted(const Table& table, const std::string& format);
 
+/// `--interim`: an unfinished sweep is taken as far as it is.
+void add_interim_flag(CLI::App& verb, bool& interim);
+
 /// A file that a flag names, to be written when the work is done.
 struct OutputFile {
   std::string flag;

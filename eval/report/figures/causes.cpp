@@ -140,7 +140,7 @@ class CauseFigure {
 
   /// Whether the bar has a height: its whole is not 0.
   bool add_bar(const Side& side, std::size_t x, std::size_t trial) {
-    const ClassCounts counts = pool_detected(summary_.trials[trial].pooled, summary_.table);
+    const ClassCounts counts = pooled_counts(summary_.trials[trial], summary_.table);
     sheet_.data += gnuplot_column(layout_.x().values[x]);
     double height = 0.0;
     for (const Cause& cause : side.causes) {

@@ -91,7 +91,7 @@ std::string empty_maps_caption(const StudySummary& summary) {
     for (const ResultLine& line : summary.trials) {
       if (line.method != method.name) continue;
       ++points;
-      empty += pool_detected(line.pooled, summary.table).predicted == 0 ? 1 : 0;
+      empty += pooled_counts(line, summary.table).predicted == 0 ? 1 : 0;
     }
     if (empty > 0)
       text += fmt::format(" {} maps nothing{}.", method.name,
@@ -243,8 +243,9 @@ std::string study_caption(const StudySummary& summary) {
   const Study& study = summary.study;
   // Said where the ruler itself does not fit.
   const std::string note = summary.lattice_note();
-  return fmt::format("{}: {}; voxels of {:.6g} cm; detected: {}; each {} scored; {} seed{}.{}{}",
-                     study.name, source_of(study), 100.0 * study.voxel_m,
+  return fmt::format("{}{}: {}; voxels of {:.6g} cm; detected: {}; each {} scored; {} seed{}.{}{}",
+                     summary.interim.empty() ? "" : summary.interim + ". ", study.name,
+                     source_of(study), 100.0 * study.voxel_m,
                      fmt::join(detected_names(summary.table), ", "),
                      study.score.unit == ScoreUnit::map ? "fused map" : "frame", study.seeds,
                      study.seeds == 1 ? "" : "s", empty_maps_caption(summary),

@@ -68,7 +68,8 @@ class ThresholdFigure {
         const auto trial = trial_of(curve, value, layout_);
         if (!trial) continue;
         head_ = layout_.bars() ? curve.name : curve.name + "; " + layout_.x().text(value);
-        fill(pool_detected(summary_.trials[*trial].pooled, summary_.table), curve, c, panel);
+        fill(pool_detected(loaded(summary_.trials[*trial]).pooled, summary_.table), curve, c,
+             panel);
       }
       sheet_.panels.push_back(std::move(panel));
     }

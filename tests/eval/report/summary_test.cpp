@@ -25,9 +25,9 @@ TEST_F(Summary, HasALineForEachMethodAndCellBesideItsCeilings) {
   ASSERT_THAT(summary.trials, SizeIs(2));
   ASSERT_THAT(summary.registration_ceilings, SizeIs(2));
   ASSERT_THAT(summary.lattice_ceilings, SizeIs(2));
-  EXPECT_EQ(summary.trials[1].pooled.at(1).true_predicted, 12);
-  EXPECT_EQ(summary.registration_ceilings[1].pooled.at(1).true_predicted, 16);
-  EXPECT_EQ(summary.lattice_ceilings[1].pooled.at(1).found, 16);
+  EXPECT_EQ(loaded(summary.trials[1]).pooled.at(1).true_predicted, 12);
+  EXPECT_EQ(loaded(summary.registration_ceilings[1]).pooled.at(1).true_predicted, 16);
+  EXPECT_EQ(loaded(summary.lattice_ceilings[1]).pooled.at(1).found, 16);
   EXPECT_EQ(summary.lattice_ceilings[1].role, Role::lattice_ceiling);
 }
 

@@ -19,6 +19,7 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 namespace mapscore::eval {
 namespace {
@@ -178,6 +179,45 @@ TEST_F(Store, GivesBackInstancesWhereTheyWereScored) {
   EXPECT_EQ(store.find("without")->counts, result_of(10).counts);
 }
 
+TEST_F(Store, ReadsRowsOfPlainJsonFromBefore) {
+  ResultStore::open(file("a.sqlite")).set_text("study", "");
+  run_sql(file("a.sqlite"),
+          "INSERT INTO trials VALUES ('key', '', '" + to_json(result_of(10)) + "')");
+  ResultStore store = ResultStore::open(file("a.sqlite"));
+  EXPECT_EQ(store.find("key")->counts, result_of(10).counts);
+  ResultStore other = ResultStore::open(file("b.sqlite"));
+  EXPECT_EQ(other.merge(store), 1);
+  EXPECT_EQ(other.find("key")->counts, result_of(10).counts);
+}
+
+TEST_F(Store, RefusesResultsThatAreNoStream) {
+  ResultStore store = ResultStore::open(file("a.sqlite"));
+  store.add("key", "", result_of(10));
+  for (const char* damage : {"x''", "x'789c'", "x'00'", "substr(result, 1, length(result) - 9)"}) {
+    run_sql(file("a.sqlite"), std::string("UPDATE trials SET result = ") + damage);
+    expect_error("a.sqlite: ", [&] { (void)store.find("key"); });
+  }
+}
+
+TEST_F(Store, KeepsFailuresUntilTheTrialIsAdded) {
+  ResultStore store = ResultStore::open(file("a.sqlite"));
+  store.add_failure("one", "first");
+  store.add_failure("one", "second");
+  store.add_failure("two", "other");
+  using Failures = std::map<std::string, std::string>;
+  EXPECT_EQ(store.failures(), (Failures{{"one", "second"}, {"two", "other"}}));
+  store.add("one", "", result_of(1));
+  EXPECT_EQ(store.failures(), (Failures{{"two", "other"}}));
+}
+
+TEST_F(Store, ATrialOfManyClassesThatHoldNothingIsSmall) {
+  TrialResult result = result_of(10);
+  for (int n = 0; n < 40; ++n) result.counts.push_back(zero_counts(1, {}).front());
+  const std::string text = to_json(result);
+  EXPECT_EQ(result_from_json(text).counts, result.counts);
+  EXPECT_LT(text.size(), to_json(result_of(10)).size() + 2000);
+}
+
 TEST_F(Store, KeepsTheFirstResultOfAKey) {
   ResultStore store = ResultStore::open(file("a.sqlite"));
   store.add("key", "first", result_of(1));
@@ -328,6 +368,12 @@ TEST(ResultJson, RefusesWhatIsNoCount) {
       expect_error("is no count; delete the store and sweep again",
                    [&] { (void)result_from_json(with(name, name + value + ",\"x\":")); });
     }
+  TrialResult twice = result_of(10);
+  twice.counts[1] = twice.counts[0];
+  std::string alike = to_json(twice);
+  ASSERT_TRUE(alike.ends_with(",0]}")) << alike;
+  expect_error("there is no class 7 before",
+               [&] { (void)result_from_json(alike.replace(alike.size() - 3, 1, "7")); });
   for (const char* list : {"bins", "within"}) {
     const std::string name = fmt::format("\"{}\":[", list);
     expect_error("-1 is no count", [&] { (void)result_from_json(with(name, name + "-1,")); });
