@@ -81,10 +81,13 @@ void print_store(const fs::path& results) {
   const ResultStore store = ResultStore::open_existing(file);
   const StudyRecord record = read_study(store, file.parent_path());
   const Plan plan = plan_of(record.study, record.recording_hash);
-  std::cout << fmt::format(
-      "{}: results of study {}, {} of {} trials and ceilings, by mapscore {}\n", shown(file),
-      record.study.name, held_tasks(store, plan.tasks), plan.tasks.size(),
-      shown(store.text("mapscore_version")));
+  const HeldTasks held = held_tasks(store, plan.tasks);
+  std::cout << fmt::format("{}: results of study {}, {} of {} trials and ceilings, by mapscore {}",
+                           shown(file), record.study.name, held.all, plan.tasks.size(),
+                           shown(store.text("mapscore_version")));
+  for (const std::string& build : held.builds)
+    std::cout << (build.empty() ? ", a build that did not tell" : ", build " + shown(build));
+  std::cout << '\n';
   std::cout << store.text("study");
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "eval/cli/verbs.hpp"
+#include "eval/results/build_identity.hpp"
 #include "files/text.hpp"
 
 #include <algorithm>
@@ -119,7 +120,8 @@ int main(int argc, char** argv) {
       "How good is a semantic 3D map, and how much calibration and localisation error can it "
       "take?");
   program.require_subcommand(1);
-  program.set_version_flag("--version", std::string("mapscore ") + MAPSCORE_VERSION);
+  program.set_version_flag("--version", std::string("mapscore ") + MAPSCORE_VERSION + ", build " +
+                                            std::string(mapscore::eval::build_identity()));
   program.footer(
       "Examples:\n"
       "  mapscore sweep configs/demo.yaml -o results/demo     all trials of a study\n"

@@ -34,7 +34,7 @@ struct SweepFlags {
   WorkFlags work;
   std::string shard = "1/1";
   std::vector<std::string> merged;
-  bool yes = false, dry_run = false;
+  bool yes = false, dry_run = false, keep_builds = false;
 };
 
 /// "i/n" with 1 <= i <= n.
@@ -55,6 +55,13 @@ void note_other_study(const ResultStore& store, const std::filesystem::path& res
     std::cerr << fmt::format(
         "sweep: note: {} held study {}; its trials stay, tables will show {}\n", shown(results),
         shown(before), shown(study.name));
+}
+
+void note_other_builds(const HeldTasks& held, bool keep) {
+  if (held.of_other_builds > 0)
+    std::cerr << fmt::format("sweep: {} trials were made by another build; {}\n",
+                             held.of_other_builds,
+                             keep ? "kept" : "computed anew (--keep_builds keeps them)");
 }
 
 /// What the lattice ceilings that are there say of the recording.
@@ -121,11 +128,13 @@ RunnerOutcome computed(const Workplace& at, ResultStore& store, const StopSignal
   first.study = at.study.name;
   first.shard = at.flags.shard;
   first.jobs = work.jobs;
-  first.missing =
-      static_cast<std::int64_t>(missing_tasks(at.plan.tasks, store.keys(), shard, shards).size());
+  const bool keep_builds = at.flags.keep_builds;
+  first.missing = static_cast<std::int64_t>(
+      missing_tasks(at.plan.tasks, kept_keys(store, keep_builds), shard, shards).size());
+  if (!work.quiet) note_other_builds(held_tasks(store, at.plan.tasks), keep_builds);
   LiveStatus status(std::move(first), at.results, at.recording.frame_count());
   Progress progress("sweep", "frame evaluations", work.quiet);
-  RunnerOptions options{work.jobs, work.memory_bytes, shard, shards};
+  RunnerOptions options{work.jobs, work.memory_bytes, shard, shards, keep_builds};
   options.progress = [&](std::int64_t done, std::int64_t total) {
     progress.show(done, total);
     status.progress(done, total);
@@ -157,7 +166,7 @@ int sweep(const SweepFlags& flags) {
   const auto [shard, shards] = parse_shard(flags.shard);
   const std::vector<ResultStore> merged = merged_stores(flags);
   if (flags.dry_run) {
-    print_dry_run(study, results, shard, shards);
+    print_dry_run(study, results, shard, shards, flags.keep_builds);
     return 0;
   }
   SweepSize(study, results).refuse_many(flags.yes);
@@ -180,7 +189,7 @@ int sweep(const SweepFlags& flags) {
   if (outcome.stopped) {
     std::cerr << fmt::format(
         "sweep: stopped; {} of {} trials are in {}; the same command goes on where it stopped\n",
-        held_tasks(store, plan.tasks), plan.tasks.size(), shown(results / "results.sqlite"));
+        held_tasks(store, plan.tasks).all, plan.tasks.size(), shown(results / "results.sqlite"));
     return 128 + stop.taken();
   }
   if (!flags.work.quiet)
@@ -208,13 +217,14 @@ void add_sweep(CLI::App& program, int& exit_code) {
                    "Only every n-th trial: i/n, for several processes or machines");
   verb->add_option("--merge", flags->merged, "Take over the trials of another results folder first")
       ->allow_extra_args(false);
+  verb->add_flag("--keep_builds", flags->keep_builds,
+                 "Keep trials that another build of mapscore made");
   verb->footer(
-      "Records the scene first if its recording is not there. A trial that the store holds is "
-      "never\n"
-      "computed again, so a killed sweep goes on where it stopped. A trial that fails is left "
-      "out,\n"
-      "and tried again by the next sweep. `mapscore status` tells from another shell how far it "
-      "is.\n"
+      "Records the scene first if its recording is not there. A trial that this build made is\n"
+      "never computed again, so a killed sweep goes on where it stopped. A trial that fails is\n"
+      "left out, and tried again by the next sweep. `mapscore status` tells from another shell "
+      "how\n"
+      "far it is.\n"
       "Ends with 1 when some trials failed, with 130 by Ctrl-C; then what is done is kept.\n"
       "Examples:\n"
       "  mapscore sweep configs/demo.yaml\n"

@@ -8,6 +8,7 @@
 #include "eval/lab/bench.hpp"
 #include "eval/lab/strand.hpp"
 #include "eval/lab/truth_cache.hpp"
+#include "eval/results/build_identity.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -167,6 +168,10 @@ class Sweep {
 
 }  // namespace
 
+std::unordered_set<std::string> kept_keys(const ResultStore& store, bool keep_builds) {
+  return keep_builds ? store.keys() : store.keys(build_identity());
+}
+
 std::vector<std::size_t> missing_tasks(const TaskList& tasks,
                                        const std::unordered_set<std::string>& held, int shard,
                                        int shards) {
@@ -184,7 +189,7 @@ RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const Class
                        ResultStore& store, const RunnerOptions& options) {
   const TaskList& tasks = plan.tasks;
   const std::vector<std::size_t> missing =
-      missing_tasks(tasks, store.keys(), options.shard, options.shards);
+      missing_tasks(tasks, kept_keys(store, options.keep_builds), options.shard, options.shards);
   RunnerOutcome outcome;
   if (!missing.empty()) {
     const bool colour = std::ranges::any_of(

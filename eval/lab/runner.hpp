@@ -21,6 +21,7 @@ struct RunnerOptions {
   int jobs = 1;                                     ///< worker threads
   std::size_t memory_bytes = std::size_t{1} << 30;  ///< decoded frames held at once
   int shard = 1, shards = 1;  ///< this process does every shards-th task that is missing
+  bool keep_builds = false;   ///< trials that another build made are not missing
   std::function<void(std::int64_t done, std::int64_t total)> progress =
       {};  ///< in frame evaluations
   /// After each trial, one call at a time: how many were computed and how many failed so far.
@@ -41,17 +42,21 @@ struct RunnerOutcome {
   bool stopped = false;                ///< by RunnerOptions::stop
 };
 
-/// Positions of the tasks of a shard that are not in the store, those of one lattice together.
+/// Keys of the trials of a store that a sweep does not compute anew: those of this build, or of any
+/// with `keep_builds`.
+[[nodiscard]] std::unordered_set<std::string> kept_keys(const ResultStore& store, bool keep_builds);
+
+/// Positions of the tasks of a shard whose keys are not `held`, those of one lattice together.
 [[nodiscard]] std::vector<std::size_t> missing_tasks(const TaskList& tasks,
                                                      const std::unordered_set<std::string>& held,
                                                      int shard, int shards);
 
-/// Computes the tasks of a plan that the store does not hold and adds each to it as soon as it is
-/// done. Trials walk the frames together in blocks that fit the memory, so that a frame is decoded
-/// once for many trials. The results depend on neither jobs, memory nor shards. A trial that throws
-/// is stored as failed, with its reason, and the others go on. What the store or a function of the
-/// options throws ends all and is rethrown, std::bad_alloc as an Error that says what helps; what
-/// was done stays in the store.
+/// Computes the tasks of a plan that the store does not hold, or holds of another build, and adds
+/// each to it as soon as it is done. Trials walk the frames together in blocks that fit the memory,
+/// so that a frame is decoded once for many trials. The results depend on neither jobs, memory nor
+/// shards. A trial that throws is stored as failed, with its reason, and the others go on. What the
+/// store or a function of the options throws ends all and is rethrown, std::bad_alloc as an Error
+/// that says what helps; what was done stays in the store.
 RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
                        ResultStore& store, const RunnerOptions& options);
 

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/report/best_threshold.hpp"
+#include "eval/results/build_identity.hpp"
 #include "eval/results/study_store.hpp"
 
 #include <fmt/format.h>
@@ -98,10 +99,10 @@ class LineReader {
   std::map<std::vector<std::size_t>, std::shared_ptr<const LineDigest>> digests_;
 };
 
-/// Throws Error when the store lacks trials of the plan.
-void check_all_there(const ResultStore& store, const TaskList& tasks,
+/// Throws Error when trials of the plan are not held.
+void check_all_there(const HeldTasks& held, const TaskList& tasks,
                      const std::filesystem::path& results) {
-  const std::size_t missing = tasks.size() - held_tasks(store, tasks);
+  const std::size_t missing = tasks.size() - held.all;
   if (missing > 0)
     throw Error(fmt::format(
         "{}: {} of {} trials are not there yet; run `mapscore sweep STUDY -o {}` again, "
@@ -117,9 +118,9 @@ void check_groups(const std::vector<std::string>& wanted, const std::vector<std:
 }
 
 /// How much of an unfinished sweep is there.
-std::string interim_note(const ResultStore& store, const TaskList& tasks) {
+std::string interim_note(const HeldTasks& held, const TaskList& tasks) {
   return fmt::format("INTERIM: {} of {} trials and ceilings are there; figures will change",
-                     held_tasks(store, tasks), tasks.size());
+                     held.all, tasks.size());
 }
 
 Estimate estimate(const BestThreshold& best, std::optional<double> ChosenScore::*figure) {
@@ -183,10 +184,16 @@ std::filesystem::path store_file(const std::filesystem::path& results) {
   return std::filesystem::is_directory(results) ? results / "results.sqlite" : results;
 }
 
-std::size_t held_tasks(const ResultStore& store, const TaskList& tasks) {
-  const auto keys = store.keys();
-  std::size_t held = 0;
-  for (std::size_t n = 0; n < tasks.size(); ++n) held += keys.contains(tasks.key(n)) ? 1 : 0;
+HeldTasks held_tasks(const ResultStore& store, const TaskList& tasks) {
+  const auto builds = store.builds();
+  HeldTasks held;
+  for (std::size_t n = 0; n < tasks.size(); ++n) {
+    const auto trial = builds.find(tasks.key(n));
+    if (trial == builds.end()) continue;
+    ++held.all;
+    if (trial->second != build_identity()) ++held.of_other_builds;
+    held.builds.insert(trial->second);
+  }
   return held;
 }
 
@@ -194,22 +201,23 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
   const std::filesystem::path file = store_file(results);
   ResultStore store = ResultStore::open_existing(file);
   const StudyRecord record = read_study(store, file.parent_path());
-  StudySummary summary{record.study, record.table, {}, {}, {}};
-  check_groups(options.groups, summary.groups());
   const auto source = std::make_shared<const Source>(
       Source{std::move(store), plan_of(record.study, record.recording_hash)});
   const TaskList& tasks = source->plan.tasks;
-  std::unordered_set<std::string> held;
-  if (options.interim && held_tasks(source->store, tasks) < tasks.size()) {
-    held = source->store.keys();
-    summary.interim = interim_note(source->store, tasks);
+  const HeldTasks held = held_tasks(source->store, tasks);
+  StudySummary summary{record.study, record.table, record.recording_hash, held.builds, {}, {}, {}};
+  check_groups(options.groups, summary.groups());
+  std::unordered_set<std::string> keys;
+  if (options.interim && held.all < tasks.size()) {
+    keys = source->store.keys();
+    summary.interim = interim_note(held, tasks);
   } else {
-    check_all_there(source->store, tasks, results);
+    check_all_there(held, tasks, results);
   }
   LineReader reader(source, summary.table,
                     options.groups.empty() ? summary.groups() : options.groups);
   for (const LineTasks& line : lines_of(source->plan, record.study, [&](std::size_t task) {
-         return summary.interim.empty() || held.contains(tasks.key(task));
+         return summary.interim.empty() || keys.contains(tasks.key(task));
        })) {
     summary.trials.push_back(reader.line(Role::trial, line, line.trial));
     summary.registration_ceilings.push_back(

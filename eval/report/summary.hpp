@@ -18,6 +18,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,6 +71,8 @@ struct Estimate {
 struct StudySummary {
   Study study;
   ClassTable table;
+  std::string recording_hash;
+  std::set<std::string> builds;  ///< that made the results; an empty one did not tell
   std::vector<ResultLine> trials;
   /// Ceilings of `trials[i]`; lines that agree for several trials are repeated.
   std::vector<ResultLine> registration_ceilings, lattice_ceilings;
@@ -108,8 +111,13 @@ class LatticeCheck {
 /// Names of the detected classes, in the table's order.
 [[nodiscard]] std::vector<std::string> detected_names(const ClassTable& table);
 
-/// How many tasks of a plan the store holds.
-[[nodiscard]] std::size_t held_tasks(const ResultStore& store, const TaskList& tasks);
+/// Which tasks of a plan a store holds.
+struct HeldTasks {
+  std::size_t all = 0;
+  std::size_t of_other_builds = 0;  ///< than the running program
+  std::set<std::string> builds;     ///< that made them; an empty one did not tell
+};
+[[nodiscard]] HeldTasks held_tasks(const ResultStore& store, const TaskList& tasks);
 
 /// What a summary is to hold.
 struct SummaryOptions {

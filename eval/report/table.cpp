@@ -40,6 +40,9 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
   if (!summary.interim.empty()) caption.insert(caption.begin(), summary.interim);
   if (const std::string note = summary.lattice_note(); !note.empty())
     caption.push_back("note: " + note);
+  if (summary.builds.size() > 1)
+    caption.push_back(fmt::format("note: trials of {} builds stand side by side; sweep again",
+                                  summary.builds.size()));
   if (study.score.asked.instances)
     caption.emplace_back("PQ: of instances; a predicted one is a connected piece of one class");
   return caption;

@@ -19,10 +19,19 @@ namespace {
 constexpr int kStoreFormat = 1;
 
 constexpr const char* kTexts = "texts (name TEXT PRIMARY KEY, value TEXT NOT NULL)";
-constexpr const char* kTrials =
+constexpr const char* kBuild = "build TEXT NOT NULL DEFAULT ''";
+constexpr const char* kTrialsWithoutBuild =
     "trials (key TEXT PRIMARY KEY, description TEXT NOT NULL, result TEXT NOT NULL)";
+/// What SQLite makes of the table above when kBuild is added to it.
+constexpr const char* kTrials =
+    "trials (key TEXT PRIMARY KEY, description TEXT NOT NULL, result TEXT NOT NULL, "
+    "build TEXT NOT NULL DEFAULT '')";
 constexpr const char* kFailed = "failed ";  ///< and the key: name of the text that says why
-constexpr const char* kAddTrial = "INSERT OR IGNORE INTO trials VALUES (?, ?, CAST(? AS BLOB))";
+/// The fifth parameter is the build whose trials replace those of others.
+constexpr const char* kAddTrial =
+    "INSERT INTO trials VALUES (?1, ?2, CAST(?3 AS BLOB), ?4) ON CONFLICT (key) DO UPDATE SET "
+    "description = excluded.description, result = excluded.result, build = excluded.build "
+    "WHERE excluded.build = ?5 AND trials.build <> ?5";
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
   throw Error(file.string() + ": " + reason);
@@ -123,7 +132,7 @@ ResultStore::ResultStore(const std::filesystem::path& file, int flags, const cha
   refuse_foreign_schema();
 }
 
-void ResultStore::refuse_foreign_schema() const {
+void ResultStore::refuse_foreign_schema() {
   Statement query(database_.get(), file_, "SELECT type, name, sql FROM sqlite_schema");
   while (query.step()) {
     constexpr std::size_t kShown = 40;
@@ -131,21 +140,34 @@ void ResultStore::refuse_foreign_schema() const {
     const bool is_index =
         sql.empty() && (name == "sqlite_autoindex_texts_1" || name == "sqlite_autoindex_trials_1");
     if (!is_index && sql != std::string("CREATE TABLE ") + kTexts &&
-        sql != std::string("CREATE TABLE ") + kTrials)
+        sql != std::string("CREATE TABLE ") + kTrials &&
+        sql != std::string("CREATE TABLE ") + kTrialsWithoutBuild)
       fail(file_,
            fmt::format("result store: holds the {} '{}', which mapscore does not make; "
                        "sweep again into another folder",
                        shown(query.text(0).substr(0, kShown)), shown(name.substr(0, kShown))));
+    if (sql == std::string("CREATE TABLE ") + kTrialsWithoutBuild) tells_builds_ = false;
   }
 }
 
-ResultStore ResultStore::open(const std::filesystem::path& file) {
+void ResultStore::tell_builds() {
+  execute("BEGIN IMMEDIATE");  // then another process has added the column already, or waits
+  tells_builds_ = true;
+  refuse_foreign_schema();
+  if (!tells_builds_) execute(std::string("ALTER TABLE trials ADD COLUMN ") + kBuild);
+  execute("COMMIT");
+  tells_builds_ = true;
+}
+
+ResultStore ResultStore::open(const std::filesystem::path& file, std::string_view build) {
   std::error_code error;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
   ResultStore store(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
                     "cannot be written; check the folder and its permissions");
   store.execute(std::string("CREATE TABLE IF NOT EXISTS ") + kTexts);
   store.execute(std::string("CREATE TABLE IF NOT EXISTS ") + kTrials);
+  store.build_ = build;
+  if (!store.tells_builds_) store.tell_builds();
   const std::string format = store.text("format_version");
   if (format.empty())
     store.set_text("format_version", std::to_string(kStoreFormat));
@@ -188,16 +210,29 @@ std::string ResultStore::text(const std::string& name) const {
   return query.step() ? query.text(0) : std::string();
 }
 
-std::unordered_set<std::string> ResultStore::keys() const {
-  Statement query(database_.get(), file_, "SELECT key FROM trials");
+std::unordered_set<std::string> ResultStore::keys(std::optional<std::string_view> build) const {
   std::unordered_set<std::string> keys;
-  while (query.step()) keys.insert(query.text(0));
+  for (auto& [key, of_build] : builds())
+    if (!build || of_build == *build) keys.insert(key);
   return keys;
+}
+
+std::unordered_map<std::string, std::string> ResultStore::builds() const {
+  Statement query(database_.get(), file_,
+                  tells_builds_ ? "SELECT key, build FROM trials" : "SELECT key, '' FROM trials");
+  std::unordered_map<std::string, std::string> builds;
+  while (query.step()) builds.emplace(query.text(0), query.text(1));
+  return builds;
+}
+
+void ResultStore::add_row(std::vector<std::string> row) {
+  row.push_back(build_);
+  execute(kAddTrial, row);
 }
 
 void ResultStore::add(const std::string& key, const std::string& description,
                       const TrialResult& result) {
-  execute(kAddTrial, {key, description, packed(result)});
+  add_row({key, description, packed(result), build_});
   execute("DELETE FROM texts WHERE name = ?", {kFailed + key});
 }
 
@@ -221,12 +256,13 @@ std::optional<TrialResult> ResultStore::find(const std::string& key) const {
 
 int ResultStore::merge(const ResultStore& other) {
   Statement query(other.database_.get(), other.file_,
-                  "SELECT key, description, result FROM trials ORDER BY key");
+                  fmt::format("SELECT key, description, result, {} FROM trials ORDER BY key",
+                              other.tells_builds_ ? "build" : "''"));
   const int before = sqlite3_total_changes(database_.get());
   execute("BEGIN");
   while (query.step()) {
     (void)result_of(query.text(2), other.file_);  // so that none comes in which cannot be read
-    execute(kAddTrial, {query.text(0), query.text(1), query.text(2)});
+    add_row({query.text(0), query.text(1), query.text(2), query.text(3)});
   }
   execute("COMMIT");
   return sqlite3_total_changes(database_.get()) - before;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/segmentation/segment.hpp"
+#include "eval/results/build_identity.hpp"
 #include "eval/score/counts.hpp"
 #include "eval/score/metric.hpp"
 
@@ -12,6 +13,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -67,14 +70,17 @@ struct TrialResult {
 /// Throws Error when the text is not what to_json writes.
 [[nodiscard]] TrialResult result_from_json(const std::string& text);
 
-/// Results of a study: one row a trial, keyed by the content hash of everything that determines it.
+/// Results of a study: one row a trial, keyed by the content hash of everything that determines it,
+/// with the identity of the build that made it (build_identity.hpp).
 /// One transaction a trial, so that a killed sweep loses nothing that was done. Members may be
 /// called from several threads, one at a time.
 class ResultStore {
  public:
   /// Opens or creates. Throws Error when the file is not a store, is of another format version,
-  /// holds a trigger, a view or any table but a store's two, or cannot be written.
-  [[nodiscard]] static ResultStore open(const std::filesystem::path& file);
+  /// holds a trigger, a view or any table but a store's two, or cannot be written. `build`: who
+  /// adds trials.
+  [[nodiscard]] static ResultStore open(const std::filesystem::path& file,
+                                        std::string_view build = build_identity());
   /// Opens for reading only. Throws Error when it is not there, and as above.
   [[nodiscard]] static ResultStore open_existing(const std::filesystem::path& file);
 
@@ -84,16 +90,22 @@ class ResultStore {
   void set_texts(const std::vector<std::pair<std::string, std::string>>& texts);
   [[nodiscard]] std::string text(const std::string& name) const;
 
-  [[nodiscard]] std::unordered_set<std::string> keys() const;
-  /// A trial that is already there stays as it is. `description` is the YAML of what the key was
-  /// made from.
+  /// Keys of all trials, or of those that one build made.
+  [[nodiscard]] std::unordered_set<std::string> keys(
+      std::optional<std::string_view> build = std::nullopt) const;
+  /// The build that made each trial, by the trial's key; empty for trials that a mapscore made
+  /// which did not tell.
+  [[nodiscard]] std::unordered_map<std::string, std::string> builds() const;
+  /// A trial that the same build made already stays as it is, one of another build is replaced.
+  /// `description` is the YAML of what the key was made from.
   void add(const std::string& key, const std::string& description, const TrialResult& result);
   [[nodiscard]] std::optional<TrialResult> find(const std::string& key) const;
   /// Keeps why a trial failed until it is added.
   void add_failure(const std::string& key, const std::string& reason);
   /// Reasons by key.
   [[nodiscard]] std::map<std::string, std::string> failures() const;
-  /// Takes over the trials of another store that are not here yet. Returns how many.
+  /// Takes over the trials of another store that are not here yet, or that this build made there
+  /// and another here. Returns how many.
   int merge(const ResultStore& other);
 
  private:
@@ -103,10 +115,14 @@ class ResultStore {
   /// `refusal`: what to say of a file that SQLite does not open with these flags.
   ResultStore(const std::filesystem::path& file, int flags, const char* refusal);
   void execute(const std::string& sql, const std::vector<std::string>& texts = {});
-  void refuse_foreign_schema() const;
+  void refuse_foreign_schema();
+  void tell_builds();
+  void add_row(std::vector<std::string> row);
 
   std::unique_ptr<sqlite3, Close> database_;
   std::filesystem::path file_;
+  bool tells_builds_ = true;  ///< else its table is from before there was a column for them
+  std::string build_;
 };
 
 }  // namespace mapscore::eval

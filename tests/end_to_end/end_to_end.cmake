@@ -50,6 +50,7 @@ file(CONFIGURE OUTPUT ${mutant}/exact_placement.cpp CONTENT "${renamed}" @ONLY)
 add_executable(mapscore_mutant ${folder}/mutant/rounding_placement.cpp $<TARGET_OBJECTS:mapscore_cli>)
 target_include_directories(mapscore_mutant PRIVATE ${mutant})
 target_link_libraries(mapscore_mutant PRIVATE mapscore::eval)
+mapscore_build_identity(mapscore_mutant ${mapscore_deciding_rooms} tests/end_to_end/mutant)
 target_compile_definitions(end_to_end_test PRIVATE MAPSCORE_MUTANT="$<TARGET_FILE:mapscore_mutant>")
 add_dependencies(end_to_end_test mapscore_mutant)
 

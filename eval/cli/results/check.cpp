@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include "core/error.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/report/baseline.hpp"
+#include "eval/results/build_identity.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
@@ -17,11 +19,27 @@ namespace {
 struct CheckFlags {
   std::string results, baseline;
   double allowed = 0.002;
-  bool write = false;
+  bool write = false, any_build = false;
 };
 
+/// Results that the code under test did not make say nothing of it.
+void refuse_other_builds(const StudySummary& summary, const CheckFlags& flags) {
+  if (summary.builds.size() > 1)
+    throw Error(fmt::format("{}: its trials were made by {} builds; sweep again with one",
+                            flags.results, summary.builds.size()));
+  const std::string build = summary.builds.empty() ? "" : *summary.builds.begin();
+  if (!flags.any_build && build != build_identity())
+    throw Error(fmt::format(
+        "{}: its trials were made by {}, this is build {}; sweep again with this program, or give "
+        "--any_build",
+        flags.results, build.empty() ? "a build that did not tell" : "build " + build,
+        build_identity()));
+}
+
 int check(const CheckFlags& flags) {
-  const std::vector<BaselineRow> now = baseline_of(summarise_store(flags.results));
+  const StudySummary summary = summarise_store(flags.results);
+  refuse_other_builds(summary, flags);
+  const std::vector<BaselineRow> now = baseline_of(summary);
   if (flags.write) {
     write_baseline(now, flags.baseline);
     std::cout << fmt::format("{}: {} figures written\n", shown(flags.baseline), now.size());
@@ -50,6 +68,8 @@ void add_check(CLI::App& program, int& exit_code) {
   verb->add_option("--allow", flags->allowed, "How far a figure may fall, absolutely [0.002]")
       ->check(finite_within(0.0, 1.0));
   verb->add_flag("--write", flags->write, "Write the baseline from these results instead");
+  verb->add_flag("--any_build", flags->any_build,
+                 "Take results that another build of mapscore made");
   verb->footer(
       "Examples:\n"
       "  mapscore check results/gate --baseline results/baselines/gate.csv\n"

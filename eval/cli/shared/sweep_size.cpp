@@ -55,8 +55,8 @@ void SweepSize::refuse_many(bool yes) const {
         fmt::format("{}; time: {}; sweep fewer values, or add --yes", grid(), time_of(trials)));
 }
 
-void print_dry_run(const Study& study, const std::filesystem::path& results, int shard,
-                   int shards) {
+void print_dry_run(const Study& study, const std::filesystem::path& results, int shard, int shards,
+                   bool keep_builds) {
   const SweepSize size(study, results);
   const std::optional<Recording> recording = recording_there(study, results);
   if (recording) static_cast<void>(detected_table(study, recording->info().table));
@@ -66,7 +66,7 @@ void print_dry_run(const Study& study, const std::filesystem::path& results, int
   const std::filesystem::path file = results / "results.sqlite";
   if (recording && std::filesystem::exists(file)) {
     const ResultStore store = ResultStore::open_existing(file);
-    held = store.keys();
+    held = kept_keys(store, keep_builds);
     const auto failures = store.failures();
     for (std::size_t n = 0; n < tasks.size() && !failures.empty(); ++n)
       failed += failures.contains(tasks.key(n)) && !held.contains(tasks.key(n)) ? 1 : 0;

@@ -30,9 +30,9 @@ Arguments joined(Arguments first, const Arguments& second) {
   return first;
 }
 
-/// Sweeps the gate with the mapscore that is wrong by half a voxel.
-void sweep_wrongly(const Arguments& sweep_arguments) {
-  expect_done(Process(joined({MAPSCORE_MUTANT}, joined(sweep_arguments, {"-q"}))).wait());
+/// Runs the mapscore that is wrong by half a voxel.
+Outcome mutant(const Arguments& arguments) {
+  return Process(joined({MAPSCORE_MUTANT}, arguments)).wait();
 }
 
 void expect_fallen(const Outcome& checked) {
@@ -89,7 +89,7 @@ class Gate : public ::testing::Test {
   /// Trials in a store that another process may be writing; none while there is no store.
   [[nodiscard]] static std::size_t trials_in(const std::string& file) {
     try {
-      return eval::ResultStore::open_existing(file).keys().size();
+      return eval::ResultStore::open_existing(file).builds().size();
     } catch (const Error&) {
       return 0;
     }
@@ -165,9 +165,34 @@ TEST_F(Gate, AnErrorOfHalfAVoxelInManyDrawsFailsTheCheck) {
   const std::string right = results() + "/right", wrong = results() + "/wrong";
   const Arguments draws{"--set", "fusion.blend.N=4"};
   expect_done(sweep(right, draws));
-  sweep_wrongly(sweep_arguments(wrong, draws));
+  expect_done(mutant(sweep_arguments(wrong, draws)));
   expect_done(mapscore({"check", right, "--baseline", right + ".csv", "--write"}));
-  expect_fallen(mapscore({"check", wrong, "--baseline", right + ".csv"}));
+  expect_fallen(mutant({"check", wrong, "--baseline", right + ".csv"}));
+  expect_refused(mapscore({"check", wrong, "--baseline", right + ".csv"}),
+                 {wrong, "its trials were made by build", "--any_build"});
+  expect_fallen(mapscore({"check", wrong, "--baseline", right + ".csv", "--any_build"}));
+}
+
+TEST_F(Gate, TrialsOfAnotherBuildAreComputedAnew) {
+  const std::string baseline = results() + ".csv";
+  expect_done(sweep(results(), {}));
+  expect_done(mapscore({"check", results(), "--baseline", baseline, "--write"}));
+
+  const Outcome kept = mutant(sweep_arguments(results(), {"--keep_builds"}));
+  expect_done(kept);
+  EXPECT_THAT(kept.err, HasSubstr("21 trials were made by another build; kept"));
+  expect_same_as_reference();
+  expect_refused(mutant({"check", results(), "--baseline", baseline}), {"made by build"});
+
+  const Outcome anew = mutant(sweep_arguments(results(), {}));
+  expect_done(anew);
+  EXPECT_THAT(anew.err, HasSubstr("21 trials were made by another build; computed anew"));
+  EXPECT_THAT(anew.err, HasSubstr("sweep gate: 21 trials computed"));
+  expect_fallen(mutant({"check", results(), "--baseline", baseline}));
+
+  expect_done(sweep(results(), {"--shard", "1/2"}));
+  expect_refused(mapscore({"check", results(), "--baseline", baseline}),
+                 {"its trials were made by 2 builds"});
 }
 
 // The very study that CI holds against its baseline.
@@ -183,8 +208,8 @@ TEST(WholeGate, AnErrorOfHalfAVoxelFailsTheCheck) {
   expect_done(mapscore({"check", path("right"), "--baseline", path("baseline.csv"), "--write"}));
   expect_done(mapscore({"check", path("right"), "--baseline", path("baseline.csv")}));
 
-  sweep_wrongly(sweep_into("wrong"));
-  expect_fallen(mapscore({"check", path("wrong"), "--baseline", path("baseline.csv")}));
+  expect_done(mutant(sweep_into("wrong")));
+  expect_fallen(mutant({"check", path("wrong"), "--baseline", path("baseline.csv")}));
 }
 
 }  // namespace

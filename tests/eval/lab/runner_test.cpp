@@ -112,7 +112,7 @@ TEST_F(Runner, ShardsShareTheTasksOut) {
     options.shard = shard;
     options.shards = 3;
     computed += run_plan(plan, recording(), table(), results, options).computed;
-    EXPECT_EQ(results.keys().size(), computed);
+    EXPECT_EQ(results.builds().size(), computed);
   }
   EXPECT_EQ(computed, plan.tasks.size());
   EXPECT_EQ(results_of(plan, results), run(plan, one_job(), "whole"));
@@ -128,6 +128,24 @@ TEST_F(Runner, WhatTheStoreHoldsIsNotComputedAgain) {
   EXPECT_EQ(outcome.computed, plan.tasks.size() - 1);
   EXPECT_EQ(outcome.reused, 1u);
   EXPECT_EQ(results.find(plan.tasks[1].key)->accounting.points, 123456789);
+  EXPECT_EQ(run_plan(plan, recording(), table(), results, one_job()).computed, 0u);
+}
+
+TEST_F(Runner, WhatAnotherBuildMadeIsComputedAnewUnlessItIsKept) {
+  const Plan plan = plan_with_pose_noise();
+  const std::size_t all = plan.tasks.size();
+  TrialResult mark;
+  mark.accounting.points = 123456789;
+  {
+    ResultStore other = ResultStore::open(folder() / "results.sqlite", "another build");
+    for (std::size_t n = 0; n < all; ++n) other.add(plan.tasks[n].key, "", mark);
+  }
+  ResultStore results = store();
+  RunnerOptions keeping = one_job();
+  keeping.keep_builds = true;
+  EXPECT_EQ(run_plan(plan, recording(), table(), results, keeping).computed, 0u);
+  EXPECT_EQ(run_plan(plan, recording(), table(), results, one_job()).computed, all);
+  EXPECT_EQ(results_of(plan, results), run(plan, one_job(), "whole"));
   EXPECT_EQ(run_plan(plan, recording(), table(), results, one_job()).computed, 0u);
 }
 
@@ -157,7 +175,7 @@ TEST_F(Runner, AnExceptionOfAWorkerIsRethrownAndWhatWasDoneStays) {
     if (done == 21) throw std::runtime_error("enough");
   };
   EXPECT_THROW(run_plan(plan, recording(), table(), results, options), std::runtime_error);
-  const std::size_t done = results.keys().size();
+  const std::size_t done = results.builds().size();
   EXPECT_GT(done, 0u);
   EXPECT_LT(done, plan.tasks.size());
   const RunnerOutcome rest = run_plan(plan, recording(), table(), results, one_job());

@@ -81,7 +81,7 @@ ResultLine synthetic_line(Role role, const std::string& method, const Cell& cell
 /// Method m at cell c and seed s: a share of 0.02 (1 + 2 m + c) + 0.01 s of its predicted voxels is
 /// false. Ceilings: registration 0.02 (1 + 2 m), lattice 0.
 inline StudySummary synthetic_summary(Study study) {
-  StudySummary summary{std::move(study), synthetic_table(), {}, {}, {}};
+  StudySummary summary{std::move(study), synthetic_table(), "recording", {"build"}, {}, {}, {}};
   for (const Cell& cell : cells(summary.study)) {
     for (std::size_t m = 0; m < summary.study.methods.size(); ++m) {
       const std::string& name = summary.study.methods[m].name;

@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: 2026 the mapscore authors
+# SPDX-License-Identifier: MIT
+#
+# build_identity() of eval/results/build_identity.hpp: a hash of the sources that decide results, by path, without
+# comments and white space, and of what compiles them. At each build this file runs itself as a script where a source
+# changed; where the hash did not, the old file stays and nothing is built again.
+
+# All rooms whose code decides a trial's counts, or the recording they come from.
+set(mapscore_deciding_rooms core files sim eval/recording eval/truth eval/localization eval/score eval/objects eval/study
+    eval/results eval/lab eval/render)
+
+# mapscore_build_identity(TARGET ROOMS...): adds a source with the identity of the sources below ROOMS to TARGET.
+function(mapscore_build_identity target)
+  set(sources)
+  foreach(room IN LISTS ARGN)
+    file(GLOB_RECURSE of_room CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${room}/*.cpp ${PROJECT_SOURCE_DIR}/${room}/*.hpp)
+    list(APPEND sources ${of_room})
+  endforeach()
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
+  get_target_property(options mapscore_options INTERFACE_COMPILE_OPTIONS)
+  list(FILTER options INCLUDE REGEX "^-[fmO]")  # warnings decide nothing
+  get_filename_component(mujoco "${MuJoCo_LIBRARY}" REALPATH)
+  get_filename_component(mujoco "${mujoco}" NAME)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/${target}_identity)
+  file(CONFIGURE OUTPUT ${output}.txt @ONLY CONTENT
+"@CMAKE_CXX_COMPILER_ID@ @CMAKE_CXX_COMPILER_VERSION@ @CMAKE_SYSTEM_PROCESSOR@
+@CMAKE_CXX_FLAGS@ ${CMAKE_CXX_FLAGS_${type}} @options@
+Eigen @Eigen3_VERSION@ OpenCV @OpenCV_VERSION@ octomap @octomap_VERSION@ MuJoCo @mujoco@
+")
+  add_custom_command(OUTPUT ${output}.cpp
+    COMMAND ${CMAKE_COMMAND} -D SOURCE=${PROJECT_SOURCE_DIR} "-DROOMS=${ARGN}" -D OUTPUT=${output}
+            -P ${PROJECT_SOURCE_DIR}/cmake/BuildIdentity.cmake
+    DEPENDS ${sources} ${output}.txt ${PROJECT_SOURCE_DIR}/cmake/BuildIdentity.cmake
+    COMMENT "Identity of what decides results" VERBATIM)
+  target_sources(${target} PRIVATE ${output}.cpp)
+  set_source_files_properties(${output}.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
+if(NOT CMAKE_SCRIPT_MODE_FILE)
+  return()
+endif()
+
+file(READ ${OUTPUT}.txt text)
+# A string, a letter or what else there is, then the comments and the white space behind it. Strings stay as they are.
+set(string "\"([^\"\\\n]|\\\\.)*\"|'([^'\\\n]|\\\\.)'")
+set(blank "//[^\n]*|/\\*([^*]|\\*+[^*/])*\\*+/|[ \t\r\n]+")
+foreach(room IN LISTS ROOMS)
+  file(GLOB_RECURSE sources RELATIVE ${SOURCE} ${SOURCE}/${room}/*.cpp ${SOURCE}/${room}/*.hpp)
+  foreach(source IN LISTS sources)
+    file(READ ${SOURCE}/${source} code)
+    string(REGEX REPLACE "(${string}|[^\"'/ \t\r\n]+|.)(${blank})*" "\\1" code "\n${code}")
+    string(APPEND text "${source}${code}\n")
+  endforeach()
+endforeach()
+string(SHA256 identity "${text}")
+string(SUBSTRING "${identity}" 0 16 identity)
+file(CONFIGURE OUTPUT ${OUTPUT}.cpp @ONLY CONTENT [[
+#include "eval/results/build_identity.hpp"
+
+std::string_view mapscore::eval::build_identity() {
+  return "@identity@";
+}
+]])
