@@ -127,9 +127,8 @@ int main(int argc, char** argv) {
       "  mapscore sweep configs/demo.yaml -o results/demo     all trials of a study\n"
       "  mapscore table results/demo                          their scores\n"
       "  mapscore figures results/demo                        their figures and pictures\n"
-      "`mapscore help VERB` tells more. Exit codes: 0 done, 1 the answer is no or trials failed, "
-      "2\n"
-      "wrong input.");
+      "`mapscore help VERB` tells more. Exit codes: 0 done, 1 the answer is no or trials failed,\n"
+      "2 wrong input, 3 nothing could be compared.");
   try {
     return run(program, argc, argv);
   } catch (const CLI::Success& request) {

@@ -4,42 +4,38 @@
 #pragma once
 
 #include "eval/report/summary.hpp"
-#include "eval/report/table.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace mapscore::eval {
 
-/// One figure that a baseline holds fast. Higher is better for all of them.
-struct BaselineRow {
-  std::string what;    ///< role, method and doses
-  std::string group;   ///< "pooled" or a class
-  std::string metric;  ///< precision, recall, f1, iou, f1_t1, f_2cm
-  std::optional<double> value;
+/// Results that later ones are held against: counts by method, cell, seed and class, from which
+/// figures are formed when they are compared.
+struct Baseline {
+  int scoring_version = kScoringVersion;
+  std::string recording_hash;
+  std::string build;  ///< that made the results
+  Study study;
+  ClassTable table;     ///< the background and the detected classes
+  ScoreOptions scored;  ///< tolerances and distances that were counted at
+  /// Trials, registration and lattice ceilings; of one that was read, each ceiling once, under the
+  /// doses of the first cell it belongs to. Of a count those that voxel_metrics need; no curves,
+  /// boxes, bins of distances nor accounting.
+  std::vector<ResultLine> lines;
 };
 
-/// A figure that fell, vanished, or was never in the results.
-struct Fall {
-  BaselineRow baseline;
-  std::optional<double> now;
-};
+/// The metrics of metrics_of that a baseline can tell: all of precision, recall, F1 and IoU, at
+/// tolerances and by distances too, and mean distances.
+[[nodiscard]] std::vector<std::string> voxel_metrics(const Baseline& baseline);
 
-/// The figures of a study that a baseline keeps: those above, pooled and by class, for trials and
-/// ceilings.
-[[nodiscard]] std::vector<BaselineRow> baseline_of(const StudySummary& summary);
+/// Throws Error when several builds made the results.
+[[nodiscard]] Baseline baseline_of(const StudySummary& summary);
 
-/// CSV: what,class,metric,value. Written aside, then renamed.
-void write_baseline(const std::vector<BaselineRow>& rows, const std::filesystem::path& file);
-/// Throws Error naming the file and line.
-[[nodiscard]] std::vector<BaselineRow> read_baseline(const std::filesystem::path& file);
-
-/// Rows of `baseline` that `now` misses or that are lower by more than `allowed`, absolutely.
-[[nodiscard]] std::vector<Fall> falls(const std::vector<BaselineRow>& baseline,
-                                      const std::vector<BaselineRow>& now, double allowed);
-
-[[nodiscard]] Table fall_table(const std::vector<Fall>& falls);
+/// JSON, one line a trial (docs/formats.md). Written aside, then renamed.
+void write_baseline(const Baseline& baseline, const std::filesystem::path& file);
+/// Throws Error naming the file when it is missing or holds no baseline.
+[[nodiscard]] Baseline read_baseline(const std::filesystem::path& file);
 
 }  // namespace mapscore::eval

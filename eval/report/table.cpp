@@ -187,6 +187,53 @@ std::string to_csv(const Table& table) {
   return text;
 }
 
+std::string to_markdown(const Table& table) {
+  const auto line = [](const std::vector<std::string>& cells) {
+    std::string text = "|";
+    for (const std::string& cell : cells) {
+      text += ' ';
+      for (const char letter : shown(cell))
+        text += std::string_view("\\|*_`<>[]").find(letter) == std::string_view::npos
+                    ? std::string(1, letter)
+                    : std::string{'\\', letter};
+      text += " |";
+    }
+    return text + '\n';
+  };
+  std::string text;
+  for (const std::string& caption : table.caption) text += shown(caption) + "  \n";
+  if (!text.empty()) text += '\n';
+  text += line(table.columns) + '|';
+  for (std::size_t n = 0; n < table.columns.size(); ++n) text += " --- |";
+  text += '\n';
+  for (const auto& row : table.rows) text += line(row);
+  return text;
+}
+
+std::string to_tex(const Table& table) {
+  const auto line = [](const std::vector<std::string>& cells) {
+    std::string text;
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      if (n > 0) text += " & ";
+      for (const char letter : shown(cells[n])) {
+        if (letter == '\\' || letter == '~' || letter == '^')
+          text += fmt::format("\\char{} ", static_cast<int>(letter));
+        else
+          text += std::string_view("&%$#_{}").find(letter) == std::string_view::npos
+                      ? std::string(1, letter)
+                      : std::string{'\\', letter};
+      }
+    }
+    return text + " \\\\\n";
+  };
+  std::string text;
+  for (const std::string& caption : table.caption) text += "% " + shown(caption) + '\n';
+  text += "\\begin{tabular}{" + std::string(table.columns.size(), 'l') + "}\n\\toprule\n" +
+          line(table.columns) + "\\midrule\n";
+  for (const auto& row : table.rows) text += line(row);
+  return text + "\\bottomrule\n\\end{tabular}\n";
+}
+
 std::string to_json(const Table& table) {
   return json_of(table).dump(2) + '\n';
 }

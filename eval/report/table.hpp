@@ -43,6 +43,10 @@ struct Table {
 [[nodiscard]] std::string to_text(const Table& table);
 [[nodiscard]] std::string to_csv(const Table& table);
 [[nodiscard]] std::string to_json(const Table& table);
+/// A table of GitHub's Markdown; the caption above it, a line each.
+[[nodiscard]] std::string to_markdown(const Table& table);
+/// A tabular of LaTeX with booktabs' rules; the caption above it as comments.
+[[nodiscard]] std::string to_tex(const Table& table);
 /// Several tables as one list.
 [[nodiscard]] std::string to_json(const std::vector<Table>& tables);
 

@@ -46,16 +46,16 @@ TEST_F(BadOutput, AFullDiskForTheStoreLosesOnlyWhatWasNotDone) {
 TEST_F(BadOutput, AFullDiskForFilesKeepsTheOldOnes) {
   expect_done(sweep(results()));
   write_text(path("truth.csv"), "old");
-  write_text(path("baseline.csv"), "old");
+  write_text(path("baseline.json"), "old");
   const auto before = contents_of(folder());
   const Surroundings full{.file_size_limit = 500, .standard_output = {}};
   expect_refused(mapscore({"truth", path("tiny"), "-o", path("truth.csv")}, full),
                  {"truth.csv", "has free space"});
   expect_refused(
-      mapscore({"check", results(), "--baseline", path("baseline.csv"), "--write"}, full),
-      {"baseline.csv", "free space"});
+      mapscore({"check", results(), "--baseline", path("baseline.json"), "--update"}, full),
+      {"baseline.json", "free space"});
   EXPECT_EQ(bytes_of(path("truth.csv")), "old");
-  EXPECT_EQ(bytes_of(path("baseline.csv")), "old");
+  EXPECT_EQ(bytes_of(path("baseline.json")), "old");
   EXPECT_EQ(contents_of(folder()), before);
 }
 
@@ -78,25 +78,22 @@ TEST_F(BadOutput, ATableOfWhatIsNotThere) {
   expect_refused(mapscore({"table", results()}), {"results", "run `mapscore sweep`"});
   expect_done(mapscore({"sweep", study(), "-o", results(), "--shard", "1/2"}));
   expect_refused(mapscore({"table", results()}), {"trials are not there yet", "mapscore sweep"});
-  expect_refused(mapscore({"check", results(), "--baseline", path("b.csv"), "--write"}),
+  expect_refused(mapscore({"check", results(), "--baseline", path("b.json"), "--update"}),
                  {"trials are not there yet"});
-  EXPECT_FALSE(fs::exists(path("b.csv")));
+  EXPECT_FALSE(fs::exists(path("b.json")));
 }
 
 TEST_F(BadOutput, ABaselineThatIsMissingOrBroken) {
   expect_done(sweep(results()));
   const auto check = [&] {
-    return mapscore({"check", results(), "--baseline", path("baseline.csv")});
+    return mapscore({"check", results(), "--baseline", path("baseline.json")});
   };
-  expect_refused(check(), {"baseline.csv", "--write"});
-  write_text(path("baseline.csv"), "some,other,table\n");
-  expect_refused(check(), {"baseline.csv:1", "not a baseline"});
-  write_text(path("baseline.csv"), "what,class,metric,value\ntrial direct,pooled,f1,high\n");
-  expect_refused(check(), {"baseline.csv:2", "'high'", "--write"});
-  write_text(path("baseline.csv"), "what,class,metric,value\ntrial direct,pooled\n");
-  expect_refused(check(), {"baseline.csv:2", "four columns"});
-  write_text(path("baseline.csv"), "what,class,metric,value\n");
-  expect_refused(check(), {"baseline.csv", "holds no figure"});
+  expect_refused(check(), {"baseline.json", "--update"});
+  for (const char* text :
+       {"what,class,metric,value\n", "{}", "[]", "{\"format\": 2}", "{\"format\""}) {
+    write_text(path("baseline.json"), text);
+    expect_refused(check(), {"baseline.json", "no baseline of this mapscore", "--update"});
+  }
 }
 
 }  // namespace

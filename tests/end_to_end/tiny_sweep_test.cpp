@@ -21,25 +21,30 @@ TEST_F(TinySweep, PrintsAndChecksItsScores) {
   const Outcome table = mapscore({"table", results()});
   expect_done(table);
   EXPECT_THAT(table.out, HasSubstr("detected: crate"));
-  const std::string baseline = path("baseline.csv");
-  expect_done(mapscore({"check", results(), "--baseline", baseline, "--write"}));
+  const std::string baseline = path("baseline.json");
+  expect_done(mapscore({"check", results(), "--baseline", baseline, "--update"}));
   const Outcome check = mapscore({"check", results(), "--baseline", baseline});
   expect_done(check);
-  EXPECT_THAT(check.out, HasSubstr("figures hold"));
+  EXPECT_THAT(check.out, HasSubstr("figures hold; changed: 0 of"));
+  expect_done(mapscore({"sweep", study(), "-o", path("moved"), "-q", "--set", "seed=99"}));
+  const Outcome moved = mapscore({"check", path("moved"), "--baseline", baseline});
+  EXPECT_EQ(moved.exit_code, 3) << moved.err;
+  EXPECT_THAT(moved.out, HasSubstr("nothing could be compared"));
 }
 
 TEST_F(TinySweep, CheckSaysWhichFigureFell) {
-  const std::string baseline = path("baseline.csv");
-  write_text(baseline,
-             "what,class,metric,value\n"
-             "trial direct faults.misregistration.magnitude_m=0.03,crate,precision,1.000000\n"
-             "trial guess,pooled,f1,0.500000\n");
+  const std::string baseline = path("baseline.json");
+  expect_done(mapscore({"check", results(), "--baseline", baseline, "--update"}));
+  std::string text = bytes_of(baseline);
+  const std::string trial = R"({"role":"trial","method":"direct",)";
+  const std::size_t at = text.find(trial);
+  ASSERT_NE(at, std::string::npos);
+  write_text(baseline, text.insert(at + trial.size() - 2, " of old"));
   const Outcome check = mapscore({"check", results(), "--baseline", baseline});
   EXPECT_EQ(check.exit_code, 1) << check.err;
   EXPECT_EQ(check.err, "");
-  EXPECT_THAT(check.out, HasSubstr("magnitude_m=0.03  crate   precision  1.000000"));
-  EXPECT_THAT(check.out, HasSubstr("missing"));
-  EXPECT_THAT(check.out, HasSubstr("2 of 2 figures fell"));
+  EXPECT_THAT(check.out, HasSubstr("missing  direct of old  "));
+  EXPECT_THAT(check.out, HasSubstr("figures got worse"));
 }
 
 TEST_F(TinySweep, TakesAStudyInTheWorkingFolder) {

@@ -68,7 +68,7 @@ def commands(work):
         "truth": ["truth", at("rec"), "-o", "{out}/truth.csv", "--voxel_m", "0.05", *quiet],
         "truth as PLY": ["truth", at("rec"), "-o", "{out}/truth.ply", "--voxel_m", "0.05", *quiet],
         "localize": ["localize", at("rec"), "-o", "{out}", "-q"],
-        "check --write": ["check", at("swept"), "--baseline", "{out}/baseline.csv", "--write"],
+        "check --update": ["check", at("swept"), "--baseline", "{out}/baseline.json", "--update"],
         "figures": ["figures", at("swept"), "-o", "{out}"],
     }
 

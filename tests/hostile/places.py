@@ -180,7 +180,7 @@ def in_a_store(case, name, full):
             case.run("figures", folder, "--no-pictures")
         if full:
             case.run("compare", folder, "direct", "erosion")
-            case.run("check", folder, "--baseline", case.out("b.csv"), "--write")
+            case.run("check", folder, "--baseline", case.out("b.json"), "--update")
             case.run("sweep", case.at("study.yaml"), "-o", folder, "-j", "1", "--merge", case.out("whole"))
 
 
@@ -235,7 +235,7 @@ def in_flags(case, name, _):
     tiny.write(case.at("grid.yaml"), b"image: %s\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
                b"free_thresh: 0.2\n%s: 1\n" % (tiny.in_yaml(text), tiny.in_yaml(text)))
     tiny.write(case.at("motion.csv"), b"stamp_s," + tiny.in_csv(text) + b"\n0,0\n")
-    tiny.write(case.at("baseline.csv"), b"what,class,metric,value\n%s,%s,%s,1\n" % ((tiny.in_csv(text),) * 3))
+    tiny.write(case.at("baseline.json"), b'{"format": 2, "study": "' + text.replace(b"\\", b"\\\\").replace(b'"', b'\\"') + b'"}')
     os.makedirs(case.at("scene"))
     tiny.write_scene(case.at("scene"))
     case.run(b"v" + text)
@@ -250,7 +250,9 @@ def in_flags(case, name, _):
     case.run("localize", recording, "-o", case.out("l"), "-q", "--grid", case.at("grid.yaml"))
     case.run("record", case.at("scene/study.yaml"), "-o", case.out("rec"), "-q", "--motion", case.at("motion.csv"))
     if case.run("sweep", study, "-o", case.out("r"), "-q"):
-        case.run("check", case.out("r"), "--baseline", case.at("baseline.csv"), codes=(0, 1))
+        case.run("check", case.out("r"), "--baseline", case.at("baseline.json"), codes=(2,))
+        case.run("check", case.out("r"), "--baseline", case.out("made.json"), "--update")
+        case.run("check", case.out("r"), "--baseline", case.out("made.json"), b"--allow=" + text + b"=1", codes=(2,))
         case.run("figures", case.out("r"), "--no-pictures", b"--trial=" + text)
         case.run("table", case.out("r"), b"--class=" + text)
         case.run("compare", case.out("r"), "--", "direct", text)

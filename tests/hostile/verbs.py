@@ -30,8 +30,8 @@ def sweep_and_show(case, study, classes, full, results="results"):
         case.run("compare", folder, "direct", "erosion", b"--group=" + name)
     for flags in TEXT_FORMATS:
         case.run("compare", folder, "direct", "erosion", *flags)
-    baseline = case.out("baseline.csv")
-    case.run("check", folder, "--baseline", baseline, "--write")
+    baseline = case.out("baseline.json")
+    case.run("check", folder, "--baseline", baseline, "--update")
     case.run("check", folder, "--baseline", baseline)
     case.run("run", study, "-o", folder, "-q", "-j", "1")
 

@@ -4,22 +4,26 @@
 #include "core/error.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/report/baseline.hpp"
+#include "eval/report/regression_report.hpp"
 #include "eval/results/build_identity.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
 namespace mapscore::eval {
 namespace {
 
+constexpr int kFell = 1, kNothingCompared = 3;
+
 struct CheckFlags {
-  std::string results, baseline;
-  double allowed = 0.002;
-  bool write = false, any_build = false;
+  std::string results, baseline, format = "text";
+  std::vector<std::string> allowed, metrics{"precision", "recall", "f1", "iou", "f1_t1", "f_2cm"};
+  bool update = false, any_build = false, any_recording = false;
 };
 
 /// Results that the code under test did not make say nothing of it.
@@ -36,44 +40,103 @@ void refuse_other_builds(const StudySummary& summary, const CheckFlags& flags) {
         build_identity()));
 }
 
+/// Those of --metric that the baseline has. Throws Error for one that no baseline tells.
+std::vector<std::string> metrics_in(const Baseline& baseline, const CheckFlags& flags) {
+  const std::vector<std::string> known = voxel_metrics(baseline);
+  std::vector<std::string> metrics;
+  const std::vector<std::string> usual = CheckFlags{}.metrics;
+  for (const std::string& metric : flags.metrics) {
+    if (std::ranges::find(known, metric) != known.end())
+      metrics.push_back(metric);
+    else if (std::ranges::find(usual, metric) == usual.end())
+      throw Error(fmt::format("--metric {}: not in the baseline; there are: {}", metric,
+                              fmt::join(known, ", ")));
+  }
+  return metrics;
+}
+
+/// Throws Error for a class or metric that the baseline does not have.
+void check_tolerances(const Tolerances& tolerances, const Baseline& baseline) {
+  std::vector<std::string> groups = detected_names(baseline.table);
+  groups.insert(groups.end(), {std::string(kPooled), std::string(kMacro)});
+  const std::vector<std::string> metrics = voxel_metrics(baseline);
+  const auto require = [](const std::string& name, const std::vector<std::string>& known) {
+    if (!name.empty() && std::ranges::find(known, name) == known.end())
+      throw Error(fmt::format("--allow: '{}' is not in the baseline; there are: {}", name,
+                              fmt::join(known, ", ")));
+  };
+  for (const auto& [name, value] : tolerances.special) {
+    require(name.first, groups);
+    require(name.second, metrics);
+  }
+}
+
+/// Prints how the results stand to the baseline and gives the exit code.
+int report(const Baseline& now, const Tolerances& allowed, const CheckFlags& flags) {
+  const Baseline baseline = read_baseline(flags.baseline);
+  check_tolerances(allowed, baseline);
+  const Judgement judgement =
+      judge(baseline, now, metrics_in(baseline, flags), allowed, flags.any_recording);
+  std::cout << regression_report(judgement, flags.results, flags.format);
+  if (!judgement.compared()) return kNothingCompared;
+  return judgement.fell() ? kFell : 0;
+}
+
+/// Prints what it changes, where the old baseline compares, and writes the new one.
+void update(const Baseline& now, const Tolerances& allowed, const CheckFlags& flags) {
+  std::string note;
+  if (std::filesystem::exists(flags.baseline)) try {
+      static_cast<void>(report(now, allowed, flags));
+    } catch (const Error& error) {
+      note = fmt::format("; the old one: {}", shown(error.what()));
+    }
+  write_baseline(now, flags.baseline);
+  std::cerr << fmt::format("check: {} written{}\n", shown(flags.baseline), note);
+}
+
 int check(const CheckFlags& flags) {
+  const Tolerances allowed = parse_tolerances(flags.allowed);
   const StudySummary summary = summarise_store(flags.results);
   refuse_other_builds(summary, flags);
-  const std::vector<BaselineRow> now = baseline_of(summary);
-  if (flags.write) {
-    write_baseline(now, flags.baseline);
-    std::cout << fmt::format("{}: {} figures written\n", shown(flags.baseline), now.size());
-    return 0;
-  }
-  const std::vector<BaselineRow> baseline = read_baseline(flags.baseline);
-  const std::vector<Fall> fallen = falls(baseline, now, flags.allowed);
-  if (fallen.empty()) {
-    std::cout << fmt::format("{}: all {} figures hold (none fell by more than {})\n",
-                             shown(flags.results), baseline.size(), flags.allowed);
-    return 0;
-  }
-  std::cout << to_text(fall_table(fallen))
-            << fmt::format("{}: {} of {} figures fell by more than {}\n", flags.results,
-                           fallen.size(), baseline.size(), flags.allowed);
-  return 1;
+  const Baseline now = baseline_of(summary);
+  if (!flags.update) return report(now, allowed, flags);
+  update(now, allowed, flags);
+  return 0;
 }
 
 }  // namespace
 
 void add_check(CLI::App& program, int& exit_code) {
-  auto* verb = program.add_subcommand("check", "Exit 1 and say which figure fell below a baseline");
+  auto* verb = program.add_subcommand("check", "Exit 1 and say what got worse than a baseline");
   const auto flags = std::make_shared<CheckFlags>();
   verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
-  verb->add_option("--baseline", flags->baseline, "CSV: what,class,metric,value")->required();
-  verb->add_option("--allow", flags->allowed, "How far a figure may fall, absolutely [0.002]")
-      ->check(finite_within(0.0, 1.0));
-  verb->add_flag("--write", flags->write, "Write the baseline from these results instead");
+  verb->add_option("--baseline", flags->baseline, "File that --update wrote")->required();
+  verb->add_option("--allow", flags->allowed,
+                   "How much worse a figure may get, absolutely: NUMBER, METRIC=NUMBER or "
+                   "CLASS/METRIC=NUMBER, by repeating the flag [0.002]")
+      ->allow_extra_args(false);
+  verb->add_option("--metric", flags->metrics,
+                   "Figures, by commas [precision,recall,f1,iou,f1_t1,f_2cm]")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verb->add_option("--format", flags->format,
+                   fmt::format("{} [text]", fmt::join(kReportFormats, ", ")))
+      ->check(CLI::IsMember(kReportFormats));
+  verb->add_flag("--update", flags->update,
+                 "Write the baseline from these results, after what that changes");
   verb->add_flag("--any_build", flags->any_build,
                  "Take results that another build of mapscore made");
+  verb->add_flag("--any_recording", flags->any_recording,
+                 "Compare with results on another recording, as another machine renders it");
   verb->footer(
+      "Exit codes: 0 nothing got worse, 1 something did, 2 not comparable or wrong input, 3 "
+      "nothing\n"
+      "could be compared (other seeds than the baseline's, and fewer than 10).\n"
       "Examples:\n"
-      "  mapscore check results/gate --baseline results/baselines/gate.csv\n"
-      "  mapscore check results/gate --baseline results/baselines/gate.csv --write");
+      "  mapscore check results/gate --baseline results/baselines/gate.json\n"
+      "  mapscore check results/gate --baseline gate.json --allow 0.005 --allow chair/f1=0.02\n"
+      "  mapscore check results/gate --baseline gate.json --format junit > check.xml\n"
+      "  mapscore check results/gate --baseline gate.json --update");
   verb->callback([flags, &exit_code] { exit_code = check(*flags); });
 }
 

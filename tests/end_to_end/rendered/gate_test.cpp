@@ -37,9 +37,9 @@ Outcome mutant(const Arguments& arguments) {
 
 void expect_fallen(const Outcome& checked) {
   EXPECT_EQ(checked.exit_code, 1) << checked.err;
-  EXPECT_THAT(checked.out, HasSubstr("what"));
-  EXPECT_THAT(checked.out, HasSubstr("lattice_ceiling direct"));
-  EXPECT_THAT(checked.out, HasSubstr("figures fell by more than"));
+  EXPECT_THAT(checked.out, HasSubstr("verdict"));
+  EXPECT_THAT(checked.out, HasSubstr("lattice ceiling"));
+  EXPECT_THAT(checked.out, HasSubstr("figures got worse"));
 }
 
 /// The gate in the corner of a room, whose few surfaces take a fifth of the time of a home's,
@@ -166,17 +166,17 @@ TEST_F(Gate, AnErrorOfHalfAVoxelInManyDrawsFailsTheCheck) {
   const Arguments draws{"--set", "fusion.blend.N=4"};
   expect_done(sweep(right, draws));
   expect_done(mutant(sweep_arguments(wrong, draws)));
-  expect_done(mapscore({"check", right, "--baseline", right + ".csv", "--write"}));
-  expect_fallen(mutant({"check", wrong, "--baseline", right + ".csv"}));
-  expect_refused(mapscore({"check", wrong, "--baseline", right + ".csv"}),
+  expect_done(mapscore({"check", right, "--baseline", right + ".json", "--update"}));
+  expect_fallen(mutant({"check", wrong, "--baseline", right + ".json"}));
+  expect_refused(mapscore({"check", wrong, "--baseline", right + ".json"}),
                  {wrong, "its trials were made by build", "--any_build"});
-  expect_fallen(mapscore({"check", wrong, "--baseline", right + ".csv", "--any_build"}));
+  expect_fallen(mapscore({"check", wrong, "--baseline", right + ".json", "--any_build"}));
 }
 
 TEST_F(Gate, TrialsOfAnotherBuildAreComputedAnew) {
-  const std::string baseline = results() + ".csv";
+  const std::string baseline = results() + ".json";
   expect_done(sweep(results(), {}));
-  expect_done(mapscore({"check", results(), "--baseline", baseline, "--write"}));
+  expect_done(mapscore({"check", results(), "--baseline", baseline, "--update"}));
 
   const Outcome kept = mutant(sweep_arguments(results(), {"--keep_builds"}));
   expect_done(kept);
@@ -205,11 +205,11 @@ TEST(WholeGate, AnErrorOfHalfAVoxelFailsTheCheck) {
   };
   expect_done(mapscore({"record", kGate, "-o", path("recording"), "-q"}));
   expect_done(mapscore(sweep_into("right")));
-  expect_done(mapscore({"check", path("right"), "--baseline", path("baseline.csv"), "--write"}));
-  expect_done(mapscore({"check", path("right"), "--baseline", path("baseline.csv")}));
+  expect_done(mapscore({"check", path("right"), "--baseline", path("baseline.json"), "--update"}));
+  expect_done(mapscore({"check", path("right"), "--baseline", path("baseline.json")}));
 
   expect_done(mutant(sweep_into("wrong")));
-  expect_fallen(mutant({"check", path("wrong"), "--baseline", path("baseline.csv")}));
+  expect_fallen(mutant({"check", path("wrong"), "--baseline", path("baseline.json")}));
 }
 
 }  // namespace

@@ -11,66 +11,59 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 
 namespace mapscore::eval {
 namespace {
 
 using mapscore::testing::expect_error;
+using ::testing::Contains;
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
-BaselineRow row(const std::string& metric, std::optional<double> value) {
-  return {"trial direct", "pooled", metric, value};
+TEST(Baseline, HoldsTrialsAndCeilings) {
+  const Baseline baseline = baseline_of(testing::summary_of(2));
+  EXPECT_THAT(baseline.lines, SizeIs(2 * 2 * 3));
+  EXPECT_THAT(detected_names(baseline.table), ElementsAre("cup", "chair"));
+  EXPECT_EQ(baseline.build, "build");
+  EXPECT_EQ(baseline.recording_hash, "recording");
 }
 
-TEST(Baseline, AFigureFallsByMoreThanWhatIsAllowed) {
-  const std::vector<BaselineRow> baseline{row("f1", 0.5)};
-  EXPECT_THAT(falls(baseline, {row("f1", 0.5)}, 0.002), IsEmpty());
-  EXPECT_THAT(falls(baseline, {row("f1", 0.499)}, 0.002), IsEmpty());
-  EXPECT_THAT(falls(baseline, {row("f1", 0.9)}, 0.002), IsEmpty());
-  const std::vector<Fall> fallen = falls(baseline, {row("f1", 0.497)}, 0.002);
-  ASSERT_THAT(fallen, SizeIs(1));
-  EXPECT_EQ(fallen[0].baseline.metric, "f1");
-  EXPECT_EQ(fallen[0].now, 0.497);
+TEST(Baseline, FormsTheFiguresOfTheResults) {
+  const StudySummary summary = testing::summary_of(3);
+  const Baseline baseline = baseline_of(summary);
+  for (const char* group : {"pooled", "macro", "cup", "chair"})
+    for (const char* metric : {"precision", "recall", "f1", "iou"}) {
+      const Estimate whole = estimate(summary.trials[1], summary.table, group, metric);
+      const Estimate kept = estimate(baseline.lines[1], baseline.table, group, metric);
+      EXPECT_TRUE(whole.pooled);
+      EXPECT_EQ(kept.pooled, whole.pooled) << group << metric;
+      EXPECT_EQ(kept.by_seed, whole.by_seed) << group << metric;
+    }
 }
 
-TEST(Baseline, AFigureThatIsGoneOrUndefinedFell) {
-  const std::vector<BaselineRow> baseline{row("f1", 0.0)};
-  EXPECT_THAT(falls(baseline, {}, 0.002), SizeIs(1));
-  EXPECT_THAT(falls(baseline, {row("f1", std::nullopt)}, 0.002), SizeIs(1));
-  EXPECT_THAT(falls(baseline, {row("iou", 1.0)}, 0.002), SizeIs(1));
+TEST(Baseline, OfSeveralBuildsIsRefused) {
+  StudySummary summary = testing::summary_of(2);
+  summary.builds.insert("other");
+  expect_error("made by 2 builds", [&] { (void)baseline_of(summary); });
 }
 
-TEST(Baseline, WhatWasUndefinedOrIsNewDoesNotFall) {
-  EXPECT_THAT(falls({row("f1", std::nullopt)}, {}, 0.002), IsEmpty());
-  EXPECT_THAT(falls({}, {row("f1", 0.1)}, 0.002), IsEmpty());
-}
-
-TEST(Baseline, HoldsTrialsAndCeilingsByClass) {
-  const StudySummary summary = testing::synthetic_summary(testing::synthetic_study(
-      {"direct", "erosion"}, {{"faults.misregistration.magnitude_m", {"0", "0.01"}}}, 2));
-  const std::vector<BaselineRow> rows = baseline_of(summary);
-  // 2 doses x 2 methods x (trial and 2 ceilings) x (pooled, macro, cup, chair) x (precision,
-  // recall, f1, iou).
-  EXPECT_THAT(rows, SizeIs(2 * 2 * 3 * 4 * 4));
-  const auto value = [&](const std::string& what, const std::string& group) {
-    for (const BaselineRow& r : rows)
-      if (r.what == what && r.group == group && r.metric == "precision") return r.value;
-    return std::optional<double>();
-  };
-  // Cell 1 of erosion: 0.08 of the cups' voxels are false at seed 0, 0.09 at seed 1; chairs 0.04
-  // more.
-  const std::string what = "trial erosion faults.misregistration.magnitude_m=0.01";
-  EXPECT_NEAR(value(what, "cup").value(), 1 - 0.085, 1e-12);
-  EXPECT_NEAR(value(what, "pooled").value(), 1 - 0.105, 1e-12);
-  EXPECT_THAT(falls(rows, rows, 0.0), IsEmpty());
+TEST(Baseline, TellsNoFigureItHasNoCountsFor) {
+  const std::vector<std::string> metrics = voxel_metrics(baseline_of(testing::summary_of(2)));
+  EXPECT_THAT(metrics, Contains("f1"));
+  for (const char* none : {"ap", "brier", "accuracy_p95_m"})
+    EXPECT_THAT(metrics, Not(Contains(none)));
 }
 
 class BaselineFile : public ::testing::Test {
  protected:
-  [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "baseline.csv"; }
+  [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "baseline.json"; }
   void write(const std::string& text) const { std::ofstream(file()) << text; }
+  [[nodiscard]] std::string text() const {
+    std::ifstream stream(file());
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
   void expect_refused(const std::string& part) const {
     expect_error(part, [&] { (void)read_baseline(file()); });
   }
@@ -79,52 +72,92 @@ class BaselineFile : public ::testing::Test {
   mapscore::testing::TemporaryFolder folder_;
 };
 
+/// Whose study can be read back.
+StudySummary plain_summary() {
+  StudySummary summary = testing::summary_of(2);
+  set_leaf(summary.study, "trajectory.waypoints_m_deg", "[[0, 0, 0]]");
+  return summary;
+}
+
+/// Results with tolerances and distances too.
+StudySummary rich_summary() {
+  StudySummary summary = plain_summary();
+  for (auto* lines : {&summary.trials, &summary.registration_ceilings, &summary.lattice_ceilings})
+    for (ResultLine& line : *lines) {
+      line.pooled.clear();
+      for (TrialResult& result : line.results) {
+        for (ClassCounts& c : result.counts) {
+          c.at_tolerance = {{1, c.true_predicted, c.found}};
+          c.accuracy = DistanceTally({0.01, 0.02});
+          c.accuracy.add(0.015, 1 + c.true_predicted);
+          c.accuracy.add(kUnreached, 3);
+        }
+        pool_into(line.pooled, result.counts);
+      }
+    }
+  return summary;
+}
+
 TEST_F(BaselineFile, ReadsBackWhatWasWritten) {
-  write_baseline({row("f1", 0.123456), row("iou", std::nullopt)}, file());
-  const std::vector<BaselineRow> rows = read_baseline(file());
-  ASSERT_THAT(rows, SizeIs(2));
-  EXPECT_EQ(rows[0].what, "trial direct");
-  EXPECT_EQ(rows[0].group, "pooled");
-  EXPECT_EQ(rows[0].metric, "f1");
-  EXPECT_EQ(rows[0].value, 0.123456);
-  EXPECT_EQ(rows[1].value, std::nullopt);
+  const Baseline written = baseline_of(rich_summary());
+  write_baseline(written, file());
+  const Baseline read = read_baseline(file());
+  EXPECT_EQ(read.scoring_version, kScoringVersion);
+  EXPECT_EQ(read.recording_hash, "recording");
+  EXPECT_EQ(read.build, "build");
+  EXPECT_EQ(to_yaml(read.study), to_yaml(written.study));
+  // 2 doses x 2 methods, the registration ceiling of each method, one lattice ceiling.
+  ASSERT_THAT(read.lines, SizeIs(2 * 2 + 2 + 1));
+  for (std::size_t n = 0; n < 2 * 2; ++n) {
+    EXPECT_EQ(read.lines[n].role, written.lines[n].role);
+    EXPECT_EQ(read.lines[n].method, written.lines[n].method);
+    EXPECT_EQ(read.lines[n].cell.doses, written.lines[n].cell.doses);
+    EXPECT_EQ(read.lines[n].seeds, written.lines[n].seeds);
+    EXPECT_EQ(read.lines[n].pooled, written.lines[n].pooled);
+    for (std::size_t seed = 0; seed < read.lines[n].results.size(); ++seed)
+      EXPECT_EQ(read.lines[n].results[seed].counts, written.lines[n].results[seed].counts);
+  }
+  const Estimate tau = estimate(read.lines[0], read.table, "cup", "precision_2cm");
+  EXPECT_GT(tau.pooled.value(), 0.9);
+  const std::string before = text();
+  write_baseline(read, file());
+  EXPECT_EQ(text(), before);
   EXPECT_FALSE(std::filesystem::exists(file().string() + ".partial"));
 }
 
-TEST_F(BaselineFile, WhatIsRoundedByWritingDoesNotFall) {
-  const std::vector<BaselineRow> now{row("f1", 2.0 / 3.0)};
-  write_baseline(now, file());
-  EXPECT_THAT(falls(read_baseline(file()), now, 1e-6), IsEmpty());
-}
-
 TEST_F(BaselineFile, IsRefusedWhenMissingOrBroken) {
-  expect_refused("no baseline there; make one with");
-  write("a,b,c\n");
-  expect_refused("baseline.csv:1: not a baseline");
-  write("what,class,metric,value\ntrial direct,pooled,f1,0.5x\n");
-  expect_refused("baseline.csv:2: '0.5x' is no number");
-  write("what,class,metric,value\ntrial direct,pooled,f1,nan\n");
-  expect_refused("baseline.csv:2: 'nan' is no number");
-  write("what,class,metric,value\ntrial direct,pooled,f1,0.5\n\n");
-  expect_refused("baseline.csv:3: needs four columns");
+  expect_refused("no baseline of this mapscore; write it anew with");
   write("what,class,metric,value\n");
-  expect_refused("holds no figure");
+  expect_refused("no baseline of this mapscore");
+  write_baseline(baseline_of(plain_summary()), file());
+  const std::string good = text();
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string bad = good;
+    EXPECT_NE(bad.find(from), std::string::npos) << from;
+    write(bad.replace(bad.find(from), from.size(), to));
+  };
+  with("\"format\": 2", "\"format\": 3");
+  expect_refused("no baseline of this mapscore");
+  with("\"predicted\"", "\"predicated\"");
+  expect_refused("no baseline of this mapscore");
+  with("\"cup\":[100,", "\"cup\":[-1,");
+  expect_refused("predicted: is no count");
+  with("\"cup\":[100,", "\"cup\":[1.5,");
+  expect_refused("predicted: is no count");
+  with("\"cup\":[100,", "\"cap\":[100,");
+  expect_refused("no baseline of this mapscore");
+  with("\"role\":\"trial\"", "\"role\":\"trail\"");
+  expect_refused("unknown role");
+  write(good.substr(0, good.find("\"trials\"")) + "\"trials\": []}");
+  expect_refused("holds no trial");
+  write(good.substr(0, good.size() / 2));
+  expect_refused("no baseline of this mapscore");
 }
 
 TEST_F(BaselineFile, IsNotWrittenWhereItCanNotBe) {
   write("in the way");
-  expect_error("cannot be written", [&] { write_baseline({row("f1", 1)}, file() / "b.csv"); });
-  EXPECT_THROW((void)read_baseline(file()), Error);
-}
-
-TEST(FallTable, SaysFromWhereToWhere) {
-  const Table table = fall_table({{row("f1", 0.5), 0.25}, {row("iou", 0.75), std::nullopt}});
-  EXPECT_THAT(table.columns, ElementsAre("what", "class", "metric", "baseline", "now", "change"));
-  ASSERT_THAT(table.rows, SizeIs(2));
-  EXPECT_THAT(table.rows[0],
-              ElementsAre("trial direct", "pooled", "f1", "0.500000", "0.250000", "-0.250000"));
-  EXPECT_THAT(table.rows[1],
-              ElementsAre("trial direct", "pooled", "iou", "0.750000", "-", "missing"));
+  expect_error("cannot be written",
+               [&] { write_baseline(baseline_of(testing::summary_of(2)), file() / "b.json"); });
 }
 
 }  // namespace

@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/regression.hpp"
+
+#include "core/error.hpp"
+#include "files/text_rows.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr double kSignificant = 0.05;
+constexpr double kRounding = 1e-12;
+
+/// Leaves that decide no count of a common line, or that the recording's hash stands for.
+constexpr std::array kFreeSettings{"name",  "seed",   "seeds",     "scene",       "classes",
+                                   "robot", "motion", "recording", "cameras",     "trajectory",
+                                   "lidar", "detect", "sweep",     "picture_view"};
+
+void flatten(const YAML::Node& node, const std::string& path,
+             std::map<std::string, std::string>& leaves) {
+  if (node.IsMap() && node.size() > 0) {
+    for (const auto& entry : node)
+      flatten(entry.second, path.empty() ? entry.first.Scalar() : path + '.' + entry.first.Scalar(),
+              leaves);
+    return;
+  }
+  YAML::Emitter text;
+  text << YAML::Flow << node;
+  leaves[path] = text.c_str();
+}
+
+std::map<std::string, std::string> settings_of(const Study& study) {
+  std::map<std::string, std::string> leaves;
+  flatten(YAML::Load(to_yaml(study)), "", leaves);
+  return leaves;
+}
+
+/// Lines of one method and cell, of the seeds that both have.
+struct PairedLines {
+  ResultLine before, after;
+};
+
+/// `line` at those seeds alone that `other` has too.
+ResultLine of_seeds(const ResultLine& line, const ResultLine& other) {
+  ResultLine part{line.role, line.method, line.cell, {}, {}, {}};
+  for (std::size_t n = 0; n < line.seeds.size(); ++n) {
+    if (std::ranges::find(other.seeds, line.seeds[n]) == other.seeds.end()) continue;
+    part.seeds.push_back(line.seeds[n]);
+    part.results.push_back(line.results[n]);
+    pool_into(part.pooled, line.results[n].counts);
+  }
+  return part;
+}
+
+const ResultLine* counterpart(const ResultLine& line, const Baseline& in) {
+  const auto found = std::ranges::find_if(in.lines, [&](const ResultLine& other) {
+    return other.role == line.role && other.cell.doses == line.cell.doses &&
+           (line.role == Role::lattice_ceiling || other.method == line.method);
+  });
+  return found == in.lines.end() ? nullptr : &*found;
+}
+
+/// Causes of false voxels for precision, of missed ones for recall, of both for others.
+std::vector<std::pair<std::string, std::int64_t>> grown_causes(const PairedLines& lines,
+                                                               const JudgedFigure& figure,
+                                                               const Baseline& before,
+                                                               const Baseline& after) {
+  const std::string group = figure.group == kMacro ? std::string(kPooled) : figure.group;
+  const ClassCounts then = counts_of_group(lines.before.pooled, before.table, group);
+  const ClassCounts now = counts_of_group(lines.after.pooled, after.table, group);
+  const bool falses = !figure.metric.starts_with("recall") && !figure.metric.starts_with("compl");
+  const bool misses = !figure.metric.starts_with("precision") && !figure.metric.starts_with("acc");
+  std::vector<std::pair<std::string, std::int64_t>> grown;
+  for (const CountField<ClassCounts>& field : ClassCounts::counts()) {
+    const bool asked = (falses && field.name.starts_with("false_")) ||
+                       (misses && field.name.starts_with("missed_"));
+    const std::int64_t growth = now.*field.member - then.*field.member;
+    if (asked && growth > 0)
+      grown.emplace_back(field.name.substr(field.name.find('_') + 1), growth);
+  }
+  std::ranges::stable_sort(grown, std::ranges::greater{}, [](const auto& g) { return g.second; });
+  return grown;
+}
+
+bool has_group(const Baseline& baseline, const std::string& group) {
+  return group == kPooled || group == kMacro ||
+         std::ranges::count(baseline.table.classes, group, &SemanticClass::name) > 0;
+}
+
+/// One-sided p of a mean gain beyond `limit` downwards, by Student's t; none for one pair.
+std::optional<double> p_below(const SeedSummary& gain, double limit) {
+  if (gain.seeds < 2) return std::nullopt;
+  if (*gain.sd < kRounding) return *gain.mean < limit - kRounding ? 0.0 : 1.0;
+  const double t = (*gain.mean - limit) / *gain.sd * std::sqrt(gain.seeds);
+  return std::clamp(student_t_cdf(t, gain.seeds - 1), 0.0, 1.0);
+}
+
+SeedSummary mirrored(SeedSummary gain) {
+  if (gain.mean) gain.mean = -*gain.mean;
+  std::swap(gain.low, gain.high);
+  if (gain.low) gain.low = -*gain.low;
+  if (gain.high) gain.high = -*gain.high;
+  return gain;
+}
+
+/// The paired differences, turned so that more is better.
+SeedSummary gain_of(const JudgedFigure& figure) {
+  const SeedSummary& difference = figure.paired.difference;
+  return higher_is_better(figure.metric) ? difference : mirrored(difference);
+}
+
+/// Which gains (or, mirrored, losses) are significantly below -allowed, Holm over all.
+std::vector<bool> significantly_below(const std::vector<JudgedFigure>& figures, bool mirror) {
+  std::vector<SeedSummary> gains;
+  std::vector<std::optional<double>> p;
+  for (const JudgedFigure& figure : figures) {
+    gains.push_back(mirror ? mirrored(gain_of(figure)) : gain_of(figure));
+    p.push_back(p_below(gains.back(), -figure.allowed));
+  }
+  p = holm_adjusted(p);
+  std::vector<bool> below;
+  for (std::size_t n = 0; n < figures.size(); ++n)
+    below.push_back(gains[n].kind == SpreadKind::interval && p[n] && *p[n] < kSignificant &&
+                    *gains[n].high < -figures[n].allowed);
+  return below;
+}
+
+void give_verdicts(Judgement& judgement) {
+  const std::vector<bool> lost = significantly_below(judgement.figures, false);
+  const std::vector<bool> won = significantly_below(judgement.figures, true);
+  for (std::size_t n = 0; n < judgement.figures.size(); ++n) {
+    JudgedFigure& figure = judgement.figures[n];
+    if (figure.verdict == Standing::missing) continue;
+    const double gain = figure.gain().value();
+    const double limit = figure.allowed + kRounding;
+    if (lost[n] || (judgement.same_seeds && gain < -limit))
+      figure.verdict = Standing::worse;
+    else if (won[n] || (judgement.same_seeds && gain > limit))
+      figure.verdict = Standing::better;
+    else if (!judgement.same_seeds && figure.paired.difference.kind != SpreadKind::interval)
+      figure.verdict = Standing::not_judged;
+  }
+}
+
+/// Adds the figures of a line of the baseline.
+void judge_line(const ResultLine& line, const Baseline& before, const Baseline& after,
+                const std::vector<std::string>& metrics, const Tolerances& allowed,
+                Judgement& judgement) {
+  const ResultLine* now = counterpart(line, after);
+  PairedLines lines{line, {}};
+  if (now) lines = {of_seeds(line, *now), of_seeds(*now, line)};
+  const std::size_t pairs = now ? lines.after.seeds.size() : 0;
+  judgement.seeds = std::max(judgement.seeds, static_cast<int>(pairs));
+  judgement.trials += pairs;
+  for (std::size_t n = 0; n < pairs; ++n)
+    if (lines.before.results[n].counts != lines.after.results[n].counts) ++judgement.changed;
+  if (pairs == 0) lines.before = line;
+  std::vector<std::string> groups = detected_names(before.table);
+  groups.insert(groups.begin(), {std::string(kPooled), std::string(kMacro)});
+  for (const std::string& group : groups)
+    for (const std::string& metric : metrics) {
+      const Estimate then = estimate(lines.before, before.table, group, metric);
+      if (!then.pooled) continue;
+      JudgedFigure figure;
+      figure.role = line.role;
+      figure.method = line.method;
+      figure.cell = line.cell;
+      figure.group = group;
+      figure.metric = metric;
+      figure.before = then.pooled;
+      figure.allowed = allowed.of(group, metric);
+      if (pairs > 0 && has_group(after, group)) {
+        const Estimate is = estimate(lines.after, after.table, group, metric);
+        figure.after = is.pooled;
+        figure.paired = compare_paired(is.by_seed, then.by_seed);
+        figure.grown = grown_causes(lines, figure, before, after);
+      }
+      if (!figure.after) figure.verdict = Standing::missing;
+      judgement.figures.push_back(std::move(figure));
+    }
+}
+
+}  // namespace
+
+double Tolerances::of(const std::string& group, const std::string& metric) const {
+  for (const auto& key : {std::pair{group, metric}, {group, ""}, {"", metric}})
+    if (const auto found = special.find(key); found != special.end()) return found->second;
+  return all;
+}
+
+Tolerances parse_tolerances(const std::vector<std::string>& texts) {
+  Tolerances tolerances;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.rfind('=');
+    const std::string name = equals == std::string::npos ? "" : text.substr(0, equals);
+    const auto value = parse_number(equals == std::string::npos ? text : text.substr(equals + 1));
+    if (!value || *value < 0.0 || *value > 1.0 || equals == 0)
+      throw Error(fmt::format(
+          "--allow {}: write a number from 0 to 1, METRIC=NUMBER or CLASS/METRIC=NUMBER", text));
+    const std::size_t slash = name.find('/');
+    if (name.empty())
+      tolerances.all = *value;
+    else if (slash == std::string::npos)
+      tolerances.special[{"", name}] = *value;
+    else
+      tolerances.special[{name.substr(0, slash), name.substr(slash + 1)}] = *value;
+  }
+  return tolerances;
+}
+
+const char* name_of(Standing verdict) {
+  return std::array{"worse", "missing", "better", "held", "not judged"}.at(
+      static_cast<std::size_t>(verdict));
+}
+
+bool higher_is_better(std::string_view metric) {
+  return !metric.ends_with("_m") && metric != "brier" && metric != "ece";
+}
+
+std::optional<double> JudgedFigure::gain() const {
+  if (!before || !after) return std::nullopt;
+  return higher_is_better(metric) ? *after - *before : *before - *after;
+}
+
+std::size_t Judgement::count(Standing verdict) const {
+  return static_cast<std::size_t>(std::ranges::count(figures, verdict, &JudgedFigure::verdict));
+}
+
+bool Judgement::compared() const {
+  return count(Standing::missing) + count(Standing::not_judged) < figures.size();
+}
+
+std::vector<std::string> differing_settings(const Baseline& before, const Baseline& after) {
+  std::vector<std::string> differing;
+  if (before.scoring_version != after.scoring_version)
+    differing.push_back(
+        fmt::format("scoring version {} -> {}", before.scoring_version, after.scoring_version));
+  const auto then = settings_of(before.study), now = settings_of(after.study);
+  const auto is_free = [&](const std::string& path) {
+    const std::string root = path.substr(0, path.find('.'));
+    if (std::ranges::find(kFreeSettings, root) != kFreeSettings.end()) return true;
+    if (root == "methods") {
+      const std::string method = path.substr(8, path.find('.', 8) - 8);
+      const auto has = [&](const Study& study) {
+        return std::ranges::count(study.methods, method, &MethodSettings::name) > 0;
+      };
+      return !has(before.study) || !has(after.study);
+    }
+    const auto swept = [&](const Study& study) {
+      return std::ranges::count(study.sweep, path, &SweepAxis::path) > 0;
+    };
+    return swept(before.study) && swept(after.study);
+  };
+  std::set<std::string> paths;
+  for (const auto* settings : {&then, &now})
+    for (const auto& [path, value] : *settings) paths.insert(path);
+  for (const std::string& path : paths) {
+    const auto value = [&](const auto& settings) {
+      const auto found = settings.find(path);
+      return found == settings.end() ? std::string("none") : found->second;
+    };
+    if (!is_free(path) && value(then) != value(now))
+      differing.push_back(fmt::format("{} {} -> {}", path, value(then), value(now)));
+  }
+  return differing;
+}
+
+Judgement judge(const Baseline& before, const Baseline& after,
+                const std::vector<std::string>& metrics, const Tolerances& allowed,
+                bool any_recording) {
+  Judgement judgement;
+  const std::vector<std::string> differing = differing_settings(before, after);
+  if (!differing.empty())
+    throw Error(fmt::format("not comparable: {}", fmt::join(differing, ", ")));
+  judgement.same_recording = before.recording_hash == after.recording_hash;
+  if (!judgement.same_recording && !any_recording)
+    throw Error(
+        fmt::format("not comparable: recording {} -> {}; give --any_recording where both "
+                    "show the same",
+                    before.recording_hash.substr(0, 8), after.recording_hash.substr(0, 8)));
+  judgement.same_seeds = before.study.seed == after.study.seed;
+  for (const ResultLine& line : before.lines)
+    judge_line(line, before, after, metrics, allowed, judgement);
+  give_verdicts(judgement);
+  std::ranges::stable_sort(judgement.figures, [](const JudgedFigure& a, const JudgedFigure& b) {
+    const auto beyond = [](const JudgedFigure& f) { return f.gain().value_or(-1.0) + f.allowed; };
+    return std::pair(a.verdict, beyond(a)) < std::pair(b.verdict, beyond(b));
+  });
+  return judgement;
+}
+
+}  // namespace mapscore::eval

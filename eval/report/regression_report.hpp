@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/report/regression.hpp"
+#include "eval/report/table.hpp"
+
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// Formats of regression_report.
+inline const std::vector<std::string> kReportFormats{"text",  "csv",    "json",
+                                                     "junit", "github", "markdown"};
+
+/// A judgement for people and for CI; `results` names what was judged.
+///   text, markdown  what got worse, then what got better, worst first: a row for each method,
+///                   metric and class, with its worst cell; both verdicts in the last line
+///   csv, json       every figure of every cell
+///   junit           a test case for each method, metric and class
+///   github          workflow commands: an error for each row of text, a notice for what got better
+/// Throws Error for another format.
+[[nodiscard]] std::string regression_report(const Judgement& judgement, const std::string& results,
+                                            const std::string& format);
+
+}  // namespace mapscore::eval

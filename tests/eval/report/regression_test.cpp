@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/regression.hpp"
+
+#include "eval/report/regression_report.hpp"
+#include "tests/eval/report/synthetic_summary.hpp"
+#include "tests/support/expect_error.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace mapscore::eval {
+namespace {
+
+using mapscore::testing::expect_error;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+const std::vector<std::string> kMetrics{"precision", "recall", "f1", "iou"};
+
+Judgement judged(const Baseline& before, const Baseline& after, double allowed = 0.002) {
+  return judge(before, after, kMetrics, {allowed, {}});
+}
+
+/// Noise of one seed, class and method: shares of false and missed voxels.
+struct Noise {
+  double sd_of_seed = 0.0;    ///< drawn from `seed` alone, the same for every core
+  double sd_of_change = 0.0;  ///< drawn anew at each call
+};
+
+/// Direct and erosion at two doses with 10 seeds. Of erosion's chairs a share `unmapped` of the
+/// visible voxels is lost at the second dose.
+StudySummary noisy_summary(std::uint64_t seed, const Noise& noise, double unmapped,
+                           std::mt19937_64& random) {
+  StudySummary summary = testing::summary_of(10);
+  summary.study.seed = seed;
+  std::mt19937_64 of_seed(seed);
+  std::normal_distribution<double> normal;
+  for (auto* lines : {&summary.trials, &summary.registration_ceilings})
+    for (ResultLine& line : *lines) {
+      line.pooled.clear();
+      for (TrialResult& result : line.results) {
+        for (const ClassId c : {1, 2}) {
+          ClassCounts& counts = result.counts[c];
+          const auto share = [&](double mean) {
+            return mean + noise.sd_of_seed * normal(of_seed) + noise.sd_of_change * normal(random);
+          };
+          counts.visible = 4000;
+          counts.predicted = 4000;
+          counts.missed_unlabelled = std::llround(4000 * share(0.1));
+          counts.missed_unmapped = 0;
+          counts.false_near = std::llround(4000 * share(0.1));
+          if (line.role == Role::trial && line.method == "erosion" && c == 2 &&
+              line.cell.index == 1)
+            counts.missed_unmapped = std::llround(4000 * unmapped);
+          counts.missed_mislabelled = counts.false_leak = counts.false_floating = 0;
+          counts.true_predicted = counts.predicted - counts.false_near;
+          counts.found = counts.visible - counts.missed_unlabelled - counts.missed_unmapped;
+        }
+        pool_into(line.pooled, result.counts);
+      }
+    }
+  return summary;
+}
+
+/// A share of the visible voxels that costs 2 points of F1 where precision and recall are .9.
+constexpr double kTwoPoints = 0.0391;
+
+TEST(Regression, EqualResultsHoldAndNothingChanged) {
+  const Baseline baseline = baseline_of(testing::summary_of(3));
+  const Judgement judgement = judged(baseline, baseline, 0.0);
+  EXPECT_FALSE(judgement.fell());
+  EXPECT_TRUE(judgement.compared());
+  EXPECT_EQ(judgement.changed, 0u);
+  EXPECT_EQ(judgement.trials, baseline.lines.size() * 3);
+  EXPECT_EQ(judgement.count(Standing::held), judgement.figures.size());
+}
+
+TEST(Regression, RepeatsWithOtherSeedsHold) {
+  std::mt19937_64 random(7);
+  const Noise noise{0.004, 0.0};
+  const Baseline before = baseline_of(noisy_summary(1, noise, 0.0, random));
+  for (std::uint64_t seed = 2; seed < 22; ++seed) {
+    const Judgement judgement =
+        judged(before, baseline_of(noisy_summary(seed, noise, 0.0, random)));
+    EXPECT_FALSE(judgement.same_seeds);
+    EXPECT_TRUE(judgement.compared());
+    EXPECT_FALSE(judgement.fell()) << seed << regression_report(judgement, "", "text");
+  }
+}
+
+/// How many of 20 losses of 2 points in chairs are caught, and named first among F1.
+int caught(bool other_seeds, const Noise& noise) {
+  std::mt19937_64 random(11);
+  int caught = 0;
+  for (std::uint64_t trial = 1; trial <= 20; ++trial) {
+    const Baseline before = baseline_of(noisy_summary(trial, noise, 0.0, random));
+    const Judgement judgement = judged(
+        before,
+        baseline_of(noisy_summary(other_seeds ? 100 + trial : trial, noise, kTwoPoints, random)));
+    const auto worst = std::ranges::find(judgement.figures, "f1", &JudgedFigure::metric);
+    EXPECT_NE(worst, judgement.figures.end());
+    caught += worst->verdict == Standing::worse && worst->method == "erosion" &&
+                      worst->group == "chair" && worst->cell.index == 1 && !worst->grown.empty() &&
+                      worst->grown.front().first == "unmapped"
+                  ? 1
+                  : 0;
+  }
+  return caught;
+}
+
+TEST(Regression, CatchesTwoPointsOfF1InOneClassOnTheSameSeeds) {
+  EXPECT_GE(caught(false, {0.03, 0.0}), 20);  // however much seeds differ
+  EXPECT_GE(caught(false, {0.03, 0.01}), 19);
+}
+
+TEST(Regression, CatchesTwoPointsOfF1InOneClassOnOtherSeeds) {
+  EXPECT_GE(caught(true, {0.004, 0.0}), 19);
+}
+
+TEST(Regression, FewOtherSeedsAreNotJudged) {
+  StudySummary before = testing::summary_of(9), after = testing::summary_of(9);
+  after.study.seed = before.study.seed + 1;
+  const Judgement judgement = judged(baseline_of(before), baseline_of(after));
+  EXPECT_FALSE(judgement.compared());
+  EXPECT_FALSE(judgement.fell());
+  EXPECT_EQ(judgement.count(Standing::not_judged), judgement.figures.size());
+}
+
+TEST(Regression, OnTheSameSeedsAFigureFallsByMoreThanIsAllowed) {
+  const Baseline before = baseline_of(testing::summary_of(2));
+  Baseline after = before;
+  // 1 of 200 predicted cups of direct at dose 0, both seeds together.
+  ResultLine& line = after.lines[0];
+  --line.results[0].counts[1].true_predicted;
+  ++line.results[0].counts[1].false_leak;
+  line.pooled.clear();
+  for (const TrialResult& result : line.results) pool_into(line.pooled, result.counts);
+  EXPECT_TRUE(judged(before, after, 0.0049).fell());
+  EXPECT_FALSE(judged(before, after, 0.0051).fell());
+  const Judgement judgement = judge(before, after, {"precision"}, {0.002, {{{"cup", ""}, 0.006}}});
+  EXPECT_EQ(judgement.changed, 1u);
+  EXPECT_EQ(judgement.count(Standing::worse), 2u);  // pooled and macro, by 0.0025
+  EXPECT_THAT(judgement.figures[0].grown,
+              ElementsAre(std::pair<std::string, std::int64_t>("leak", 1)));
+  const Judgement back = judged(after, before, 0.0049);
+  EXPECT_FALSE(back.fell());
+  EXPECT_GT(back.count(Standing::better), 0u);
+}
+
+TEST(Regression, WhatIsGoneIsAsBadAsWorse) {
+  const Baseline before = baseline_of(testing::summary_of(2));
+  Baseline after = before;
+  std::erase_if(after.lines, [](const ResultLine& line) { return line.method == "erosion"; });
+  const Judgement judgement = judged(before, after);
+  EXPECT_TRUE(judgement.fell());
+  EXPECT_TRUE(judgement.compared());
+  EXPECT_EQ(judgement.figures[0].verdict, Standing::missing);
+  EXPECT_EQ(judgement.figures[0].method, "erosion");
+  EXPECT_FALSE(judged(after, before).fell()) << "what is new falls nowhere";
+  after.lines.clear();
+  EXPECT_FALSE(judged(before, after).compared());
+}
+
+TEST(Regression, OtherSettingsDoNotCompare) {
+  const Baseline before = baseline_of(testing::summary_of(2));
+  const auto expect_not_comparable = [&](const std::string& why, auto change) {
+    Baseline after = before;
+    change(after);
+    expect_error("not comparable: " + why, [&] { (void)judged(before, after); });
+  };
+  expect_not_comparable("scoring version 3 -> 4", [](Baseline& b) { b.scoring_version = 4; });
+  expect_not_comparable("voxel_m 0.05 -> 0.1", [](Baseline& b) { b.study.voxel_m = 0.1; });
+  expect_not_comparable("methods.erosion.segmentation.",
+                        [](Baseline& b) { b.study.methods.at(1).segmentation = Erosion{7}; });
+  expect_not_comparable("recording recordin -> other",
+                        [](Baseline& b) { b.recording_hash = "other"; });
+  Baseline elsewhere = before;
+  elsewhere.recording_hash = "other";
+  elsewhere.study.name = "renamed";
+  elsewhere.study.seeds = 5;
+  EXPECT_FALSE(judge(before, elsewhere, kMetrics, {}, true).same_recording);
+}
+
+TEST(Regression, LessIsBetterOfDistances) {
+  for (const char* metric : {"f1", "precision", "recall_2cm", "f_2cm", "ap"})
+    EXPECT_TRUE(higher_is_better(metric)) << metric;
+  for (const char* metric : {"accuracy_mean_m", "completeness_p95_m", "brier", "ece"})
+    EXPECT_FALSE(higher_is_better(metric)) << metric;
+  JudgedFigure figure;
+  figure.metric = "accuracy_mean_m";
+  figure.before = 0.01;
+  figure.after = 0.03;
+  EXPECT_DOUBLE_EQ(figure.gain().value(), -0.02);
+}
+
+TEST(Tolerances, TheMostSpecialOneHolds) {
+  const Tolerances allowed = parse_tolerances({"0.01", "f1=0.02", "chair/=0.03", "chair/f1=0.04"});
+  EXPECT_EQ(allowed.of("cup", "iou"), 0.01);
+  EXPECT_EQ(allowed.of("cup", "f1"), 0.02);
+  EXPECT_EQ(allowed.of("chair", "iou"), 0.03);
+  EXPECT_EQ(allowed.of("chair", "f1"), 0.04);
+  for (const char* bad : {"nan", "f1=", "=0.1", "f1=2", "-0.1", "x"})
+    expect_error("--allow", [&] { (void)parse_tolerances({bad}); });
+}
+
+class RegressionReport : public ::testing::Test {
+ protected:
+  RegressionReport() {
+    std::mt19937_64 random(3);
+    const Noise none{0.01, 0.0};
+    judgement_ = judged(baseline_of(noisy_summary(1, none, 0.0, random)),
+                        baseline_of(noisy_summary(1, none, kTwoPoints, random)));
+  }
+  [[nodiscard]] std::string report(const char* format) const {
+    return regression_report(judgement_, "results/x", format);
+  }
+  Judgement judgement_;
+};
+
+TEST_F(RegressionReport, NamesMethodMetricClassCellAndCause) {
+  const std::string text = report("text");
+  EXPECT_THAT(text, HasSubstr("worse    erosion  recall  chair   1 of 2  magnitude_m=0.01"));
+  EXPECT_THAT(text, HasSubstr("unmapped +1560"));
+  EXPECT_THAT(text, HasSubstr("figures got worse"));
+  EXPECT_THAT(text, HasSubstr("changed: 10 of "));
+  EXPECT_THAT(text, Not(HasSubstr("direct")));
+}
+
+TEST_F(RegressionReport, SpeaksToCi) {
+  EXPECT_THAT(report("github"),
+              HasSubstr("::error title=mapscore check::recall of erosion, chair"));
+  EXPECT_THAT(report("junit"),
+              HasSubstr("<testcase classname=\"erosion\" name=\"f1 chair\"><failure"));
+  EXPECT_THAT(report("junit"), HasSubstr("<testcase classname=\"direct\" name=\"f1 chair\"/>"));
+  EXPECT_THAT(report("markdown"), HasSubstr("| worse | erosion | recall | chair |"));
+  EXPECT_THAT(report("csv"), HasSubstr("trial,erosion,magnitude_m=0.01,chair,f1,"));
+  EXPECT_THAT(report("json"), HasSubstr("\"verdict\": \"worse\""));
+  expect_error("no format", [&] { (void)report("xml"); });
+}
+
+}  // namespace
+}  // namespace mapscore::eval
