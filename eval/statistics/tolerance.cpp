@@ -1,0 +1,291 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/statistics/tolerance.hpp"
+
+#include "core/error.hpp"
+#include "eval/statistics/intervals.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr int kDegree = 2;
+constexpr double kCurvatureLevel = 0.2;  ///< a curve must hold well, so that its bias stays small
+constexpr double kGapsAtFirst = 1.5;     ///< half of the first fine window, in gaps of the coarse
+constexpr double kLeastGaps = 0.25;      ///< of any window
+constexpr double kWidthInDeviations = 3.0;  ///< residual_sd / |slope| that half a window spans
+constexpr double kDoubtDeviations = 2.0;    ///< beyond the target that raise doubt
+constexpr std::size_t kLeastPoints = 8;
+constexpr double kCloser = 0.5;
+constexpr double kReach = 1.25;
+constexpr double kDoubtLevel = 0.02;  ///< at which doubt is confirmed, one-sided
+
+using Points = std::vector<DosePoint>;
+
+double gap_of(const ToleranceSearch& search) {
+  return (search.high - search.low) / (kCoarseDoses - 1);
+}
+
+void check(const ToleranceSearch& search) {
+  if (!(search.low < search.high) || !std::isfinite(search.high - search.low))
+    throw Error(
+        fmt::format("the range of doses from {} to {} is empty; give two numbers, the "
+                    "lesser first",
+                    search.low, search.high));
+  if (search.trials < kLeastTrials)
+    throw Error(fmt::format("{} trials are too few for a tolerance; give {} or more", search.trials,
+                            kLeastTrials));
+}
+
+std::vector<double> spaced(double first, double last, int count) {
+  std::vector<double> doses;
+  for (int n = 0; n < count; ++n) doses.push_back(first + (last - first) * n / (count - 1));
+  return doses;
+}
+
+/// Trials made before fine stage `stage`; of kFineStages, all.
+std::size_t trials_before(const ToleranceSearch& search, int stage) {
+  return static_cast<std::size_t>(kCoarseDoses +
+                                  (search.trials - kCoarseDoses) * stage / kFineStages);
+}
+
+/// Those with a score, by dose.
+Points points_of(std::span<const DoseTrial> trials) {
+  Points points;
+  for (const DoseTrial& trial : trials)
+    if (trial.score) points.push_back({trial.dose, *trial.score});
+  std::ranges::stable_sort(points, {}, &DosePoint::dose);
+  return points;
+}
+
+/// Whether the first stage has too few scores to look for anything.
+bool too_few(std::span<const DoseTrial> trials) {
+  return points_of(trials.first(std::min<std::size_t>(trials.size(), kCoarseDoses))).size() <
+         kLeastPoints;
+}
+
+/// Where a fine stage looks.
+struct Focus {
+  double centre = 0.0, half_width = 0.0;
+};
+
+/// Between the last dose that keeps the target and the first that does not, by the falling curve
+/// that is nearest to the scores (pool adjacent violators); an end of the range without both.
+double falling_root(const ToleranceSearch& search, const Points& points) {
+  struct Block {
+    double sum;
+    int count;
+    [[nodiscard]] double mean() const { return sum / count; }
+  };
+  std::vector<Block> blocks;
+  for (const DosePoint& point : points) {
+    blocks.push_back({point.score, 1});
+    for (std::size_t n = blocks.size(); n > 1 && blocks[n - 2].mean() < blocks[n - 1].mean(); --n) {
+      blocks[n - 2] = {blocks[n - 2].sum + blocks[n - 1].sum,
+                       blocks[n - 2].count + blocks[n - 1].count};
+      blocks.pop_back();
+    }
+  }
+  std::size_t keeping = 0;
+  for (const Block& block : blocks)
+    if (block.mean() >= search.target) keeping += static_cast<std::size_t>(block.count);
+  if (keeping == 0) return search.low;
+  if (keeping == points.size()) return search.high;
+  return 0.5 * (points[keeping - 1].dose + points[keeping].dose);
+}
+
+int different_doses(std::span<const DosePoint> points) {
+  std::set<double> doses;
+  for (const DosePoint& point : points) doses.insert(point.dose);
+  return static_cast<int>(doses.size());
+}
+
+/// The most points nearest to a dose through which a curve holds.
+struct Window {
+  Points points;                 ///< by dose
+  bool bent = false;             ///< no curve holds, even through the fewest
+  std::optional<DoseStep> step;  ///< of a bent window
+};
+
+/// Whether a curve of the next degree, or a step, is clearly better: the step by
+/// n ln(RSS / RSS_step) > 2 ln n, since it may have two parameters more.
+bool curve_holds(const Points& points, const std::optional<DoseStep>& step) {
+  if (DoseCurve(points, kDegree + 1).p_of_highest() < kCurvatureLevel) return false;
+  const double rss = DoseCurve(points, kDegree).rss();
+  const auto n = static_cast<double>(points.size());
+  return !step || step->rss >= rss || n * std::log(rss / step->rss) <= 2.0 * std::log(n);
+}
+
+Window window_about(const Focus& focus, const Points& all, double target) {
+  Points nearest = all;
+  const auto distance = [&focus](const DosePoint& point) {
+    return std::abs(point.dose - focus.centre);
+  };
+  std::ranges::stable_sort(nearest, {}, distance);
+  const auto near = static_cast<std::size_t>(std::ranges::count_if(
+      all, [&](const DosePoint& point) { return distance(point) <= kReach * focus.half_width; }));
+  std::size_t least = kLeastPoints;
+  while (least < all.size() && different_doses(std::span(nearest).first(least)) < kDegree + 2)
+    ++least;
+  Window window;
+  for (std::size_t count = std::max(least, std::clamp(near, all.size() / 3, all.size() * 3 / 4));;
+       count = std::max(least, count * 7 / 8)) {
+    window.points.assign(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count));
+    std::ranges::stable_sort(window.points, {}, &DosePoint::dose);
+    window.step = step_through(window.points, target);
+    window.bent = !curve_holds(window.points, window.step);
+    if (!window.bent) window.step.reset();
+    if (!window.bent || count <= least) return window;
+  }
+}
+
+/// A bent window is looked at more closely; else as wide as the scatter asks for.
+Focus refined(const ToleranceSearch& search, const Focus& focus, const Points& points) {
+  const Window window = window_about(focus, points, search.target);
+  const double least = kLeastGaps * gap_of(search), most = 0.5 * (search.high - search.low);
+  if (window.step) {
+    const Crossing& of_step = window.step->crossing;
+    return {0.5 * (*of_step.low + *of_step.high), std::max(least, *of_step.high - *of_step.low)};
+  }
+  if (window.bent)
+    return {falling_root(search, points), std::max(least, kCloser * focus.half_width)};
+  const DoseCurve line(window.points, 1), curve(window.points, kDegree);
+  const double first = window.points.front().dose, last = window.points.back().dose;
+  const auto root = curve_crossing(curve, search.target, first, last).dose;
+  const double slope = root ? curve.slope(*root) : line.slope(first);
+  if (slope >= 0.0) return focus;
+  const double centre = root.value_or(first + (search.target - line.at(first)) / slope);
+  return {std::clamp(centre, first, last),
+          std::clamp(kWidthInDeviations * curve.residual_sd() / -slope, least, most)};
+}
+
+/// After so many fine stages.
+Focus focus_after(const ToleranceSearch& search, std::span<const DoseTrial> trials, int stages) {
+  Focus focus{falling_root(search, points_of(trials.first(trials_before(search, 0)))),
+              kGapsAtFirst * gap_of(search)};
+  for (int stage = 1; stage <= stages; ++stage)
+    focus = refined(search, focus, points_of(trials.first(trials_before(search, stage))));
+  return focus;
+}
+
+/// By a curve whose window reaches from first to last.
+void read_curve(const ToleranceSearch& search, const DoseCurve& curve, Tolerance& tolerance) {
+  const double target = search.target, first = tolerance.first, last = tolerance.last;
+  const Crossing crossing = curve_crossing(curve, target, first, last);
+  if (crossing.dose) {
+    tolerance.low = crossing.low;
+    tolerance.high = crossing.high;
+    if (!crossing.low && !crossing.high) return;
+    tolerance.verdict = ToleranceVerdict::found;
+    tolerance.dose = crossing.dose;
+  } else if (last >= search.high && curve.at(last) - curve.half_width(last) > target) {
+    tolerance.verdict = ToleranceVerdict::above;
+    tolerance.low = search.high;
+  } else if (first <= search.low && curve.at(first) + curve.half_width(first) < target) {
+    tolerance.verdict = ToleranceVerdict::below;
+    tolerance.high = search.low;
+  }
+}
+
+/// The dose of a trial beyond the interval whose score is on the wrong side of the target, by the
+/// most; none where all are within chance.
+std::optional<double> doubtful_dose(const ToleranceSearch& search, const Tolerance& tolerance,
+                                    const Points& points) {
+  const double sd = tolerance.curve ? tolerance.curve->residual_sd()
+                                    : 0.25 * (tolerance.step->above - tolerance.step->below);
+  double most = kDoubtDeviations * sd;
+  std::optional<double> dose;
+  for (const DosePoint& point : points) {
+    const double missing = search.target - point.score;
+    double wrong = 0.0;
+    if (tolerance.low && point.dose < *tolerance.low) wrong = missing;
+    if (tolerance.high && point.dose > *tolerance.high) wrong = -missing;
+    if (wrong <= most) continue;
+    most = wrong;
+    dose = point.dose;
+  }
+  return dose;
+}
+
+/// Whether repetitions at one dose are on the other side of the target than those around.
+bool confirmed(const ToleranceSearch& search, const Tolerance& tolerance, const Points& repeated) {
+  if (repeated.size() < 3) return false;
+  std::vector<double> scores;
+  for (const DosePoint& point : repeated) scores.push_back(point.score);
+  const MeanInterval of_mean = mean_interval(scores);
+  const double sign = tolerance.low && repeated.front().dose < *tolerance.low ? -1.0 : 1.0;
+  const auto count = static_cast<double>(scores.size());
+  const double t = student_t_quantile(1.0 - kDoubtLevel, static_cast<int>(scores.size()) - 1);
+  return sign * (of_mean.mean - search.target) > t * of_mean.sd / std::sqrt(count);
+}
+
+/// By the trials of all stages, without repetitions.
+Tolerance read_stages(const ToleranceSearch& search, std::span<const DoseTrial> trials) {
+  const Points all = points_of(trials);
+  const Window window = window_about(focus_after(search, trials, kFineStages), all, search.target);
+  Tolerance tolerance;
+  tolerance.first = window.points.front().dose;
+  tolerance.last = window.points.back().dose;
+  tolerance.step = window.step;
+  if (tolerance.step) {
+    tolerance.verdict = ToleranceVerdict::found;
+    tolerance.dose = tolerance.step->crossing.dose;
+    tolerance.low = tolerance.step->crossing.low;
+    tolerance.high = tolerance.step->crossing.high;
+  } else {
+    tolerance.curve = DoseCurve(window.points, kDegree);
+    read_curve(search, *tolerance.curve, tolerance);
+  }
+  return tolerance;
+}
+
+}  // namespace
+
+std::vector<double> next_doses(const ToleranceSearch& search, std::span<const DoseTrial> trials) {
+  check(search);
+  if (trials.empty()) return spaced(search.low, search.high, kCoarseDoses);
+  if (too_few(trials)) return {};
+  for (int stage = 0; stage < kFineStages; ++stage) {
+    const std::size_t before = trials_before(search, stage);
+    if (trials.size() != before) continue;
+    const Focus focus = focus_after(search, trials, stage);
+    return spaced(std::max(search.low, focus.centre - focus.half_width),
+                  std::min(search.high, focus.centre + focus.half_width),
+                  static_cast<int>(trials_before(search, stage + 1) - before));
+  }
+  if (trials.size() != trials_before(search, kFineStages)) return {};
+  const auto doubt = doubtful_dose(search, read_stages(search, trials), points_of(trials));
+  return doubt ? std::vector<double>(kDoubtTrials, *doubt) : std::vector<double>{};
+}
+
+Tolerance tolerance_of(const ToleranceSearch& search, std::span<const DoseTrial> trials) {
+  check(search);
+  const std::size_t staged = trials_before(search, kFineStages);
+  const auto undefined = std::ranges::count_if(
+      trials, [](const DoseTrial& trial) { return !trial.score.has_value(); });
+  Tolerance tolerance;
+  if (trials.size() >= kCoarseDoses && too_few(trials)) {
+    tolerance.verdict = ToleranceVerdict::undefined;
+    tolerance.trials = static_cast<int>(trials.size());
+    tolerance.undefined = static_cast<int>(undefined);
+    return tolerance;
+  }
+  if (trials.size() < staged)
+    throw Error(fmt::format("{} of {} trials are there; make those of next_doses first",
+                            trials.size(), staged));
+  tolerance = read_stages(search, trials.first(staged));
+  tolerance.trials = static_cast<int>(trials.size());
+  tolerance.undefined = static_cast<int>(undefined);
+  if (confirmed(search, tolerance, points_of(trials.subspan(staged))))
+    tolerance.verdict = ToleranceVerdict::not_monotone;
+  if (tolerance.verdict != ToleranceVerdict::found) tolerance.dose.reset();
+  return tolerance;
+}
+
+}  // namespace mapscore::eval
