@@ -168,6 +168,12 @@ class Configurations {
   std::size_t first_ = 0;
 };
 
+void refuse_recorded(const std::string& path) {
+  if (decides_recording(path))
+    throw Error("sweep." + path +
+                ": decides what is recorded; make one study for each of its values");
+}
+
 /// The configurations of a method's trials at a cell.
 struct TrialConfigurations {
   std::size_t trial, registration_ceiling, lattice_ceiling;
@@ -195,10 +201,7 @@ Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
 }
 
 Plan plan_of(const Study& study, const std::string& recording_hash) {
-  for (const SweepAxis& axis : study.sweep)
-    if (decides_recording(axis.path))
-      throw Error("sweep." + axis.path +
-                  ": decides what is recorded; make one study for each of its values");
+  for (const SweepAxis& axis : study.sweep) refuse_recorded(axis.path);
   Configurations configurations;
   std::vector<TrialConfigurations> of_trials;  // by cell, then method
   PoseFiles files;
@@ -229,6 +232,23 @@ Plan plan_of(const Study& study, const std::string& recording_hash) {
     return trial;
   };
   return {tasks, {specs.size(), planned}};
+}
+
+TrialTasks tasks_of_trials(const Study& study, const std::vector<TrialSpec>& trials,
+                           const std::string& recording_hash) {
+  PoseFiles files;
+  std::vector<TaskList::Configuration> list;
+  std::unordered_map<std::string, std::size_t> places;
+  std::vector<std::size_t> positions;
+  for (const TrialSpec& trial : trials) {
+    for (const auto& [path, value] : trial.cell.doses) refuse_recorded(path);
+    SeedlessTask task = make_task(with_method(resolve(study, trial.cell), trial.method),
+                                  Labels::detected, recording_hash, files);
+    const auto [place, is_new] = places.try_emplace(task.key(trial.seed_index), list.size());
+    positions.push_back(place->second);
+    if (is_new) list.push_back({std::move(task), list.size(), 1, trial.seed_index});
+  }
+  return {TaskList(std::move(list), 1), positions};
 }
 
 }  // namespace mapscore::eval

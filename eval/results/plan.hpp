@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace mapscore::eval {
 
@@ -36,5 +37,16 @@ void check_pose_files(const Study& study);
 /// The task of one trial by itself.
 [[nodiscard]] Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
                            const std::string& recording_hash);
+
+/// Tasks of single trials.
+struct TrialTasks {
+  TaskList tasks;                      ///< each once, in the order of first use
+  std::vector<std::size_t> positions;  ///< in `tasks`, of each trial
+};
+
+/// The tasks of these trials without their ceilings; `index` of trial and cell are not read. Throws
+/// as plan_of, and as resolve.
+[[nodiscard]] TrialTasks tasks_of_trials(const Study& study, const std::vector<TrialSpec>& trials,
+                                         const std::string& recording_hash);
 
 }  // namespace mapscore::eval

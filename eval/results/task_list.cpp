@@ -40,13 +40,14 @@ std::size_t TaskList::size() const {
 }
 
 TaskList::Member TaskList::member_at(std::size_t position) const {
-  const auto& [of_cell, first, count] = (*configurations_)[position / seeds_];
+  const auto& [of_cell, first, count, first_seed] = (*configurations_)[position / seeds_];
   const std::size_t turn = position - first * seeds_;
-  return {(*configurations_)[first + turn % count].shared, static_cast<int>(turn / count)};
+  return {(*configurations_)[first + turn % count].shared,
+          first_seed + static_cast<int>(turn / count)};
 }
 
 std::size_t TaskList::position_of(std::size_t configuration, int seed_index) const {
-  const auto& [shared, first, count] = (*configurations_)[configuration];
+  const auto& [shared, first, count, first_seed] = (*configurations_)[configuration];
   return first * seeds_ + static_cast<std::size_t>(seed_index) * count + configuration - first;
 }
 

@@ -47,10 +47,12 @@ struct SeedlessTask {
 class TaskList {
  public:
   /// One of the `count` configurations from `first` on that are first used at the same cell. Their
-  /// tasks take turns: all with the first seed, all with the second.
+  /// tasks take turns: all with the first seed, all with the second. Seeds are counted from
+  /// `first_seed` on.
   struct Configuration {
     SeedlessTask shared;
     std::size_t first = 0, count = 0;
+    int first_seed = 0;
   };
 
   TaskList() = default;
@@ -68,7 +70,7 @@ class TaskList {
   [[nodiscard]] Labels labels(std::size_t position) const {
     return member_at(position).shared.labels;
   }
-  /// Where the task of a configuration and a seed stands.
+  /// Where the task of a configuration and its n-th seed stands.
   [[nodiscard]] std::size_t position_of(std::size_t configuration, int seed_index) const;
 
  private:
