@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/cli/shared/tolerance_search.hpp"
+
+#include "core/error.hpp"
+#include "eval/cli/shared/progress.hpp"
+#include "eval/lab/runner.hpp"
+#include "eval/report/summary.hpp"
+#include "files/text_rows.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mapscore::eval {
+namespace {
+
+/// The chosen names, or all where none is chosen. Throws Error on one that is not there.
+std::vector<std::string> chosen(const char* flag, const std::vector<std::string>& names,
+                                const std::vector<std::string>& known) {
+  for (const std::string& name : names)
+    if (std::ranges::find(known, name) == known.end())
+      throw Error(fmt::format("{} {}: not in this study; there are: {}", flag, name,
+                              fmt::join(known, ", ")));
+  return names.empty() ? known : names;
+}
+
+/// The study with one fault alone, at both ends of its range.
+Study with_range(Study study, const SweepAxis& axis) {
+  std::vector<double> values;
+  for (const std::string& value : axis.values) {
+    const std::optional<double> number = parse_real(value);
+    if (!number)
+      throw Error(fmt::format("sweep.{}: {} is no number; a tolerance is that of a dose", axis.path,
+                              value));
+    values.push_back(*number);
+  }
+  const auto [least, most] = std::ranges::minmax_element(values);
+  if (*least == *most)
+    throw Error(fmt::format("sweep.{}: gives no range of doses; write its least and its greatest",
+                            axis.path));
+  const auto text = [&](auto value) {
+    return axis.values[static_cast<std::size_t>(value - values.begin())];
+  };
+  study.sweep = {{axis.path, {text(least), text(most)}}};
+  check(study);
+  return study;
+}
+
+/// A dose in a thousandth of the decade of the range, as a study file writes it.
+std::string dose_text(const ToleranceSearch& search, double dose) {
+  const int decade = static_cast<int>(std::floor(std::log10(search.high - search.low)));
+  const double step = std::pow(10.0, decade - 3);
+  const double rounded = std::clamp(std::round(dose / step) * step, search.low, search.high);
+  return fmt::format("{:.{}f}", rounded, std::clamp(3 - decade, 0, 17));
+}
+
+/// One score that a stage asks for.
+struct Wanted {
+  ToleranceRow* row;
+  double dose;
+  std::size_t trial, reference;  ///< positions in the stage's list of trials
+};
+
+/// The trials that the next stage of all searches asks for.
+class Stage {
+ public:
+  Stage(const Study& study, const ToleranceAim& aim, std::vector<ToleranceRow>& rows) {
+    for (ToleranceRow& row : rows) {
+      int seed = static_cast<int>(row.trials.size());
+      for (const double asked : next_doses(row.search, row.trials)) {
+        const std::string dose = dose_of(study, row, asked);
+        const std::size_t trial = add(row, dose, seed);
+        const std::size_t reference =
+            aim.target ? trial : add(row, dose_of(study, row, row.search.low), seed);
+        wanted_.push_back({&row, parse_real(dose).value(), trial, reference});
+        ++seed;
+      }
+    }
+  }
+
+  [[nodiscard]] const std::vector<TrialSpec>& trials() const { return trials_; }
+
+  /// Gives the searches what they asked for; `results`: of trials(), in their order.
+  void hand_out(const std::vector<Counts>& results, const ClassTable& table,
+                const ToleranceAim& aim) const {
+    for (const Wanted& wanted : wanted_) {
+      const auto score = [&](std::size_t trial) -> std::optional<double> {
+        const auto metrics = metrics_of_group(results[trial], table, wanted.row->group);
+        return metrics.empty() ? std::nullopt : value_of(metrics, aim.metric);
+      };
+      std::optional<double> value = score(wanted.trial);
+      if (!aim.target) {
+        const std::optional<double> reference = score(wanted.reference);
+        value = value && reference ? std::optional(*value - *reference) : std::nullopt;
+      }
+      wanted.row->trials.push_back({wanted.dose, value});
+    }
+  }
+
+ private:
+  /// The canonical text of a dose; throws Error where the leaf takes whole numbers alone.
+  static std::string dose_of(Study study, const ToleranceRow& row, double dose) {
+    set_leaf(study, row.path, dose_text(row.search, dose));
+    return leaf_text(study, row.path);
+  }
+
+  std::size_t add(const ToleranceRow& row, const std::string& dose, int seed) {
+    trials_.push_back({0, row.method, {0, {{row.path, dose}}}, seed});
+    return trials_.size() - 1;
+  }
+
+  std::vector<TrialSpec> trials_;
+  std::vector<Wanted> wanted_;
+};
+
+}  // namespace
+
+std::vector<ToleranceRow> tolerance_searches(const Study& study, const ClassTable& table,
+                                             const ToleranceAim& aim,
+                                             const ToleranceChoice& choice) {
+  if (study.sweep.empty())
+    throw Error(
+        "sweep: is empty, so no fault has a range of doses; write one into the study, or --set "
+        "sweep.faults.misregistration.magnitude_m=[0,0.04]");
+  std::vector<std::string> paths, methods, groups{std::string(kPooled), std::string(kMacro)};
+  for (const SweepAxis& axis : study.sweep) paths.push_back(axis.path);
+  for (const MethodSettings& method : study.methods) methods.push_back(method.name);
+  for (const std::string& name : detected_names(table)) groups.push_back(name);
+  std::vector<std::string> of_groups = choice.groups;
+  if (of_groups.empty()) of_groups = {std::string(kPooled)};
+  if (of_groups == std::vector<std::string>{"all"}) of_groups.clear();
+
+  std::vector<ToleranceRow> rows;
+  for (const std::string& path : chosen("--fault", choice.faults, paths)) {
+    const SweepAxis range =
+        with_range(study, *std::ranges::find(study.sweep, path, &SweepAxis::path)).sweep.front();
+    ToleranceSearch search{parse_real(range.values[0]).value(), parse_real(range.values[1]).value(),
+                           aim.target.value_or(-aim.loss), aim.trials};
+    for (const std::string& group : chosen("--group", of_groups, groups))
+      for (const std::string& method : chosen("--method", choice.methods, methods))
+        rows.push_back(
+            {path, figure_axis(field_of(study, path), {"1"}), method, group, search, {}, {}});
+  }
+  return rows;
+}
+
+SearchCost search_tolerances(const Study& of, const Recording& recording, const ClassTable& table,
+                             const ToleranceAim& aim, const WorkFlags& work, ResultStore& store,
+                             std::vector<ToleranceRow>& rows) {
+  Study study = of;
+  study.sweep.clear();
+  SearchCost cost;
+  for (int number = 1;; ++number) {
+    const Stage stage(study, aim, rows);
+    if (stage.trials().empty()) break;
+    const TrialTasks asked = tasks_of_trials(study, stage.trials(), recording.content_hash());
+    Progress progress(fmt::format("tolerance stage {}", number), "frame evaluations", work.quiet);
+    const RunnerOutcome outcome =
+        run_plan({asked.tasks, {}}, recording, table, store,
+                 {work.jobs, work.memory_bytes, 1, 1,
+                  [&](std::int64_t done, std::int64_t total) { progress.show(done, total); }});
+    cost.computed += outcome.computed;
+    cost.reused += outcome.reused;
+    std::vector<Counts> results;
+    for (const std::size_t position : asked.positions)
+      results.push_back(store.find(asked.tasks.key(position)).value().counts);
+    stage.hand_out(results, table, aim);
+  }
+  for (ToleranceRow& row : rows) row.tolerance = tolerance_of(row.search, row.trials);
+  return cost;
+}
+
+}  // namespace mapscore::eval

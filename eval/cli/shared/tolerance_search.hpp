@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/cli/shared/options.hpp"
+#include "eval/report/tolerance_report.hpp"
+#include "eval/results/store.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// Names of what is searched; none: all of the study's, and of groups "pooled" alone.
+struct ToleranceChoice {
+  std::vector<std::string> faults;  ///< swept paths
+  std::vector<std::string> methods;
+  std::vector<std::string> groups;  ///< "all": each of pooled, macro and the detected classes
+};
+
+/// The searches of a study, without trials: a fault's range is from its least to its greatest swept
+/// value, and each fault is dosed by itself. Throws Error on a name that is not there, on a swept
+/// path without two numbers, and when nothing is swept.
+[[nodiscard]] std::vector<ToleranceRow> tolerance_searches(const Study& study,
+                                                           const ClassTable& table,
+                                                           const ToleranceAim& aim,
+                                                           const ToleranceChoice& choice);
+
+/// Trials of a search by where they came from.
+struct SearchCost {
+  std::size_t computed = 0, reused = 0;
+};
+
+/// Runs all searches side by side, stage by stage. Trial n of each has seed n, so that methods are
+/// searched with the same draws; every trial is an ordinary one of the study and goes into the
+/// store, and the store's are not made again. Doses are rounded to a thousandth of the decade of
+/// the range. The same study gives the same rows, whatever the store holds. Throws Error as
+/// run_plan, and when there is no such metric.
+SearchCost search_tolerances(const Study& study, const Recording& recording,
+                             const ClassTable& table, const ToleranceAim& aim,
+                             const WorkFlags& work, ResultStore& store,
+                             std::vector<ToleranceRow>& rows);
+
+}  // namespace mapscore::eval

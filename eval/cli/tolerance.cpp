@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/error.hpp"
+#include "eval/cli/shared/options.hpp"
+#include "eval/cli/shared/progress.hpp"
+#include "eval/cli/shared/tolerance_search.hpp"
+#include "eval/cli/shared/truth_source.hpp"
+#include "eval/cli/verbs.hpp"
+#include "eval/render/replay_check.hpp"
+#include "eval/render/study_recording.hpp"
+#include "eval/report/figures/tolerance_figure.hpp"
+#include "eval/results/study_store.hpp"
+#include "files/folder_lock.hpp"
+#include "files/text.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+namespace mapscore::eval {
+namespace {
+
+struct ToleranceFlags {
+  StudyFlags study;
+  WorkFlags work;
+  ToleranceAim aim;
+  ToleranceChoice choice;
+  std::string format = "text", figure;
+  bool yes = false;
+};
+
+void tolerance(const ToleranceFlags& flags) {
+  const Study study = flags.study.load();
+  const std::filesystem::path results = flags.study.results_folder(study);
+  ShownRecording display(flags.work.quiet);
+  const Recording recording = recording_of(study, results, flags.work.jobs, display.progress());
+  if (const std::string note = note_on_baked(recording.info()); !note.empty())
+    std::cerr << "tolerance: " << note << '\n';
+  const ClassTable table = detected_table(study, recording.info().table);
+  std::vector<ToleranceRow> rows = tolerance_searches(study, table, flags.aim, flags.choice);
+  check_truth_size(study, recording, rows.size() * static_cast<std::size_t>(flags.aim.trials),
+                   flags.yes);
+
+  ResultStore store = ResultStore::open(results / "results.sqlite");
+  const SearchCost cost =
+      search_tolerances(study, recording, table, flags.aim, flags.work, store, rows);
+  if (!flags.work.quiet)
+    std::cerr << fmt::format("tolerance {}: {} trials computed, {} already there; {}\n", study.name,
+                             cost.computed, cost.reused, shown(results / "results.sqlite"));
+  if (!flags.figure.empty()) {
+    const FolderLock lock(flags.figure);
+    for (const auto& file : draw(tolerance_figure(study, flags.aim, rows), flags.figure))
+      std::cerr << "tolerance: " << shown(file) << '\n';
+  }
+  std::cout << formatted(tolerance_table(study, flags.aim, rows, flags.format == "text"),
+                         flags.format);
+}
+
+void add_aim(CLI::App& verb, ToleranceFlags& flags) {
+  verb.add_option("--metric", flags.aim.metric, "Score that falls with the dose [f1]");
+  auto* target = verb.add_option("--target", flags.aim.target, "The score to keep")
+                     ->check(finite_within(-1e9, 1e9));
+  verb.add_option("--loss", flags.aim.loss,
+                  "In place of a target: what the score of the least dose may lose, seed by seed "
+                  "[0.05]")
+      ->check(finite_within(0.0, 1e9))
+      ->excludes(target);
+  verb.add_option("--fault", flags.choice.faults, "Swept path; may be repeated [all]")
+      ->allow_extra_args(false);
+  verb.add_option("--method", flags.choice.methods, "May be repeated [all]")
+      ->allow_extra_args(false);
+  verb.add_option("--group", flags.choice.groups,
+                  "pooled, macro, a detected class, or all of these; may be repeated [pooled]")
+      ->allow_extra_args(false);
+  verb.add_option(
+          "--trials", flags.aim.trials,
+          fmt::format("Trials of a search, without {} that settle a doubt [42]", kDoubtTrials))
+      ->check(CLI::Range(kLeastTrials, 100000));
+}
+
+}  // namespace
+
+void add_tolerance(CLI::App& program) {
+  const auto [verb, flags] = add_verb<ToleranceFlags>(
+      program, "tolerance", "Find the largest dose of each fault that a score bears", tolerance);
+  flags->study.add_to(*verb);
+  flags->work.add_to(*verb);
+  add_yes_flag(*verb, flags->yes);
+  add_aim(*verb, *flags);
+  add_format_flag(*verb, flags->format);
+  verb->add_option("--figure", flags->figure,
+                   "Folder for tolerance.png and .pdf, with script and numbers");
+  verb->footer(
+      "Each swept path of the study is searched by itself, between its least and its greatest\n"
+      "value, the others as the study has them. Trials go into the results folder and are never\n"
+      "computed again. docs/tolerance.md says how it searches.\n"
+      "Examples:\n"
+      "  mapscore tolerance configs/demo.yaml\n"
+      "  mapscore tolerance configs/demo.yaml --target 0.8 --figure results/demo/figures\n"
+      "  mapscore tolerance configs/tolerance.yaml --fault faults.time_offset_ms --format csv\n"
+      "  mapscore tolerance configs/demo.yaml --set "
+      "sweep.faults.mount.magnitude_m=[0,0.1] --group all");
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/figures/tolerance_figure.hpp"
+
+#include "eval/report/figures/curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr int kPointsOfCurve = 60;
+
+/// Trials and curve of one search, and the marks of its answer.
+class SearchMarks {
+ public:
+  SearchMarks(FigureSheet& sheet, Panel& panel, const ToleranceRow& row, std::string colour)
+      : sheet_(sheet), panel_(panel), row_(row), colour_(std::move(colour)) {}
+
+  void add() {
+    add_answer();
+    add_trials();
+    if (row_.tolerance.curve) add_curve(*row_.tolerance.curve);
+    if (row_.tolerance.step) add_step(*row_.tolerance.step);
+  }
+
+ private:
+  [[nodiscard]] double in_unit(double dose) const { return dose * row_.axis.at.front(); }
+  [[nodiscard]] std::string start(const char* what, const char* columns) {
+    return sheet_.start_block(
+        fmt::format("{}; {}; {}; {}", row_.axis.title(), row_.group, row_.method, what), columns);
+  }
+
+  /// A band open at one side reaches to the end of the range.
+  void add_answer() {
+    const Tolerance& of = row_.tolerance;
+    if (of.low && of.high)
+      panel_.settings.push_back(fmt::format(
+          "set object rectangle from first {:.9g}, graph 0 to first {:.9g}, graph 1 behind fc rgb "
+          "'{}' fs transparent solid 0.2 noborder",
+          in_unit(*of.low), in_unit(*of.high), colour_));
+    if (of.dose)
+      panel_.settings.push_back(fmt::format(
+          "set arrow from first {0:.9g}, graph 0 to first {0:.9g}, graph 1 nohead back lw 1 lc rgb "
+          "'{1}'",
+          in_unit(*of.dose), colour_));
+  }
+
+  void add_trials() {
+    const std::string block = start("trials", "dose score seed");
+    for (std::size_t seed = 0; seed < row_.trials.size(); ++seed)
+      sheet_.data += fmt::format("{:.9g} {} {}\n", in_unit(row_.trials[seed].dose),
+                                 figure_number(row_.trials[seed].score), seed);
+    panel_.elements.push_back(
+        fmt::format("{} using 1:2 with points pt 7 ps 0.35 lc rgb '{}' notitle", block, colour_));
+  }
+
+  void add_curve(const DoseCurve& curve) {
+    const std::string block = start("curve", "dose score low high");
+    const double first = row_.tolerance.first, last = row_.tolerance.last;
+    for (int n = 0; n <= kPointsOfCurve; ++n) {
+      const double dose = first + (last - first) * n / kPointsOfCurve, score = curve.at(dose);
+      sheet_.data += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", in_unit(dose), score,
+                                 score - curve.half_width(dose), score + curve.half_width(dose));
+    }
+    panel_.elements.push_back(
+        fmt::format("{} using 1:2 with lines lw 1.4 lc rgb '{}' notitle", block, colour_));
+  }
+
+  void add_step(const DoseStep& step) {
+    const std::string block = start("step", "dose score");
+    const double at = in_unit(*step.crossing.dose);
+    sheet_.data += fmt::format("{:.9g} {:.9g}\n{:.9g} {:.9g}\n{:.9g} {:.9g}\n{:.9g} {:.9g}\n",
+                               in_unit(row_.tolerance.first), step.above, at, step.above, at,
+                               step.below, in_unit(row_.tolerance.last), step.below);
+    panel_.elements.push_back(
+        fmt::format("{} using 1:2 with lines lw 1.4 lc rgb '{}' notitle", block, colour_));
+  }
+
+  FigureSheet& sheet_;
+  Panel& panel_;
+  const ToleranceRow& row_;
+  std::string colour_;
+};
+
+}  // namespace
+
+FigureSheet tolerance_figure(const Study& study, const ToleranceAim& aim,
+                             const std::vector<ToleranceRow>& rows) {
+  FigureSheet sheet;
+  sheet.name = "tolerance";
+  std::map<std::pair<std::string, std::string>, std::size_t> panels;  // by fault and group
+  std::map<std::string, std::string> colours;                         // by method
+  for (const ToleranceRow& row : rows) {
+    const auto [panel, is_new] = panels.try_emplace({row.path, row.group}, sheet.panels.size());
+    if (is_new)
+      sheet.panels.push_back(
+          {row.group,
+           row.axis.title(),
+           aim.target ? aim.metric : "change of " + aim.metric,
+           true,
+           {"unset object; unset arrow; set xtics autofreq; set ytics autofreq",
+            fmt::format("set xrange [{:.9g}:{:.9g}]", row.search.low * row.axis.at.front(),
+                        row.search.high * row.axis.at.front()),
+            "set yrange [*:*]"},
+           {fmt::format("{:.9g} with lines lw 0.8 dt (4,3) lc rgb '#444444' notitle",
+                        row.search.target)}});
+    const auto [colour, is_new_method] =
+        colours.try_emplace(row.method, palette_colour(colours.size()));
+    if (is_new_method)
+      sheet.add_legend("linespoints pt 7 ps 0.6 lw 1.4 lc rgb '" + colour->second + "'",
+                       row.method);
+    SearchMarks(sheet, sheet.panels[panel->second], row, colour->second).add();
+  }
+  sheet.columns = static_cast<int>(std::min<std::size_t>(3, sheet.panels.size()));
+  sheet.panel_width_in = panel_width_in(sheet.columns);
+  sheet.add_legend("lines lw 0.8 dt (4,3) lc rgb '#444444'", "target");
+  sheet.caption = fmt::format(
+      "{}: largest dose at which {}, voxels of {:.6g} cm. Points: trials, each of its own seed; "
+      "curve: what the tolerance is read from; vertical line and band: tolerance and its 95 % "
+      "interval.",
+      study.name, aim.text(), 100.0 * study.voxel_m);
+  return sheet;
+}
+
+}  // namespace mapscore::eval

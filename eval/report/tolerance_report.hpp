@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/report/axes.hpp"
+#include "eval/report/table.hpp"
+#include "eval/statistics/tolerance.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// What is asked of every method: to keep a score, or to lose little of it.
+struct ToleranceAim {
+  std::string metric = "f1";
+  std::optional<double> target;  ///< score to keep
+  double loss = 0.05;            ///< without a target: most that the least dose's score may lose
+  int trials = ToleranceSearch{}.trials;
+
+  /// "f1 >= 0.8", "f1 loses at most 0.05".
+  [[nodiscard]] std::string text() const;
+};
+
+/// The answer for one fault, method and class group.
+struct ToleranceRow {
+  std::string path;  ///< of the fault's leaf
+  FigureAxis axis;   ///< its name and unit; `at` holds one value, what 1 of the leaf is in `unit`
+  std::string method, group;
+  ToleranceSearch search;         ///< in the unit of the leaf
+  std::vector<DoseTrial> trials;  ///< scores, or without a target their change from the least dose
+  Tolerance tolerance;
+};
+
+/// "7.1 mm [6.4, 7.9]", "> 40 mm", "< 0 mm", "- [18.2, open]": dose and interval in the unit of
+/// figures; open is a side that the trials do not bound.
+[[nodiscard]] std::string text_of(const ToleranceRow& row);
+
+/// A row an answer: for people (Figures::rounded) with text_of, for programs with path, dose and
+/// ends of the interval in the unit of figures by themselves.
+[[nodiscard]] Table tolerance_table(const Study& study, const ToleranceAim& aim,
+                                    const std::vector<ToleranceRow>& rows, bool for_people);
+
+}  // namespace mapscore::eval
