@@ -159,10 +159,10 @@ SearchCost search_tolerances(const Study& of, const Recording& recording, const 
     if (stage.trials().empty()) break;
     const TrialTasks asked = tasks_of_trials(study, stage.trials(), recording.content_hash());
     Progress progress(fmt::format("tolerance stage {}", number), "frame evaluations", work.quiet);
-    const RunnerOutcome outcome =
-        run_plan({asked.tasks, {}}, recording, table, store,
-                 {work.jobs, work.memory_bytes, 1, 1,
-                  [&](std::int64_t done, std::int64_t total) { progress.show(done, total); }});
+    RunnerOptions options{work.jobs, work.memory_bytes};
+    options.progress = [&](std::int64_t done, std::int64_t total) { progress.show(done, total); };
+    const RunnerOutcome outcome = run_plan({asked.tasks, {}}, recording, table, store, options);
+    if (!outcome.failures.empty()) throw Error(outcome.failures.front().reason);
     cost.computed += outcome.computed;
     cost.reused += outcome.reused;
     std::vector<Counts> results;
