@@ -11,6 +11,7 @@
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -19,10 +20,12 @@ namespace {
 
 using nlohmann::json;
 
+/// Counts that are 0 are left out.
 template <class Owner>
 json counts_to_json(const Owner& owner) {
-  json object;
-  for (const CountField<Owner>& field : Owner::counts()) object[field.name] = owner.*field.member;
+  json object = json::object();
+  for (const CountField<Owner>& field : Owner::counts())
+    if (owner.*field.member != 0) object[field.name] = owner.*field.member;
   return object;
 }
 
@@ -34,6 +37,41 @@ std::int64_t count_of(const json& value) {
         fmt::format("stored result: {} is no count; delete the store and sweep again",
                     value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40)));
   return value;
+}
+
+/// The count of a key, 0 where it is left out.
+std::int64_t count_of(const json& object, std::string_view key) {
+  const auto found = object.find(key);
+  return found == object.end() ? 0 : count_of(*found);
+}
+
+/// [n] stands for n zeros.
+json runs_to_json(const std::vector<std::int64_t>& counts) {
+  json list = json::array();
+  for (auto at = counts.begin(); at != counts.end();) {
+    const auto end = std::find_if(at, counts.end(), [](std::int64_t count) { return count != 0; });
+    if (end - at > 1) list.push_back(json::array({end - at}));
+    if (end - at == 1) list.push_back(0);
+    at = end;
+    if (at != counts.end()) list.push_back(*at++);
+  }
+  return list;
+}
+
+/// Distances above 10 km have no bin.
+std::vector<std::int64_t> counts_of_runs(const json& list) {
+  constexpr std::int64_t kMostBins = 10'000'000;
+  std::vector<std::int64_t> counts;
+  for (const json& value : list) {
+    const std::int64_t zeros = value.is_array() ? count_of(value.at(0)) : 0;
+    if (static_cast<std::int64_t>(counts.size()) + zeros > kMostBins)
+      throw Error("stored result: too many bins; delete the store and sweep again");
+    if (value.is_array())
+      counts.resize(counts.size() + static_cast<std::size_t>(zeros), 0);
+    else
+      counts.push_back(count_of(value));
+  }
+  return counts;
 }
 
 std::vector<std::int64_t> counts_of(const json& list) {
@@ -54,20 +92,25 @@ int thousandth_of(const json& value) {
 template <class Owner>
 void counts_from_json(const json& object, Owner& owner) {
   for (const CountField<Owner>& field : Owner::counts())
-    owner.*field.member = count_of(object.at(field.name));
+    owner.*field.member = count_of(object, field.name);
 }
 
+/// Without counts there are no bins.
 json tally_to_json(const DistanceTally& tally) {
   const DistanceTally::Parts parts = tally.parts();
-  return {{"limits_m", parts.limits_m},   {"within", parts.within}, {"count", parts.count},
-          {"unreached", parts.unreached}, {"sum_nm", parts.sum_nm}, {"bins", parts.bins}};
+  if (parts.count == 0 && parts.bins.empty()) return {{"limits_m", parts.limits_m}};
+  return {{"limits_m", parts.limits_m}, {"within", parts.within},
+          {"count", parts.count},       {"unreached", parts.unreached},
+          {"sum_nm", parts.sum_nm},     {"bins", runs_to_json(parts.bins)}};
 }
 
 DistanceTally tally_from_json(const json& object) {
+  std::vector<double> limits_m = object.at("limits_m");
+  if (!object.contains("count")) return DistanceTally(std::move(limits_m));
   return DistanceTally(
-      DistanceTally::Parts{object.at("limits_m"), counts_of(object.at("within")),
+      DistanceTally::Parts{std::move(limits_m), counts_of(object.at("within")),
                            count_of(object.at("count")), count_of(object.at("unreached")),
-                           count_of(object.at("sum_nm")), counts_of(object.at("bins"))});
+                           count_of(object.at("sum_nm")), counts_of_runs(object.at("bins"))});
 }
 
 /// Throws Error unless the steps fall, as pooling takes them to do.
@@ -83,15 +126,16 @@ json curve_to_json(const ClassCurve& curve) {
   for (const CurveStep& step : curve.steps)
     steps.push_back({step.thousandth, step.predicted, step.true_predicted, step.found,
                      step.probability_sum_billionth});
-  return {{"visible", curve.visible},
-          {"squared_error_billionth", curve.squared_error_billionth},
-          {"steps", std::move(steps)}};
+  json object{{"visible", curve.visible}};
+  if (curve.squared_error_billionth != 0)
+    object["squared_error_billionth"] = curve.squared_error_billionth;
+  if (!curve.steps.empty()) object["steps"] = std::move(steps);
+  return object;
 }
 
 ClassCurve curve_from_json(const json& object) {
-  ClassCurve curve{
-      count_of(object.at("visible")), count_of(object.at("squared_error_billionth")), {}};
-  for (const json& step : object.at("steps"))
+  ClassCurve curve{count_of(object.at("visible")), count_of(object, "squared_error_billionth"), {}};
+  for (const json& step : object.value("steps", json::array()))
     curve.steps.push_back({thousandth_of(step.at(0)), count_of(step.at(1)), count_of(step.at(2)),
                            count_of(step.at(3)), count_of(step.at(4))});
   check_order(curve.steps, &CurveStep::thousandth);

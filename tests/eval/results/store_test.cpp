@@ -438,6 +438,20 @@ TEST(ResultJson, RefusesWhatIsNoCount) {
     expect_error("steps do not fall", [&] { (void)result_from_json(with("[20,", place)); });
 }
 
+TEST(ResultJson, LeavesOutZeros) {
+  TrialResult result = result_of(10);
+  result.counts[1] = zero_counts(1, {{}, {0.01, 0.02}, {}}).front();
+  result.counts[1].visible = 7;
+  DistanceTally& far = result.counts[0].completeness = DistanceTally({0.01});
+  for (const double distance_m : {0.0, 0.002, 0.9, 0.9015, 3.0}) far.add(distance_m);
+  const std::string text = to_json(result);
+  EXPECT_EQ(result_from_json(text).counts, result.counts);
+  EXPECT_NE(text.find("\"bins\":[1,0,1,["), std::string::npos) << text;
+  std::string bad = text;
+  bad.replace(bad.find("[1,0,1,["), 8, "[1,0,1,[99999999999");
+  expect_error("too many bins", [&] { (void)result_from_json(bad); });
+}
+
 TEST(ResultJson, RefusesWhatIsNotAResult) {
   EXPECT_EQ(result_from_json(to_json(result_of(3))).counts, result_of(3).counts);
   for (const char* text : {"", "{}", "{\"accounting\": 3}", "[1, 2"})
