@@ -120,24 +120,42 @@ void check_order(const std::vector<Step>& steps, int Step::*place) {
     throw Error("stored result: steps do not fall; delete the store and sweep again");
 }
 
-/// Steps as [thousandth, predicted, true_predicted, found, probability sum], since there are many.
+/// Steps one after the other, since there are many: thousandth, predicted, true_predicted, found,
+/// probability sum.
 json curve_to_json(const ClassCurve& curve) {
-  json steps = json::array();
-  for (const CurveStep& step : curve.steps)
-    steps.push_back({step.thousandth, step.predicted, step.true_predicted, step.found,
-                     step.probability_sum_billionth});
   json object{{"visible", curve.visible}};
   if (curve.squared_error_billionth != 0)
     object["squared_error_billionth"] = curve.squared_error_billionth;
-  if (!curve.steps.empty()) object["steps"] = std::move(steps);
+  if (curve.steps.empty()) return object;
+  json::array_t steps;
+  steps.reserve(5 * curve.steps.size());
+  for (const CurveStep& step : curve.steps)
+    for (const std::int64_t number :
+         {std::int64_t{step.thousandth}, step.predicted, step.true_predicted, step.found,
+          step.probability_sum_billionth})
+      steps.emplace_back(number);
+  object["steps"] = std::move(steps);
   return object;
+}
+
+/// Rows from before hold a list for each step.
+std::vector<CurveStep> steps_of(const json& list) {
+  std::vector<CurveStep> steps;
+  const auto add = [&](const json& of, std::size_t first) {
+    steps.push_back({thousandth_of(of.at(first)), count_of(of.at(first + 1)),
+                     count_of(of.at(first + 2)), count_of(of.at(first + 3)),
+                     count_of(of.at(first + 4))});
+  };
+  const bool is_flat = !list.empty() && !list.front().is_array();
+  for (std::size_t n = 0; is_flat && n < list.size(); n += 5) add(list, n);
+  for (std::size_t n = 0; !is_flat && n < list.size(); ++n) add(list[n], 0);
+  return steps;
 }
 
 ClassCurve curve_from_json(const json& object) {
   ClassCurve curve{count_of(object.at("visible")), count_of(object, "squared_error_billionth"), {}};
-  for (const json& step : object.value("steps", json::array()))
-    curve.steps.push_back({thousandth_of(step.at(0)), count_of(step.at(1)), count_of(step.at(2)),
-                           count_of(step.at(3)), count_of(step.at(4))});
+  if (const auto steps = object.find("steps"); steps != object.end())
+    curve.steps = steps_of(*steps);
   check_order(curve.steps, &CurveStep::thousandth);
   return curve;
 }

@@ -187,6 +187,23 @@ TEST_F(SweepControl, ListsTrialsAndRepeatsOneToTheLastCount) {
   expect_refused(mapscore({"run", results(), "--trial", "ab", "--set", "voxel_m=1"}), {"--set"});
 }
 
+TEST_F(SweepControl, InterimTablesAndFiguresAreMarked) {
+  expect_refused(mapscore({"table", results(), "--interim"}), {"no result store there"});
+  expect_done(sweep({"-q", "--shard", "1/2"}));
+  expect_refused(mapscore({"table", results()}), {"5 of 10 trials are not there yet"});
+  expect_done(sweep({"-q", "--set", "seeds=1"}));  // the first seed of each line
+  expect_done(sweep({"-q", "--shard", "1/2"}));
+  const Outcome table = mapscore({"table", results(), "--interim"});
+  expect_done(table);
+  EXPECT_THAT(table.out,
+              AllOf(HasSubstr("INTERIM: "), HasSubstr(" of 10 trials and ceilings are there"),
+                    HasSubstr("seeds there")));
+  expect_done(mapscore({"figures", results(), "--interim", "--no-pictures"}));
+  EXPECT_THAT(bytes_of(path("results/interim_figures/table.txt")), HasSubstr("INTERIM"));
+  EXPECT_THAT(bytes_of(path("results/interim_figures/accuracy_by_dose.gp")), HasSubstr("INTERIM"));
+  EXPECT_FALSE(std::filesystem::exists(path("results/figures")));
+}
+
 TEST_F(SweepControl, HelpOfAVerb) {
   const Outcome help = mapscore({"help", "sweep"});
   expect_done(help);

@@ -8,8 +8,6 @@
 #include "eval/report/table.hpp"
 #include "eval/report/tidy_csv.hpp"
 
-#include <sstream>
-
 namespace mapscore::eval {
 namespace {
 
@@ -57,11 +55,12 @@ std::vector<fs::path> draw_figures(const StudySummary& summary, const fs::path& 
 
 std::vector<fs::path> write_tables(const StudySummary& summary, const fs::path& folder) {
   make_folder(folder);
-  std::ostringstream tidy;
-  write_tidy_csv(summary, tidy);
+  WholeFile tidy(folder / "trials.csv");  // of a large study more than fits into memory
+  write_tidy_csv(summary, tidy.stream());
+  tidy.finish();
   const std::string table = to_text(score_table(summary, std::string(kPooled))) + '\n' +
                             to_text(score_table(summary, std::string(kMacro)));
-  return {written(folder / "trials.csv", tidy.str()), written(folder / "table.txt", table)};
+  return {folder / "trials.csv", written(folder / "table.txt", table)};
 }
 
 }  // namespace mapscore::eval

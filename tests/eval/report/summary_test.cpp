@@ -53,6 +53,59 @@ TEST_F(Summary, IsRefusedWhileTrialsAreMissing) {
   EXPECT_THAT(summarise_store(results()).trials, SizeIs(2));
 }
 
+/// Figures formed while reading against those of the results themselves.
+TEST_F(Summary, FiguresOfAStoredLineAreThoseOfItsResults) {
+  sweep();
+  const StudySummary summary = summarise_store(results());
+  for (const auto* lines :
+       {&summary.trials, &summary.registration_ceilings, &summary.lattice_ceilings})
+    for (const ResultLine& line : *lines) {
+      EXPECT_TRUE(line.results.empty()) << "they stay in the store";
+      const ResultLine full = loaded(line);
+      EXPECT_EQ(full.results.size(), line.seeds.size());
+      EXPECT_EQ(pooled_counts(line, summary.table).predicted,
+                pool_detected(full.pooled, summary.table).predicted);
+      for (const std::string& group : summary.groups()) {
+        const std::vector<Metric> metrics = metrics_of_group(full.pooled, summary.table, group);
+        EXPECT_EQ(pooled_metrics(line, summary.table, group), metrics);
+        std::vector<std::string> names{kBestF1, kBestThreshold};
+        for (const Metric& metric : metrics) names.push_back(metric.name);
+        for (const std::string& name : names) {
+          const Estimate formed = estimate(line, summary.table, group, name);
+          const Estimate plain = estimate(full, summary.table, group, name);
+          EXPECT_EQ(formed.pooled, plain.pooled) << name;
+          EXPECT_EQ(formed.by_seed, plain.by_seed) << name;
+        }
+      }
+    }
+}
+
+TEST_F(Summary, FiguresOfAGroupThatWasNotAskedForAreFormedLater) {
+  sweep();
+  const StudySummary all = summarise_store(results());
+  const StudySummary one = summarise_store(results(), {{"plate"}, false});
+  EXPECT_EQ(estimate(one.trials[1], one.table, "macro", "f1").pooled,
+            estimate(all.trials[1], all.table, "macro", "f1").pooled);
+  EXPECT_EQ(one.lattice_note(), all.lattice_note());
+  expect_error("'cup': not scored in this study; there are: pooled, macro, plate", [&] {
+    (void)summarise_store(results(), {{"cup"}, false});
+  });
+}
+
+TEST_F(Summary, AnInterimOneHasTheLinesThatAreThereWithTheirCeilings) {
+  sweep(1, 3);
+  expect_error("no trial is there with both of its ceilings yet", [&] {
+    (void)summarise_store(results(), {{}, true});
+  });
+  sweep(2, 3);
+  const StudySummary interim = summarise_store(results(), {{}, true});
+  EXPECT_EQ(interim.interim, "INTERIM: 2 of 3 trials and ceilings are there; figures will change");
+  ASSERT_THAT(interim.trials, SizeIs(1));
+  EXPECT_THAT(interim.lattice_ceilings, SizeIs(1));
+  sweep(3, 3);
+  EXPECT_EQ(summarise_store(results(), {{}, true}).interim, "") << "it is complete";
+}
+
 TEST(Estimate, PoolsCountsAndNotRatios) {
   ResultLine line{Role::trial, "direct", {}, {0, 1}, {}, {}};
   for (const std::int64_t size : {10, 90}) {

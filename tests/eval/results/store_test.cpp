@@ -183,15 +183,40 @@ TEST_F(Store, GivesBackInstancesWhereTheyWereScored) {
   EXPECT_EQ(store.find("without")->counts, result_of(10).counts);
 }
 
+/// As it was written before results were packed: every count, a list for each step.
 TEST_F(Store, ReadsRowsOfPlainJsonFromBefore) {
+  const char* text =
+      R"({"accounting":{"detections":2,"frames":1,"hits_beyond_span":0,"map_voxels":8,"points":7,)"
+      R"("skipped_eroded_away":0,"skipped_no_points":0,"skipped_no_seed_point":0,)"
+      R"("skipped_seed_off_object":0},"classes":[{"accuracy":{"bins":[3,0,0,1],"count":5,)"
+      R"("limits_m":[0.01],"sum_nm":2000000,"unreached":1,"within":[4]},"at_tolerance":[[1,5,6]],)"
+      R"("boxes":{"at_25":0,"at_50":0,"at_75":0,"boxes":1,"boxes_unseen":0,"iou_sum_billionth":0},)"
+      R"("completeness":{"bins":[],"count":0,"limits_m":[],"sum_nm":0,"unreached":0,"within":[]},)"
+      R"("curve":{"squared_error_billionth":9,"steps":[[900,4,3,2,1],[7,1,0,0,0]],"visible":11},)"
+      R"("false_floating":0,"false_leak":0,"false_near":0,"found":3,"found_4":0,)"
+      R"("missed_mislabelled":0,"missed_unlabelled":0,"missed_unmapped":0,"predicted":5,)"
+      R"("true_predicted":4,"visible":11,"visible_4":0}]})";
+  TrialResult expected;
+  expected.accounting.frames = 1;
+  expected.accounting.detections = 2;
+  expected.accounting.points = 7;
+  expected.accounting.map_voxels = 8;
+  ClassCounts& c = expected.counts.emplace_back();
+  c.predicted = 5, c.true_predicted = 4, c.visible = 11, c.found = 3;
+  c.at_tolerance = {{1, 5, 6}};
+  c.accuracy = DistanceTally(DistanceTally::Parts{{0.01}, {4}, 5, 1, 2000000, {3, 0, 0, 1}});
+  c.curve = {11, 9, {{900, 4, 3, 2, 1}, {7, 1, 0, 0, 0}}};
+  c.boxes.detections = 1;
   ResultStore::open(file("a.sqlite")).set_text("study", "");
-  run_sql(file("a.sqlite"), "INSERT INTO trials (key, description, result) VALUES ('key', '', '" +
-                                to_json(result_of(10)) + "')");
+  run_sql(
+      file("a.sqlite"),
+      fmt::format("INSERT INTO trials (key, description, result) VALUES ('key', '', '{}')", text));
   ResultStore store = ResultStore::open(file("a.sqlite"));
-  EXPECT_EQ(store.find("key")->counts, result_of(10).counts);
+  EXPECT_EQ(store.find("key")->counts, expected.counts);
+  EXPECT_EQ(store.find("key")->accounting, expected.accounting);
   ResultStore other = ResultStore::open(file("b.sqlite"));
   EXPECT_EQ(other.merge(store), 1);
-  EXPECT_EQ(other.find("key")->counts, result_of(10).counts);
+  EXPECT_EQ(other.find("key")->counts, expected.counts);
 }
 
 TEST_F(Store, RefusesResultsThatAreNoStream) {
