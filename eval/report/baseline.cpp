@@ -85,7 +85,7 @@ bool repeats(const ResultLine& line, const ResultLine& other) {
                             &TrialResult::counts);
 }
 
-ClassTable table_of(const std::vector<std::string>& names) {
+ClassTable class_table(const std::vector<std::string>& names) {
   ClassTable table;
   for (const std::string& name : names)
     table.classes.push_back({static_cast<ClassId>(table.classes.size()), name, {}, true});
@@ -154,7 +154,7 @@ Baseline baseline_from(const std::string& text) {
                     json.at("recording"),
                     json.at("build"),
                     parse_study(json.at("study"), "study"),
-                    table_of(json.at("classes")),
+                    class_table(json.at("classes")),
                     {json.at("tolerances"), json.at("distances_m")},
                     {}};
   const ClassCounts empty = empty_counts(baseline.scored);
@@ -185,7 +185,7 @@ Baseline baseline_of(const StudySummary& summary) {
                     summary.recording_hash,
                     *summary.builds.begin(),
                     summary.study,
-                    table_of(detected_names(summary.table)),
+                    class_table(detected_names(summary.table)),
                     scored_in(summary),
                     {}};
   for (const auto* lines :

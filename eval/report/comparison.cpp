@@ -4,6 +4,7 @@
 #include "eval/report/comparison.hpp"
 
 #include "core/error.hpp"
+#include "eval/report/regression.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -40,12 +41,15 @@ std::vector<std::string> metric_names(const StudySummary& summary, const std::st
   return names;
 }
 
-void check(const StudySummary& summary, const ComparisonQuestion& question) {
+void check_methods(const StudySummary& summary, const ComparisonQuestion& question) {
   for (const std::string& method : {question.a, question.b})
     require("method", method, methods_of(summary));
   if (question.a == question.b)
     throw Error(fmt::format("compare: '{}' with itself; give two of: {}", question.a,
                             fmt::join(methods_of(summary), ", ")));
+}
+
+void check_figures(const StudySummary& summary, const ComparisonQuestion& question) {
   require("group", question.group, summary.groups());
   if (question.metrics.empty()) throw Error("compare: no metric; f1 is one");
   for (const std::string& metric : question.metrics) {
@@ -53,6 +57,23 @@ void check(const StudySummary& summary, const ComparisonQuestion& question) {
     if (std::ranges::count(question.metrics, metric) > 1)
       throw Error(fmt::format("compare: metric '{}' is given twice; once is enough", metric));
   }
+}
+
+/// Refuses results whose draws of a seed are not the same.
+void check_paired(const StudySummary& before, const StudySummary& after) {
+  for (const StudySummary* summary : {&before, &after})
+    if (summary->builds.size() != 1)
+      throw Error(fmt::format("compare: the {} were made by {} builds; sweep again with one",
+                              summary == &before ? "results before" : "results after",
+                              summary->builds.size()));
+  if (before.recording_hash != after.recording_hash)
+    throw Error(
+        fmt::format("compare: recording {} -> {}; sweep both on one recording (--set "
+                    "recording=FOLDER)",
+                    before.recording_hash.substr(0, 8), after.recording_hash.substr(0, 8)));
+  if (before.study.seed != after.study.seed)
+    throw Error(fmt::format("compare: seed {} -> {}, so no draws pair; sweep both with one seed",
+                            before.study.seed, after.study.seed));
 }
 
 const ResultLine& line_of(const StudySummary& summary, const Cell& cell,
@@ -77,12 +98,12 @@ bool is_one_value(const std::vector<std::optional<double>>& a,
 }
 
 /// Values of both lines, position by position the same seed; a seed that one lacks is undefined.
-PairedComparison compare_lines(const ResultLine& a, const ResultLine& b,
-                               const StudySummary& summary, const std::string& group,
+PairedComparison compare_lines(const ResultLine& a, const ClassTable& table_a, const ResultLine& b,
+                               const ClassTable& table_b, const std::string& group,
                                const std::string& metric) {
   std::map<int, std::pair<std::optional<double>, std::optional<double>>> by_seed;
-  const Estimate of_a = estimate(a, summary.table, group, metric);
-  const Estimate of_b = estimate(b, summary.table, group, metric);
+  const Estimate of_a = estimate(a, table_a, group, metric);
+  const Estimate of_b = estimate(b, table_b, group, metric);
   for (std::size_t i = 0; i < a.seeds.size(); ++i) by_seed[a.seeds[i]].first = of_a.by_seed[i];
   for (std::size_t i = 0; i < b.seeds.size(); ++i) by_seed[b.seeds[i]].second = of_b.by_seed[i];
   std::vector<std::optional<double>> values_a, values_b;
@@ -145,33 +166,22 @@ std::vector<std::string> caption_of(const StudySummary& summary, const Compariso
                   probability(std::min(1.0, least * static_cast<double>(rows))))};
 }
 
-}  // namespace
-
-std::vector<ComparisonRow> compare_methods(const StudySummary& summary,
-                                           const ComparisonQuestion& question) {
-  check(summary, question);
-  std::vector<ComparisonRow> rows;
+/// Adjusts the p values for all rows.
+void adjust(std::vector<ComparisonRow>& rows) {
   std::vector<std::optional<double>> p;
-  for (const Cell& cell : cells(summary.study)) {
-    const ResultLine& a = line_of(summary, cell, question.a);
-    const ResultLine& b = line_of(summary, cell, question.b);
-    for (const std::string& metric : question.metrics) {
-      rows.push_back({cell, metric, compare_lines(a, b, summary, question.group, metric), {}});
-      p.push_back(rows.back().paired.p);
-    }
-  }
-  const std::vector<std::optional<double>> adjusted = holm_adjusted(p);
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].p_holm = adjusted[i];
-  return rows;
+  for (const ComparisonRow& row : rows) p.push_back(row.paired.p);
+  p = holm_adjusted(p);
+  for (std::size_t n = 0; n < rows.size(); ++n) rows[n].p_holm = p[n];
 }
 
-Table comparison_table(const StudySummary& summary, const ComparisonQuestion& question,
-                       Figures figures) {
-  const std::vector<ComparisonRow> rows = compare_methods(summary, question);
+Table table_of_rows(const std::vector<ComparisonRow>& rows, const StudySummary& summary,
+                    const ComparisonQuestion& question, Figures figures) {
   Table table;
   const auto with_p = std::ranges::count_if(
       rows, [](const ComparisonRow& row) { return row.paired.p.has_value(); });
   table.caption = caption_of(summary, question, static_cast<std::size_t>(with_p));
+  const bool by_method = !rows.empty() && !rows.front().method.empty();
+  if (by_method) table.columns.emplace_back("method");
   for (const SweepAxis& axis : summary.study.sweep)
     table.columns.push_back(column_of(axis, summary.study.sweep));
   table.columns.insert(table.columns.end(),
@@ -184,6 +194,7 @@ Table comparison_table(const StudySummary& summary, const ComparisonQuestion& qu
   for (const ComparisonRow& row : rows) {
     const PairedComparison& paired = row.paired;
     std::vector<std::string> cells;
+    if (by_method) cells.push_back(row.method);
     for (const auto& [path, value] : row.cell.doses) cells.push_back(value);
     cells.insert(cells.end(),
                  {row.metric, mean(paired.mean_a), mean(paired.mean_b),
@@ -191,6 +202,96 @@ Table comparison_table(const StudySummary& summary, const ComparisonQuestion& qu
                   difference(paired.difference.high), name_of(paired.difference.kind), p(paired.p),
                   p(row.p_holm), std::to_string(paired.difference.seeds)});
     table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+/// What can be quoted of a row.
+std::string sentence_of(const ComparisonRow& row, const std::string& group) {
+  const SeedSummary& difference = row.paired.difference;
+  const std::string of = fmt::format("{} of {}, {}{}{}", row.metric, row.method, group,
+                                     row.cell.doses.empty() ? "" : " at ", text_of(row.cell));
+  if (!difference.mean) return of + ": undefined";
+  if (row.paired.mean_a == row.paired.mean_b && difference.low == difference.high)
+    return fmt::format("{}: {} before and after, over {} seeds", of, figure(row.paired.mean_a),
+                       difference.seeds);
+  const std::string spread = fmt::format(
+      "{} {} to {}", difference.kind == SpreadKind::interval ? "95 % interval" : "seeds from",
+      signed_figure(difference.low), signed_figure(difference.high));
+  const std::string p = row.paired.p
+                            ? fmt::format(", p = {}, {} by Holm over all rows",
+                                          probability(row.paired.p), probability(row.p_holm))
+                            : std::string();
+  return fmt::format("{}: {} before, {} after, a difference of {} ({}; {} paired seeds{})", of,
+                     figure(row.paired.mean_b), figure(row.paired.mean_a),
+                     signed_figure(difference.mean), spread, difference.seeds, p);
+}
+
+}  // namespace
+
+std::vector<ComparisonRow> compare_methods(const StudySummary& summary,
+                                           const ComparisonQuestion& question) {
+  check_methods(summary, question);
+  check_figures(summary, question);
+  const ClassTable& table = summary.table;
+  std::vector<ComparisonRow> rows;
+  for (const Cell& cell : cells(summary.study)) {
+    const ResultLine& a = line_of(summary, cell, question.a);
+    const ResultLine& b = line_of(summary, cell, question.b);
+    for (const std::string& metric : question.metrics)
+      rows.push_back(
+          {"", cell, metric, compare_lines(a, table, b, table, question.group, metric), {}});
+  }
+  adjust(rows);
+  return rows;
+}
+
+std::vector<ComparisonRow> compare_results(const StudySummary& before, const StudySummary& after,
+                                           const ComparisonQuestion& question) {
+  for (const StudySummary* summary : {&before, &after}) check_figures(*summary, question);
+  check_paired(before, after);
+  std::vector<ComparisonRow> rows;
+  for (const ResultLine& a : after.trials) {
+    const auto b = std::ranges::find_if(before.trials, [&](const ResultLine& line) {
+      return line.method == a.method && line.cell.doses == a.cell.doses;
+    });
+    if (b == before.trials.end()) continue;
+    for (const std::string& metric : question.metrics)
+      rows.push_back({a.method,
+                      a.cell,
+                      metric,
+                      compare_lines(a, after.table, *b, before.table, question.group, metric),
+                      {}});
+  }
+  if (rows.empty()) throw Error("compare: the results have no method at the same doses in common");
+  std::ranges::stable_sort(rows, {}, [&](const ComparisonRow& row) {
+    return std::ranges::find(after.trials, row.method, &ResultLine::method) - after.trials.begin();
+  });
+  adjust(rows);
+  return rows;
+}
+
+Table comparison_table(const StudySummary& summary, const ComparisonQuestion& question,
+                       Figures figures) {
+  return table_of_rows(compare_methods(summary, question), summary, question, figures);
+}
+
+Table before_after_table(const StudySummary& before, const StudySummary& after,
+                         const ComparisonQuestion& question, Figures figures) {
+  ComparisonQuestion asked = question;
+  asked.a = "after";
+  asked.b = "before";
+  const std::vector<ComparisonRow> rows = compare_results(before, after, asked);
+  Table table = table_of_rows(rows, after, asked, figures);
+  table.caption.push_back(
+      fmt::format("build {} -> {}", *before.builds.begin(), *after.builds.begin()));
+  if (const auto differing = differing_settings(before.study, after.study); !differing.empty())
+    table.caption.push_back(fmt::format("settings: {}", fmt::join(differing, ", ")));
+  for (const std::string& metric : asked.metrics) {
+    const auto most = std::ranges::max_element(rows, {}, [&](const ComparisonRow& row) {
+      return row.metric == metric ? std::abs(row.paired.difference.mean.value_or(0.0)) : -1.0;
+    });
+    table.caption.push_back(sentence_of(*most, asked.group));
   }
   return table;
 }

@@ -22,6 +22,7 @@ struct ComparisonQuestion {
 
 /// One figure at one cell of the grid, seed by seed.
 struct ComparisonRow {
+  std::string method;  ///< empty where two methods are compared
   Cell cell;
   std::string metric;
   PairedComparison paired;
@@ -33,6 +34,14 @@ struct ComparisonRow {
 [[nodiscard]] std::vector<ComparisonRow> compare_methods(const StudySummary& summary,
                                                          const ComparisonQuestion& question);
 
+/// The same methods before and after a change, in two results on one recording with one seed: rows
+/// by method, cell, metric, of what both have; difference: after - before. Of the question, group
+/// and metrics are asked. Throws Error as above, and where recordings or seeds differ, or several
+/// builds made a result.
+[[nodiscard]] std::vector<ComparisonRow> compare_results(const StudySummary& before,
+                                                         const StudySummary& after,
+                                                         const ComparisonQuestion& question);
+
 /// Figures of a table: four decimals for people, or nine significant digits for programs.
 enum class Figures { rounded, nine_digits };
 
@@ -41,5 +50,10 @@ enum class Figures { rounded, nine_digits };
 [[nodiscard]] Table comparison_table(const StudySummary& summary,
                                      const ComparisonQuestion& question,
                                      Figures figures = Figures::rounded);
+/// The rows of compare_results. The caption tells which settings differ, and of each metric the row
+/// that moved most in a sentence that can be quoted.
+[[nodiscard]] Table before_after_table(const StudySummary& before, const StudySummary& after,
+                                       const ComparisonQuestion& question,
+                                       Figures figures = Figures::rounded);
 
 }  // namespace mapscore::eval

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 namespace mapscore::eval {
 namespace {
@@ -240,38 +239,27 @@ bool Judgement::compared() const {
   return count(Standing::missing) + count(Standing::not_judged) < figures.size();
 }
 
-std::vector<std::string> differing_settings(const Baseline& before, const Baseline& after) {
-  std::vector<std::string> differing;
-  if (before.scoring_version != after.scoring_version)
-    differing.push_back(
-        fmt::format("scoring version {} -> {}", before.scoring_version, after.scoring_version));
-  const auto then = settings_of(before.study), now = settings_of(after.study);
+std::vector<std::string> differing_settings(const Study& before, const Study& after) {
+  const auto in_both = [&](const auto& has) { return has(before) && has(after); };
   const auto is_free = [&](const std::string& path) {
     const std::string root = path.substr(0, path.find('.'));
     if (std::ranges::find(kFreeSettings, root) != kFreeSettings.end()) return true;
-    if (root == "methods") {
-      const std::string method = path.substr(8, path.find('.', 8) - 8);
-      const auto has = [&](const Study& study) {
-        return std::ranges::count(study.methods, method, &MethodSettings::name) > 0;
-      };
-      return !has(before.study) || !has(after.study);
-    }
-    const auto swept = [&](const Study& study) {
-      return std::ranges::count(study.sweep, path, &SweepAxis::path) > 0;
-    };
-    return swept(before.study) && swept(after.study);
+    const std::string method = root == "methods" ? path.substr(8, path.find('.', 8) - 8) : "";
+    return (root == "methods" && !in_both([&](const Study& study) {
+              return std::ranges::count(study.methods, method, &MethodSettings::name) > 0;
+            })) ||
+           in_both([&](const Study& study) {
+             return std::ranges::count(study.sweep, path, &SweepAxis::path) > 0;
+           });
   };
-  std::set<std::string> paths;
-  for (const auto* settings : {&then, &now})
-    for (const auto& [path, value] : *settings) paths.insert(path);
-  for (const std::string& path : paths) {
-    const auto value = [&](const auto& settings) {
-      const auto found = settings.find(path);
-      return found == settings.end() ? std::string("none") : found->second;
-    };
-    if (!is_free(path) && value(then) != value(now))
-      differing.push_back(fmt::format("{} {} -> {}", path, value(then), value(now)));
-  }
+  std::map<std::string, std::array<std::string, 2>> settings;
+  for (const auto& [path, value] : settings_of(before)) settings[path][0] = value;
+  for (const auto& [path, value] : settings_of(after)) settings[path][1] = value;
+  std::vector<std::string> differing;
+  for (const auto& [path, values] : settings)
+    if (!is_free(path) && values[0] != values[1])
+      differing.push_back(fmt::format("{} {} -> {}", path, values[0].empty() ? "none" : values[0],
+                                      values[1].empty() ? "none" : values[1]));
   return differing;
 }
 
@@ -279,7 +267,10 @@ Judgement judge(const Baseline& before, const Baseline& after,
                 const std::vector<std::string>& metrics, const Tolerances& allowed,
                 bool any_recording) {
   Judgement judgement;
-  const std::vector<std::string> differing = differing_settings(before, after);
+  std::vector<std::string> differing = differing_settings(before.study, after.study);
+  if (before.scoring_version != after.scoring_version)
+    differing.push_back(
+        fmt::format("scoring version {} -> {}", before.scoring_version, after.scoring_version));
   if (!differing.empty())
     throw Error(fmt::format("not comparable: {}", fmt::join(differing, ", ")));
   judgement.same_recording = before.recording_hash == after.recording_hash;

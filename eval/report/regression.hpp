@@ -70,18 +70,17 @@ struct Judgement {
   [[nodiscard]] bool compared() const;
 };
 
-/// What two results differ in beside the code that made them, as `voxel_m 0.05 -> 0.1`: settings,
-/// scoring version. Empty where they compare. Seeds may differ; so may methods, classes and cells
-/// that one alone has.
-[[nodiscard]] std::vector<std::string> differing_settings(const Baseline& before,
-                                                          const Baseline& after);
+/// The settings that two studies differ in, as `voxel_m 0.05 -> 0.1`; empty where their results
+/// compare. Name and seeds may differ, what the recording's hash stands for, and methods, classes
+/// and cells that one alone has.
+[[nodiscard]] std::vector<std::string> differing_settings(const Study& before, const Study& after);
 
 /// Judges the figures `metrics` (of those, that `before` has) of every line and group of `before`.
 /// On the same seeds a figure is worse when the pooled one is by more than is allowed: nothing but
 /// code differs. On any seeds it is when the paired difference is significantly beyond what is
 /// allowed: at least kSeedsForInterval pairs, their 95 % interval wholly beyond, and one-sided
-/// Student p, by Holm for all figures, below 0.05. Throws Error where settings differ, and where
-/// recordings do unless `any_recording`.
+/// Student p, by Holm for all figures, below 0.05. Throws Error where settings or scoring versions
+/// differ, and where recordings do unless `any_recording`.
 [[nodiscard]] Judgement judge(const Baseline& before, const Baseline& after,
                               const std::vector<std::string>& metrics, const Tolerances& allowed,
                               bool any_recording = false);

@@ -71,7 +71,7 @@ bool is_fallen(const JudgedFigure& figure) {
   return figure.verdict == Standing::worse || figure.verdict == Standing::missing;
 }
 
-Table table_of(const std::vector<Group>& groups, bool fallen) {
+Table group_table(const std::vector<Group>& groups, bool fallen) {
   Table table;
   table.columns = {"verdict", "method", "metric", "class", "cells",   "worst at", "before",
                    "after",   "change", "low",    "high",  "allowed", "grown"};
@@ -135,7 +135,7 @@ std::string text_report(const Judgement& judgement, const std::string& results,
   const std::vector<Group> groups = groups_of(judgement);
   std::string text;
   for (const bool fallen : {true, false}) {
-    Table table = table_of(groups, fallen);
+    Table table = group_table(groups, fallen);
     if (table.rows.empty()) continue;
     const std::size_t more = table.rows.size() - std::min(table.rows.size(), kShownRows);
     table.rows.resize(table.rows.size() - more);
@@ -188,7 +188,7 @@ std::string github_report(const Judgement& judgement, const std::string& results
   for (const Group& group : groups_of(judgement))
     if (is_fallen(*group.front()))
       text += "::error title=mapscore check::" + github_text(sentence_of(group)) + '\n';
-  for (const auto& row : table_of(groups_of(judgement), false).rows)
+  for (const auto& row : group_table(groups_of(judgement), false).rows)
     text += "::notice title=mapscore check::" +
             github_text(fmt::format("{} of {}, {}: {} -> {} at {}", row[2], row[1], row[3], row[6],
                                     row[7], row[5])) +

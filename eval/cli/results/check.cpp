@@ -119,9 +119,7 @@ void add_check(CLI::App& program, int& exit_code) {
                    "Figures, by commas [precision,recall,f1,iou,f1_t1,f_2cm]")
       ->delimiter(',')
       ->allow_extra_args(false);
-  verb->add_option("--format", flags->format,
-                   fmt::format("{} [text]", fmt::join(kReportFormats, ", ")))
-      ->check(CLI::IsMember(kReportFormats));
+  add_format_flag(*verb, flags->format, kReportFormats);
   verb->add_flag("--update", flags->update,
                  "Write the baseline from these results, after what that changes");
   verb->add_flag("--any_build", flags->any_build,

@@ -7,6 +7,7 @@
 #include "eval/study/picture_view.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <set>
 
@@ -65,9 +66,9 @@ std::optional<sim::View> ViewFlag::view() const {
   }
 }
 
-void add_format_flag(CLI::App& verb, std::string& format) {
-  verb.add_option("--format", format, "text, csv or json [text]")
-      ->check(CLI::IsMember({"text", "csv", "json"}));
+void add_format_flag(CLI::App& verb, std::string& format, const std::vector<std::string>& formats) {
+  verb.add_option("--format", format, fmt::format("{} [{}]", fmt::join(formats, ", "), format))
+      ->check(CLI::IsMember(formats));
 }
 
 void add_interim_flag(CLI::App& verb, bool& interim) {
@@ -77,6 +78,8 @@ void add_interim_flag(CLI::App& verb, bool& interim) {
 
 std::string formatted(const Table& table, const std::string& format) {
   if (format == "csv") return to_csv(table);
+  if (format == "markdown") return to_markdown(table);
+  if (format == "tex") return to_tex(table);
   return format == "json" ? to_json(table) : to_text(table);
 }
 

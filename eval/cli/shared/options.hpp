@@ -59,8 +59,10 @@ struct ViewFlag {
   [[nodiscard]] std::optional<sim::View> view() const;
 };
 
-/// `--format`: text, csv or json.
-void add_format_flag(CLI::App& verb, std::string& format);
+/// `--format`: one of `formats`, of those that `formatted` knows.
+void add_format_flag(CLI::App& verb, std::string& format,
+                     const std::vector<std::string>& formats = {"text", "csv", "json"});
+/// text, csv, json, markdown or tex.
 [[nodiscard]] std::string formatted(const Table& table, const std::string& format);
 
 /// `--interim`: an unfinished sweep is taken as far as it is.

@@ -157,5 +157,73 @@ TEST_F(ComparisonOfAStore, StudyOfOneMethodHasNothingToCompare) {
   expect_error("with itself", [&] { (void)compare_methods(summary, {method, method}); });
 }
 
+/// The results of summary_of(seeds) with one false voxel more in each seed's cups of erosion.
+StudySummary changed_summary(int seeds) {
+  StudySummary summary = testing::summary_of(seeds);
+  summary.builds = {"other"};
+  for (ResultLine& line : summary.trials) {
+    if (line.method != "erosion") continue;
+    line.pooled.clear();
+    for (TrialResult& result : line.results) {
+      --result.counts[1].true_predicted;
+      pool_into(line.pooled, result.counts);
+    }
+  }
+  return summary;
+}
+
+TEST(BeforeAfter, PairsTheSameMethodSeedBySeed) {
+  const ComparisonQuestion question{"", "", "cup", {"precision"}};
+  const std::vector<ComparisonRow> rows =
+      compare_results(testing::summary_of(10), changed_summary(10), question);
+  ASSERT_EQ(rows.size(), 4u);
+  for (const ComparisonRow& row : rows) {
+    EXPECT_EQ(row.paired.difference.seeds, 10);
+    EXPECT_NEAR(row.paired.difference.mean.value(), row.method == "erosion" ? -0.01 : 0.0, 1e-12);
+  }
+  EXPECT_EQ(rows[0].method, "direct");
+  EXPECT_EQ(rows[1].method, "direct");
+  EXPECT_EQ(rows[2].method, "erosion");
+  EXPECT_NEAR(rows[2].paired.p.value(), 2.0 / 1024.0, 1e-12);
+  EXPECT_NEAR(rows[2].p_holm.value(), 4 * 2.0 / 1024.0, 1e-12);
+}
+
+TEST(BeforeAfter, SaysInASentenceWhatMovedMost) {
+  const Table table = before_after_table(testing::summary_of(10), changed_summary(10),
+                                         {"", "", "cup", {"precision"}});
+  EXPECT_EQ(table.columns.front(), "method");
+  ASSERT_GE(table.caption.size(), 2u);
+  EXPECT_EQ(table.caption[table.caption.size() - 2], "build build -> other");
+  EXPECT_THAT(table.caption.back(), ::testing::HasSubstr("precision of erosion, cup at "));
+  EXPECT_THAT(
+      table.caption.back(),
+      ::testing::HasSubstr("a difference of -0.0100 (95 % interval -0.0100 to -0.0100; 10 paired "
+                           "seeds, p = 0.0020, 0.0078 by Holm over all rows)"));
+}
+
+TEST(BeforeAfter, TellsWhichSettingsDiffer) {
+  StudySummary after = changed_summary(3);
+  after.study.voxel_m = 0.1;
+  const Table table = before_after_table(testing::summary_of(3), after, ComparisonQuestion());
+  EXPECT_THAT(table.caption, ::testing::Contains("settings: voxel_m 0.05 -> 0.1"));
+}
+
+TEST(BeforeAfter, RefusesWhatDoesNotPair) {
+  const StudySummary before = testing::summary_of(3);
+  const auto expect_refused = [&](const std::string& why, auto change) {
+    StudySummary after = changed_summary(3);
+    change(after);
+    mapscore::testing::expect_error(
+        why, [&] { (void)compare_results(before, after, ComparisonQuestion()); });
+  };
+  expect_refused("recording recordin -> other",
+                 [](StudySummary& s) { s.recording_hash = "other"; });
+  expect_refused("so no draws pair", [](StudySummary& s) { s.study.seed = 77; });
+  expect_refused("after were made by 2 builds", [](StudySummary& s) { s.builds.insert("third"); });
+  expect_refused("no method at the same doses", [](StudySummary& s) {
+    for (ResultLine& line : s.trials) line.method += " renamed";
+  });
+}
+
 }  // namespace
 }  // namespace mapscore::eval

@@ -77,5 +77,13 @@ TEST(Table, AsJsonNamesEveryCellAndKeepsNumbersNumbers) {
     EXPECT_NE(json.find(cell), std::string::npos) << cell << json;
 }
 
+TEST(Table, MarkdownAndTexEscapeWhatTheyWouldRead) {
+  const Table table{{"50 %"}, {"a|b", "c_d"}, {{"1 & 2", "x\\y"}}};
+  EXPECT_EQ(to_markdown(table), "50 %  \n\n| a\\|b | c\\_d |\n| --- | --- |\n| 1 & 2 | x\\\\y |\n");
+  EXPECT_EQ(to_tex(table),
+            "% 50 %\n\\begin{tabular}{ll}\n\\toprule\na|b & c\\_d \\\\\n\\midrule\n"
+            "1 \\& 2 & x\\char92 y \\\\\n\\bottomrule\n\\end{tabular}\n");
+}
+
 }  // namespace
 }  // namespace mapscore::eval
