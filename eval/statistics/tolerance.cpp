@@ -23,8 +23,9 @@ constexpr double kWidthInDeviations = 3.0;  ///< residual_sd / |slope| that half
 constexpr double kDoubtDeviations = 2.0;    ///< beyond the target that raise doubt
 constexpr std::size_t kLeastPoints = 8;
 constexpr double kCloser = 0.5;
-constexpr double kReach = 1.25;
-constexpr double kDoubtLevel = 0.02;  ///< at which doubt is confirmed, one-sided
+constexpr double kReach = 1.25;  ///< of the points that are used, in half widths of the focus
+constexpr std::size_t kLeastRepeats = 4;  ///< at an end of the range, to tell its side
+constexpr double kDoubtLevel = 0.02;      ///< at which doubt is confirmed, one-sided
 
 using Points = std::vector<DosePoint>;
 
@@ -225,10 +226,9 @@ bool confirmed(const ToleranceSearch& search, const Tolerance& tolerance, const 
   return sign * (of_mean.mean - search.target) > t * of_mean.sd / std::sqrt(count);
 }
 
-/// By the trials of all stages, without repetitions.
-Tolerance read_stages(const ToleranceSearch& search, std::span<const DoseTrial> trials) {
-  const Points all = points_of(trials);
-  const Window window = window_about(focus_after(search, trials, kFineStages), all, search.target);
+/// By the points about the focus.
+Tolerance read_window(const ToleranceSearch& search, const Focus& focus, const Points& all) {
+  const Window window = window_about(focus, all, search.target);
   Tolerance tolerance;
   tolerance.first = window.points.front().dose;
   tolerance.last = window.points.back().dose;
@@ -245,6 +245,32 @@ Tolerance read_stages(const ToleranceSearch& search, std::span<const DoseTrial> 
   return tolerance;
 }
 
+/// Whether the mean of the scores at this very dose is surely (95 %) on one side of the target.
+bool surely_at(double dose, double sign, const ToleranceSearch& search, const Points& all) {
+  std::vector<double> scores;
+  for (const DosePoint& point : all)
+    if (point.dose == dose) scores.push_back(point.score);
+  if (scores.size() < kLeastRepeats) return false;
+  const MeanInterval mean = mean_interval(scores);
+  return sign > 0.0 ? mean.low > search.target : mean.high < search.target;
+}
+
+/// By the trials of all stages, without repetitions.
+Tolerance read_stages(const ToleranceSearch& search, std::span<const DoseTrial> trials) {
+  const Points all = points_of(trials);
+  Tolerance tolerance = read_window(search, focus_after(search, trials, kFineStages), all);
+  if (surely_at(search.low, -1.0, search, all)) {
+    tolerance.verdict = ToleranceVerdict::below;
+    tolerance.low.reset();
+    tolerance.high = search.low;
+  } else if (surely_at(search.high, 1.0, search, all)) {
+    tolerance.verdict = ToleranceVerdict::above;
+    tolerance.high.reset();
+    tolerance.low = search.high;
+  }
+  return tolerance;
+}
+
 }  // namespace
 
 std::vector<double> next_doses(const ToleranceSearch& search, std::span<const DoseTrial> trials) {
@@ -255,9 +281,12 @@ std::vector<double> next_doses(const ToleranceSearch& search, std::span<const Do
     const std::size_t before = trials_before(search, stage);
     if (trials.size() != before) continue;
     const Focus focus = focus_after(search, trials, stage);
-    return spaced(std::max(search.low, focus.centre - focus.half_width),
-                  std::min(search.high, focus.centre + focus.half_width),
-                  static_cast<int>(trials_before(search, stage + 1) - before));
+    std::vector<double> doses = spaced(std::max(search.low, focus.centre - focus.half_width),
+                                       std::min(search.high, focus.centre + focus.half_width),
+                                       static_cast<int>(trials_before(search, stage + 1) - before));
+    if (focus.centre <= search.low || focus.centre >= search.high)
+      for (std::size_t n = 0; n < doses.size(); n += 2) doses[n] = focus.centre;
+    return doses;
   }
   if (trials.size() != trials_before(search, kFineStages)) return {};
   const auto doubt = doubtful_dose(search, read_stages(search, trials), points_of(trials));

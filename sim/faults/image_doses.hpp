@@ -33,8 +33,11 @@ struct DepthDose {
                                      "no fault",
                                  .figure = "depth camera",
                                  .later = true};
-  static constexpr Field kScale{
-      .key = "scale", .meaning = "multiplies every dose", .range = {0, 100}, .later = true};
+  static constexpr Field kScale{.key = "scale",
+                                .meaning = "multiplies every dose",
+                                .range = {0, 100},
+                                .figure = "depth errors (× the preset's)",
+                                .later = true};
 
   double axial = 0, lateral = 0, quantisation = 0, grazing = 0, shadow = 0, flying = 0, range = 0;
   double axial_base_m = 0.0012, axial_growth_per_m = 0.0019;  ///< [N]
@@ -130,7 +133,8 @@ struct LabelDose {
     dose(s.boundary_px, "boundary_px", "dose: masks grown, or shrunk below 0", {-1000, 1000},
          "label boundary off by (px)");
     dose(s.ragged_px, "ragged_px", "dose: standard deviation of the boundary's place", {0, 1000});
-    dose(s.miss, "miss", "dose: chance to miss an instance of no size");
+    dose(s.miss, "miss", "dose: chance to miss an instance of no size", {0, 1},
+         "chance to miss an instance");
     dose(s.confusion, "confusion", "dose: chance of a wrong class, even over the detected ones");
     dose(s.scores, "scores", "dose: how much of 1 - score is kept; 0: every score is 1");
     dose(s.holes, "holes", "dose: share of a mask that lies in holes");
