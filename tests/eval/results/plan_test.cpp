@@ -79,6 +79,29 @@ TEST(Plan, ATrialByItselfIsTheOneOfThePlan) {
   }
 }
 
+TEST(Plan, SingleTrialsAreThoseOfThePlanWithoutCeilings) {
+  const Study study =
+      study_of(kTwoMethods + "sweep: {faults.misregistration.magnitude_m: [0, 0.01]}\nseeds: 9\n");
+  const Plan plan = plan_of(study, "recording");
+  std::vector<TrialSpec> specs;
+  std::vector<std::string> keys;
+  for (const PlannedTrial trial : plan.trials)
+    if (trial.spec.seed_index % 4 == 3) {
+      specs.push_back(trial.spec);
+      keys.push_back(plan.tasks.key(trial.task));
+    }
+  ASSERT_EQ(specs.size(), 8u);
+  specs.push_back(specs.front());  // asked for twice, made once
+  keys.push_back(keys.front());
+  const TrialTasks single = tasks_of_trials(study, specs, "recording");
+  EXPECT_EQ(single.tasks.size(), 8u);
+  ASSERT_EQ(single.positions.size(), 9u);
+  for (std::size_t n = 0; n < specs.size(); ++n) {
+    EXPECT_EQ(single.tasks.key(single.positions[n]), keys[n]);
+    EXPECT_EQ(single.tasks.seed_index(single.positions[n]), specs[n].seed_index);
+  }
+}
+
 TEST(Plan, KeysDoNotDependOnNamesOrOnWhatElseTheStudyHolds) {
   const std::string key = key_of(study_of(""));
   EXPECT_EQ(key_of(study_of("name: another\n")), key);

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "tests/end_to_end/program.hpp"
+#include "tests/end_to_end/tiny_study.hpp"
+
+#include <gmock/gmock.h>
+
+namespace mapscore::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+using TinyTolerance = TinyStudy;
+
+TEST_F(TinyTolerance, SearchesEachMethodAndRepeatsForNothing) {
+  const std::vector<std::string> command{
+      "tolerance", study(), "-o",    results(),
+      "--loss",    "0.1",   "--set", "sweep.faults.misregistration.magnitude_m=[0,0.3]"};
+  const Outcome first = mapscore(command);
+  expect_done(first);
+  EXPECT_THAT(first.out, HasSubstr("f1 loses at most 0.1"));
+  EXPECT_THAT(first.out, HasSubstr("misregistration  direct   pooled"));
+  EXPECT_THAT(first.out, HasSubstr("misregistration  erosion  pooled"));
+  EXPECT_THAT(first.err, HasSubstr(", 0 already there"));
+  std::vector<std::string> with_figure = command;
+  with_figure.insert(with_figure.end(), {"--figure", path("figures"), "--jobs", "1"});
+  const Outcome again = mapscore(with_figure);
+  expect_done(again);
+  EXPECT_EQ(again.out, first.out);
+  EXPECT_THAT(again.err, HasSubstr(" 0 trials computed"));
+  for (const char* file : {"tolerance.png", "tolerance.pdf", "tolerance.gp", "tolerance.dat"})
+    EXPECT_TRUE(std::filesystem::exists(folder() / "figures" / file)) << file;
+}
+
+TEST_F(TinyTolerance, MakesTheTrialsOfTheStudyAndNoCeilings) {
+  expect_done(mapscore({"tolerance", study(), "-o", results(), "-q"}));
+  const Outcome sweep = mapscore({"sweep", study(), "-o", results(), "--set", "seeds=1"});
+  expect_done(sweep);  // dose zero and the greatest dose are there; the lattice ceiling is not
+  EXPECT_THAT(sweep.err, HasSubstr("trials computed"));
+  const Outcome zero = mapscore({"sweep", study(), "-o", results(), "--set", "seeds=1", "--set",
+                                 "sweep.faults.misregistration.magnitude_m=[0]"});
+  expect_done(zero);
+  EXPECT_THAT(zero.err, HasSubstr("0 trials computed, 3 already there"));
+}
+
+TEST_F(TinyTolerance, RefusesWhatCannotBeSearched) {
+  const auto refused = [&](std::vector<std::string> flags, const std::vector<std::string>& words) {
+    flags.insert(flags.begin(), {"tolerance", study(), "-o", results(), "-q"});
+    expect_refused(mapscore(flags), words);
+  };
+  refused({"--target", "0.5", "--loss", "0.1"}, {"--loss", "--target"});
+  refused({"--fault", "faults.mount.magnitude_m"}, {"--fault faults.mount", "misregistration"});
+  refused({"--method", "guess"}, {"--method guess", "direct, erosion"});
+  refused({"--group", "wall"}, {"--group wall", "pooled"});
+  refused({"--metric", "f9"}, {"f9"});
+  refused({"--trials", "5"}, {"--trials", "24"});
+  refused({"--set", "sweep={}"}, {"sweep", "--set"});
+  refused({"--set", "sweep={faults.misregistration.magnitude_m: [0.01]}"}, {"no range", "least"});
+  refused({"--set", "sweep={faults.pose.kind: [white, walk]}"}, {"white is no number"});
+}
+
+}  // namespace
+}  // namespace mapscore::testing
