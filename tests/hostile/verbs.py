@@ -21,7 +21,8 @@ def sweep_and_show(case, study, classes, full, results="results"):
         return
     for flags in (TEXT_FORMATS if full else ()) + ((), ("--tidy",)):
         case.run("table", folder, *flags)
-    case.run("info", folder)
+    for verb in ("info", "status", "trials"):
+        case.run(verb, folder)
     case.run("figures", folder, *(() if full else ("--no-pictures",)))
     if not full:
         return
