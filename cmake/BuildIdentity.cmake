@@ -19,8 +19,11 @@ function(mapscore_build_identity target)
   string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
   get_target_property(options mapscore_options INTERFACE_COMPILE_OPTIONS)
   list(FILTER options INCLUDE REGEX "^-[fmO]")  # warnings decide nothing
-  get_filename_component(mujoco "${MuJoCo_LIBRARY}" REALPATH)
-  get_filename_component(mujoco "${mujoco}" NAME)
+  set(mujoco none)
+  if(MAPSCORE_SIMULATOR)
+    get_filename_component(mujoco "${MuJoCo_LIBRARY}" REALPATH)  # its name tells the whole version
+    get_filename_component(mujoco "${mujoco}" NAME)
+  endif()
   set(output ${CMAKE_CURRENT_BINARY_DIR}/${target}_identity)
   file(CONFIGURE OUTPUT ${output}.txt @ONLY CONTENT
 "@CMAKE_CXX_COMPILER_ID@ @CMAKE_CXX_COMPILER_VERSION@ @CMAKE_SYSTEM_PROCESSOR@
