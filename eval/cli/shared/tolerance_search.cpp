@@ -154,23 +154,33 @@ SearchCost search_tolerances(const Study& of, const Recording& recording, const 
   Study study = of;
   study.sweep.clear();
   SearchCost cost;
+  std::size_t asked = 0;
+  const auto counts_of = [&](const std::vector<TrialSpec>& trials, const std::string& what) {
+    const TrialTasks plan = tasks_of_trials(study, trials, recording.content_hash());
+    Progress progress(what, "frame evaluations", work.quiet);
+    RunnerOptions options{work.jobs, work.memory_bytes};
+    options.progress = [&](std::int64_t done, std::int64_t total) { progress.show(done, total); };
+    const RunnerOutcome outcome = run_plan({plan.tasks, {}}, recording, table, store, options);
+    if (!outcome.failures.empty()) throw Error(outcome.failures.front().reason);
+    cost.computed += outcome.computed;
+    asked += plan.tasks.size();
+    std::vector<Counts> counts;
+    for (const std::size_t position : plan.positions)
+      counts.push_back(store.find(plan.tasks.key(position)).value().counts);
+    return counts;
+  };
+  // A metric that is not there is refused after the first trial, not after the first stage.
+  const Counts first = counts_of({Stage(study, aim, rows).trials().front()}, "tolerance").front();
+  static_cast<void>(value_of(metrics_of_group(first, table, kPooled), aim.metric));
+  asked = 0;
   for (int number = 1;; ++number) {
     const Stage stage(study, aim, rows);
     if (stage.trials().empty()) break;
-    const TrialTasks asked = tasks_of_trials(study, stage.trials(), recording.content_hash());
-    Progress progress(fmt::format("tolerance stage {}", number), "frame evaluations", work.quiet);
-    RunnerOptions options{work.jobs, work.memory_bytes};
-    options.progress = [&](std::int64_t done, std::int64_t total) { progress.show(done, total); };
-    const RunnerOutcome outcome = run_plan({asked.tasks, {}}, recording, table, store, options);
-    if (!outcome.failures.empty()) throw Error(outcome.failures.front().reason);
-    cost.computed += outcome.computed;
-    cost.reused += outcome.reused;
-    std::vector<Counts> results;
-    for (const std::size_t position : asked.positions)
-      results.push_back(store.find(asked.tasks.key(position)).value().counts);
-    stage.hand_out(results, table, aim);
+    stage.hand_out(counts_of(stage.trials(), fmt::format("tolerance stage {}", number)), table,
+                   aim);
   }
   for (ToleranceRow& row : rows) row.tolerance = tolerance_of(row.search, row.trials);
+  cost.reused = asked - cost.computed;
   return cost;
 }
 
