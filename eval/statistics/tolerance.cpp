@@ -4,34 +4,22 @@
 #include "eval/statistics/tolerance.hpp"
 
 #include "core/error.hpp"
+#include "eval/statistics/dose_focus.hpp"
 #include "eval/statistics/intervals.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace mapscore::eval {
 namespace {
 
-constexpr int kDegree = 2;
-constexpr double kCurvatureLevel = 0.2;  ///< a curve must hold well, so that its bias stays small
-constexpr double kGapsAtFirst = 1.5;     ///< half of the first fine window, in gaps of the coarse
-constexpr double kLeastGaps = 0.25;      ///< of any window
-constexpr double kWidthInDeviations = 3.0;  ///< residual_sd / |slope| that half a window spans
-constexpr double kDoubtDeviations = 2.0;    ///< beyond the target that raise doubt
-constexpr std::size_t kLeastPoints = 8;
-constexpr double kCloser = 0.5;
-constexpr double kReach = 1.25;  ///< of the points that are used, in half widths of the focus
+constexpr double kDoubtDeviations = 2.0;  ///< beyond the target that raise doubt
 constexpr std::size_t kLeastRepeats = 4;  ///< at an end of the range, to tell its side
 constexpr double kDoubtLevel = 0.02;      ///< at which doubt is confirmed, one-sided
 
 using Points = std::vector<DosePoint>;
-
-double gap_of(const ToleranceSearch& search) {
-  return (search.high - search.low) / (kCoarseDoses - 1);
-}
 
 void check(const ToleranceSearch& search) {
   if (!(search.low < search.high) || !std::isfinite(search.high - search.low))
@@ -71,105 +59,10 @@ bool too_few(std::span<const DoseTrial> trials) {
          kLeastPoints;
 }
 
-/// Where a fine stage looks.
-struct Focus {
-  double centre = 0.0, half_width = 0.0;
-};
-
-/// Between the last dose that keeps the target and the first that does not, by the falling curve
-/// that is nearest to the scores (pool adjacent violators); an end of the range without both.
-double falling_root(const ToleranceSearch& search, const Points& points) {
-  struct Block {
-    double sum;
-    int count;
-    [[nodiscard]] double mean() const { return sum / count; }
-  };
-  std::vector<Block> blocks;
-  for (const DosePoint& point : points) {
-    blocks.push_back({point.score, 1});
-    for (std::size_t n = blocks.size(); n > 1 && blocks[n - 2].mean() < blocks[n - 1].mean(); --n) {
-      blocks[n - 2] = {blocks[n - 2].sum + blocks[n - 1].sum,
-                       blocks[n - 2].count + blocks[n - 1].count};
-      blocks.pop_back();
-    }
-  }
-  std::size_t keeping = 0;
-  for (const Block& block : blocks)
-    if (block.mean() >= search.target) keeping += static_cast<std::size_t>(block.count);
-  if (keeping == 0) return search.low;
-  if (keeping == points.size()) return search.high;
-  return 0.5 * (points[keeping - 1].dose + points[keeping].dose);
-}
-
-int different_doses(std::span<const DosePoint> points) {
-  std::set<double> doses;
-  for (const DosePoint& point : points) doses.insert(point.dose);
-  return static_cast<int>(doses.size());
-}
-
-/// The most points nearest to a dose through which a curve holds.
-struct Window {
-  Points points;                 ///< by dose
-  bool bent = false;             ///< no curve holds, even through the fewest
-  std::optional<DoseStep> step;  ///< of a bent window
-};
-
-/// Whether a curve of the next degree, or a step, is clearly better: the step by
-/// n ln(RSS / RSS_step) > 2 ln n, since it may have two parameters more.
-bool curve_holds(const Points& points, const std::optional<DoseStep>& step) {
-  if (DoseCurve(points, kDegree + 1).p_of_highest() < kCurvatureLevel) return false;
-  const double rss = DoseCurve(points, kDegree).rss();
-  const auto n = static_cast<double>(points.size());
-  return !step || step->rss >= rss || n * std::log(rss / step->rss) <= 2.0 * std::log(n);
-}
-
-Window window_about(const Focus& focus, const Points& all, double target) {
-  Points nearest = all;
-  const auto distance = [&focus](const DosePoint& point) {
-    return std::abs(point.dose - focus.centre);
-  };
-  std::ranges::stable_sort(nearest, {}, distance);
-  const auto near = static_cast<std::size_t>(std::ranges::count_if(
-      all, [&](const DosePoint& point) { return distance(point) <= kReach * focus.half_width; }));
-  std::size_t least = kLeastPoints;
-  while (least < all.size() && different_doses(std::span(nearest).first(least)) < kDegree + 2)
-    ++least;
-  Window window;
-  for (std::size_t count = std::max(least, std::clamp(near, all.size() / 3, all.size() * 3 / 4));;
-       count = std::max(least, count * 7 / 8)) {
-    window.points.assign(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count));
-    std::ranges::stable_sort(window.points, {}, &DosePoint::dose);
-    window.step = step_through(window.points, target);
-    window.bent = !curve_holds(window.points, window.step);
-    if (!window.bent) window.step.reset();
-    if (!window.bent || count <= least) return window;
-  }
-}
-
-/// A bent window is looked at more closely; else as wide as the scatter asks for.
-Focus refined(const ToleranceSearch& search, const Focus& focus, const Points& points) {
-  const Window window = window_about(focus, points, search.target);
-  const double least = kLeastGaps * gap_of(search), most = 0.5 * (search.high - search.low);
-  if (window.step) {
-    const Crossing& of_step = window.step->crossing;
-    return {0.5 * (*of_step.low + *of_step.high), std::max(least, *of_step.high - *of_step.low)};
-  }
-  if (window.bent)
-    return {falling_root(search, points), std::max(least, kCloser * focus.half_width)};
-  const DoseCurve line(window.points, 1), curve(window.points, kDegree);
-  const double first = window.points.front().dose, last = window.points.back().dose;
-  const auto root = curve_crossing(curve, search.target, first, last).dose;
-  const double slope = root ? curve.slope(*root) : line.slope(first);
-  if (slope >= 0.0) return focus;
-  const double centre = root.value_or(first + (search.target - line.at(first)) / slope);
-  return {std::clamp(centre, first, last),
-          std::clamp(kWidthInDeviations * curve.residual_sd() / -slope, least, most)};
-}
-
 /// After so many fine stages.
-Focus focus_after(const ToleranceSearch& search, std::span<const DoseTrial> trials, int stages) {
-  Focus focus{falling_root(search, points_of(trials.first(trials_before(search, 0)))),
-              kGapsAtFirst * gap_of(search)};
+DoseFocus focus_after(const ToleranceSearch& search, std::span<const DoseTrial> trials,
+                      int stages) {
+  DoseFocus focus = first_focus(search, points_of(trials.first(trials_before(search, 0))));
   for (int stage = 1; stage <= stages; ++stage)
     focus = refined(search, focus, points_of(trials.first(trials_before(search, stage))));
   return focus;
@@ -227,8 +120,8 @@ bool confirmed(const ToleranceSearch& search, const Tolerance& tolerance, const 
 }
 
 /// By the points about the focus.
-Tolerance read_window(const ToleranceSearch& search, const Focus& focus, const Points& all) {
-  const Window window = window_about(focus, all, search.target);
+Tolerance read_window(const ToleranceSearch& search, const DoseFocus& focus, const Points& all) {
+  const DoseWindow window = window_about(focus, all, search.target);
   Tolerance tolerance;
   tolerance.first = window.points.front().dose;
   tolerance.last = window.points.back().dose;
@@ -239,7 +132,7 @@ Tolerance read_window(const ToleranceSearch& search, const Focus& focus, const P
     tolerance.low = tolerance.step->crossing.low;
     tolerance.high = tolerance.step->crossing.high;
   } else {
-    tolerance.curve = DoseCurve(window.points, kDegree);
+    tolerance.curve = DoseCurve(window.points, kDoseDegree);
     read_curve(search, *tolerance.curve, tolerance);
   }
   return tolerance;
@@ -280,7 +173,7 @@ std::vector<double> next_doses(const ToleranceSearch& search, std::span<const Do
   for (int stage = 0; stage < kFineStages; ++stage) {
     const std::size_t before = trials_before(search, stage);
     if (trials.size() != before) continue;
-    const Focus focus = focus_after(search, trials, stage);
+    const DoseFocus focus = focus_after(search, trials, stage);
     std::vector<double> doses = spaced(std::max(search.low, focus.centre - focus.half_width),
                                        std::min(search.high, focus.centre + focus.half_width),
                                        static_cast<int>(trials_before(search, stage + 1) - before));
