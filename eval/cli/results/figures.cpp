@@ -30,9 +30,17 @@ struct FigureFlags {
   std::string results, folder;
   std::vector<std::string> trial;
   PictureChoice choice;  ///< but for what trial and view say
-  bool no_pictures = false, interim = false;
+  bool no_pictures = false, interim = false, no_caption = false;
+  FigureStyle style;  ///< but for the caption
   ViewFlag view;
 };
+
+FigureStyle style_of(const FigureFlags& flags) {
+  FigureStyle style = flags.style;
+  style.caption = !flags.no_caption;
+  style.check();
+  return style;
+}
 
 PictureChoice choice_of(const FigureFlags& flags) {
   PictureChoice choice = flags.choice;
@@ -52,7 +60,7 @@ void print(const std::vector<fs::path>& files) {
 }
 
 void draw_from_recording(const FigureFlags& flags, const PictureChoice& choice,
-                         const fs::path& folder) {
+                         const FigureStyle& style, const fs::path& folder) {
   const fs::path file = store_file(flags.results);
   const StudyRecord record = read_study(ResultStore::open_existing(file), file.parent_path());
   const fs::path place = (file.parent_path() / record.recording).lexically_normal();
@@ -64,7 +72,7 @@ void draw_from_recording(const FigureFlags& flags, const PictureChoice& choice,
   const Recording recording = Recording::open(place);
   print({write_picture(folder / "contact_sheet.png",
                        contact_sheet(record.study, record.table, recording))});
-  print(draw_believed(record.study, recording, choice, folder));
+  print(draw_believed(record.study, recording, choice, folder, style));
   const Pictures pictures =
       draw_pictures(record.study, record.table, recording, choice, folder, [&] {
         Bench bench(recording, record.table, reads_colour(record.study), choice.memory_bytes);
@@ -77,6 +85,7 @@ void draw_from_recording(const FigureFlags& flags, const PictureChoice& choice,
 
 void figures(const FigureFlags& flags) {
   const PictureChoice choice = choice_of(flags);
+  const FigureStyle style = style_of(flags);
   const fs::path file = store_file(flags.results);
   check_choice(read_study(ResultStore::open_existing(file), file.parent_path()).study, choice);
   const StudySummary summary = summarise_store(flags.results, {{}, flags.interim});
@@ -86,8 +95,8 @@ void figures(const FigureFlags& flags) {
           : file.parent_path() / (summary.interim.empty() ? "figures" : "interim_figures");
   const FolderLock lock(folder);
   print(write_tables(summary, folder));
-  print(draw_figures(summary, folder));
-  if (!flags.no_pictures) draw_from_recording(flags, choice, folder);
+  print(draw_figures(summary, folder, style));
+  if (!flags.no_pictures) draw_from_recording(flags, choice, style, folder);
 }
 
 }  // namespace
@@ -109,9 +118,20 @@ void add_figures(CLI::App& program) {
   add_memory_flag(*verb, flags->choice.memory_bytes);
   add_interim_flag(*verb, flags->interim);
   verb->add_flag("--no-pictures", flags->no_pictures, "Figures and tables alone");
+  verb->add_option("--width_mm", flags->style.width_mm,
+                   "Width of every figure in print, 60 to 400 [as its panels need]")
+      ->group("Figures");
+  verb->add_option("--font", flags->style.font, "Font of the figures")
+      ->capture_default_str()
+      ->group("Figures");
+  verb->add_flag("--no_caption", flags->no_caption, "Nothing below the legend")
+      ->group("Figures")
+      ->excludes("--interim");  // which the caption tells
+  verb->add_flag("--grey", flags->style.grey, "No colours; line styles, marks and patterns instead")
+      ->group("Figures");
   verb->footer(
-      "Writes trials.csv, table.txt, figures (PNG, PDF, and the gnuplot script and numbers they "
-      "are made of),\n"
+      "Writes trials.csv, table.txt, figures (PNG, PDF, SVG, and the gnuplot script and numbers "
+      "they are made of),\n"
       "a contact sheet of the recording, the robot's way as its localisation believes it, and "
       "pictures of maps and of their errors. Prints where "
       "each is.\n"
@@ -119,7 +139,9 @@ void add_figures(CLI::App& program) {
       "  mapscore figures results/demo\n"
       "  mapscore figures results/demo -o paper --trial faults.misregistration.magnitude_m=0.04\n"
       "  mapscore figures results/demo --view 4 1 2.2 5.5 3 0.8\n"
-      "  mapscore figures results/person --no-pictures");
+      "  mapscore figures results/person --no-pictures\n"
+      "  mapscore figures results/demo -o paper --width_mm 85 --grey --no_caption  # one column\n"
+      "  mapscore figures results/demo -o slides --width_mm 240 --font \"DejaVu Serif\"");
 }
 
 }  // namespace mapscore::eval

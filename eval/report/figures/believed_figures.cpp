@@ -80,7 +80,8 @@ std::string errors_text(const std::string& name, const LocalizationScore& score)
 
 std::vector<std::filesystem::path> draw_believed(const Study& study, const Recording& recording,
                                                  const PictureChoice& choice,
-                                                 const std::filesystem::path& folder) {
+                                                 const std::filesystem::path& folder,
+                                                 const FigureStyle& style) {
   const std::vector<Study> configs = sources_of(study, choice);
   if (configs.empty() || !recording.has_scans()) return {};
   std::vector<DrawnTrajectory> lines{drawn_truth(recording)};
@@ -102,7 +103,7 @@ std::vector<std::filesystem::path> draw_believed(const Study& study, const Recor
   if (study.scene)
     for (const auto& [x, y, yaw] : study.trajectory.waypoints_m_deg)
       notes.waypoints_map.emplace_back(x, y);
-  return draw(trajectory_figure(grid_of(recording, configs.front()), lines, notes), folder);
+  return draw(trajectory_figure(grid_of(recording, configs.front()), lines, notes, style), folder);
 }
 
 }  // namespace mapscore::eval

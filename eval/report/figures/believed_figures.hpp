@@ -4,6 +4,7 @@
 #pragma once
 
 #include "eval/recording/recording.hpp"
+#include "eval/report/figures/style.hpp"
 #include "eval/report/pictures/pictures.hpp"
 #include "eval/study/study.hpp"
 
@@ -21,6 +22,7 @@ namespace mapscore::eval {
 [[nodiscard]] std::vector<std::filesystem::path> draw_believed(const Study& study,
                                                                const Recording& recording,
                                                                const PictureChoice& choice,
-                                                               const std::filesystem::path& folder);
+                                                               const std::filesystem::path& folder,
+                                                               const FigureStyle& style = {});
 
 }  // namespace mapscore::eval

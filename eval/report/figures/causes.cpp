@@ -4,9 +4,11 @@
 #include "eval/report/colours.hpp"
 #include "eval/report/figures/curves.hpp"
 #include "eval/report/figures/figures.hpp"
+#include "eval/report/figures/geometry.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -40,6 +42,11 @@ const std::array<Side, 2> kSides{
           Cause{"missed: unlabelled", &ClassCounts::missed_unlabelled, kUnlabelledColour},
           Cause{"missed: unmapped", &ClassCounts::missed_unmapped, kMissedColour}}}};
 
+/// Of the causes of a side without colours.
+constexpr std::array<const char*, 3> kGreys{"#404040", "#A0A0A0", "#E8E8E8"};
+/// Height of a line of the second axis' value over that of the highest bar below it.
+constexpr double kHeadRow = 0.15;
+
 std::string hex_of(const Colour& colour) {
   return fmt::format("#{:02X}{:02X}{:02X}", colour.r, colour.g, colour.b);
 }
@@ -50,7 +57,12 @@ class CauseFigure {
       : summary_(summary), layout_(layout) {
     sheet_.name = layout.figure_name("causes");
     sheet_.columns = layout.bars() ? 1 : static_cast<int>(layout.curves().size());
-    sheet_.panel_width_in = layout.bars() ? 4.0 : panel_width_in(sheet_.columns);
+    sheet_.style = layout.style();
+    sheet_.least_panel_in = kLeastInRow_in;
+    sheet_.panel_width_in =
+        layout.bars() && !sheet_.style.width_mm
+            ? 4.0
+            : sheet_.style.panel_width_in(sheet_.columns, sheet_.least_panel_in);
     sheet_.panel_height_in = 1.2;
   }
 
@@ -69,8 +81,7 @@ class CauseFigure {
       sheet_.panels[p].settings.push_back(y_settings(greatest_[sides_[p]]));
     for (const Side& side : kSides)
       for (const Cause& cause : side.causes)
-        sheet_.add_legend("boxes fs solid 1 noborder lc rgb '" + hex_of(cause.colour) + "'",
-                          cause.name);
+        sheet_.add_legend(fmt::format("boxes {} {}", fill(), ink(side, cause)), cause.name);
     sheet_.caption = study_caption(summary_) +
                      " Counts pooled over classes and seeds. near: within a voxel of the own "
                      "surface; leak: on another surface; floating: elsewhere. mislabelled: another "
@@ -80,10 +91,22 @@ class CauseFigure {
   }
 
  private:
+  [[nodiscard]] const char* fill() const {
+    return sheet_.style.grey ? "fs solid 1 border lc rgb '#000000'" : "fs solid 1 noborder";
+  }
+
+  [[nodiscard]] std::string ink(const Side& side, const Cause& cause) const {
+    if (!sheet_.style.grey) return "lc rgb '" + hex_of(cause.colour) + "'";
+    return fmt::format("lw 0.5 lc rgb '{}'",
+                       kGreys[static_cast<std::size_t>(&cause - side.causes.data())]);
+  }
+
   /// One scale for all panels of a side.
   [[nodiscard]] std::string y_settings(double greatest) const {
-    const double headroom = layout_.columns().size() > 1 ? 1.2 : 1.02;  // for the label inside
-    const double top = std::clamp(std::ceil(20.0 * headroom * greatest) / 20.0, 0.05, 1.2);
+    double headroom = layout_.columns().size() > 1 ? 1.2 : 1.02;  // for the label inside
+    if (sheet_.style.width_mm) headroom = std::max(headroom, 1.07 + kHeadRow * head_rows_);
+    const double top =
+        std::clamp(std::ceil(20.0 * headroom * greatest) / 20.0, 0.05, std::max(1.2, headroom));
     return fmt::format("set yrange [0:{:.2f}]; set ytics {}", top,
                        top > 0.5   ? 0.2
                        : top > 0.2 ? 0.1
@@ -91,11 +114,26 @@ class CauseFigure {
                                    : 0.02);
   }
 
+  [[nodiscard]] bool tics_from_data() const { return !layout_.named() && !sheet_.style.width_mm; }
+
+  /// The value of the second axis, in print broken to the panel's width.
+  [[nodiscard]] std::string head_label(std::string head) {
+    const double font_pt = sheet_.style.small_pt();
+    if (sheet_.style.width_mm) {
+      const auto lines = wrapped(head, 0.95 * sheet_.panel_width_in, font_pt);
+      head = fmt::to_string(fmt::join(lines, "\n"));
+      head_rows_ = std::max(head_rows_, static_cast<double>(lines.size()));
+    }
+    return fmt::format("set label 1 {} at graph 0.03,0.93 left font ',{}'", gnuplot_quoted(head),
+                       font_pt);
+  }
+
   /// Doses are written from the data file; names so that they have room.
   [[nodiscard]] std::string x_tics() {
-    if (!layout_.named()) return "set xtics autofreq norotate";
+    if (tics_from_data()) return "set xtics autofreq norotate";
     const auto places = static_cast<double>(layout_.x().values.size() + 1);
-    const NameTics tics = name_tics(layout_.x().values, sheet_.panel_width_in / places);
+    const NameTics tics =
+        name_tics(layout_.x().values, sheet_.panel_width_in / places, sheet_.style);
     sheet_.x_tics_in = tics.height_in;
     return tics.setting;
   }
@@ -107,17 +145,16 @@ class CauseFigure {
     panel.settings = {
         "set style data histograms",
         "set style histogram rowstacked",
-        "set style fill solid 1 noborder",
+        fmt::format("set style {}", std::string(fill()).replace(0, 2, "fill")),
         "set boxwidth 0.75",
         empty ? fmt::format("set xrange [-1:{}]", layout_.x().values.size()) : "set xrange [*:*]",
         x_tics()};
     if (const std::string& head = layout_.columns()[column]; !head.empty())
-      panel.settings.push_back(
-          fmt::format("set label 1 {} at graph 0.03,0.93 left font ',6.5'", gnuplot_quoted(head)));
+      panel.settings.push_back(head_label(head));
     for (std::size_t c = 0; c < side.causes.size(); ++c)
-      panel.elements.push_back(
-          fmt::format("data index {} using {}{} lc rgb '{}' notitle", sheet_.blocks - 1, c + 2,
-                      layout_.named() ? "" : ":xtic(1)", hex_of(side.causes[c].colour)));
+      panel.elements.push_back(fmt::format("data index {} using {}{} {} notitle", sheet_.blocks - 1,
+                                           c + 2, tics_from_data() ? ":xtic(1)" : "",
+                                           ink(side, side.causes[c])));
     sides_.push_back(side.whole == kSides.front().whole ? 0 : 1);
     sheet_.panels.push_back(std::move(panel));
   }
@@ -158,6 +195,7 @@ class CauseFigure {
   const StudyLayout& layout_;
   FigureSheet sheet_;
   std::vector<std::size_t> sides_;    ///< of each panel
+  double head_rows_ = 0.0;            ///< most lines of a label inside
   std::array<double, 2> greatest_{};  ///< highest bar of each side
 };
 

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kClassesShown = 12;
 constexpr double kGroup = 0.8;      ///< width of a group of bars; groups are 1 apart
 constexpr double kBarShare = 0.92;  ///< of a bar's place in its group
-constexpr double kClassHeight_in = 1.45;
+constexpr double kClassHeight_in = 1.45, kLeastClasses_in = 2.0;
 
 struct Score {
   const char *metric, *title;
@@ -60,7 +60,7 @@ std::optional<std::size_t> named_axis(const Study& study) {
 /// Grouped bars, filled panel by panel.
 class ClassBars {
  public:
-  ClassBars(const StudySummary& summary, std::size_t axis)
+  ClassBars(const StudySummary& summary, std::size_t axis, const FigureStyle& style)
       : summary_(summary),
         axis_(axis),
         named_(figure_axis(summary.study, summary.study.sweep[axis])),
@@ -68,7 +68,9 @@ class ClassBars {
         place_(kGroup / static_cast<double>(named_.values.size())) {
     sheet_.name = "by_class_by_" + named_.key;
     sheet_.columns = static_cast<int>(kScores.size());
-    sheet_.panel_width_in = panel_width_in(sheet_.columns);
+    sheet_.style = style;
+    sheet_.least_panel_in = kLeastClasses_in;
+    sheet_.panel_width_in = style.panel_width_in(sheet_.columns, sheet_.least_panel_in);
     sheet_.panel_height_in = kClassHeight_in;
   }
 
@@ -84,8 +86,7 @@ class ClassBars {
 
   [[nodiscard]] FigureSheet finish() {
     for (std::size_t value = 0; value < named_.values.size(); ++value)
-      sheet_.add_legend("boxes fs solid 0.85 noborder lc rgb '" + palette_colour(value) + "'",
-                        named_.values[value]);
+      sheet_.add_legend("boxes " + fill(value), named_.values[value]);
     sheet_.add_legend("lines lw 1.2 lc rgb '#000000'", "lattice ceiling");
     sheet_.add_legend("lines lw 1.2 dt (1,2) lc rgb '#444444'", "registration ceiling");
     const Study& study = summary_.study;
@@ -98,6 +99,12 @@ class ClassBars {
   }
 
  private:
+  [[nodiscard]] std::string fill(std::size_t value) const {
+    const bool grey = sheet_.style.grey;
+    return fmt::format("{} lc rgb '{}'", bar_fill(value, sheet_.style),
+                       grey ? grey_tone(value) : palette_colour(value));
+  }
+
   /// The middle value of every axis but the named one.
   [[nodiscard]] const std::string& dose(std::size_t axis, std::size_t value) const {
     const std::vector<std::string>& values = summary_.study.sweep[axis].values;
@@ -119,7 +126,7 @@ class ClassBars {
     std::vector<std::string> names;
     for (const SemanticClass* c : classes_) names.push_back(c->name);
     const NameTics tics =
-        name_tics(names, sheet_.panel_width_in / static_cast<double>(names.size()));
+        name_tics(names, sheet_.panel_width_in / static_cast<double>(names.size()), sheet_.style);
     sheet_.x_tics_in = tics.height_in;
     return {fmt::format("set xrange [-0.55:{}]", static_cast<double>(names.size()) - 0.45),
             tics.setting, "set yrange [0:1.03]; set ytics 0.2"};
@@ -146,9 +153,8 @@ class ClassBars {
           sheet_.start_block(fmt::format("{}; {}; {}", method, score.metric, named_.text(value)),
                              "place class value low high registration_ceiling lattice_ceiling");
       add_rows(score, value, *line);
-      elements.push_back(
-          fmt::format("{} using 1:3:({:.5f}) with boxes fs solid 0.85 noborder lc rgb '{}' notitle",
-                      of, kBarShare * place_, palette_colour(value)));
+      elements.push_back(fmt::format("{} using 1:3:({:.5f}) with boxes {} notitle", of,
+                                     kBarShare * place_, fill(value)));
       const std::string over = fmt::format("{} using ($1-{:.5f}):", of, 0.5 * place_);
       const std::string along = fmt::format(":({:.5f}):(0) with vectors nohead lw 1.2", place_);
       ceilings.push_back(over + '6' + along + " dt (1,2) lc rgb '#444444' notitle");
@@ -188,10 +194,11 @@ class ClassBars {
 
 }  // namespace
 
-std::optional<FigureSheet> class_bars_figure(const StudySummary& summary) {
+std::optional<FigureSheet> class_bars_figure(const StudySummary& summary,
+                                             const FigureStyle& style) {
   const std::optional<std::size_t> axis = named_axis(summary.study);
   if (!axis || classes_shown(summary).size() < 2) return std::nullopt;
-  ClassBars figure(summary, *axis);
+  ClassBars figure(summary, *axis, style);
   for (const MethodSettings& method : summary.study.methods)
     figure.add_row(method.name, &method == &summary.study.methods.front());
   return figure.finish();

@@ -23,12 +23,12 @@ constexpr double kXPadding = 0.05;
 constexpr double kNamePlace = 0.7;
 constexpr const char* kLatticeStyle = "lw 1.2 dt (6,4) lc rgb '#000000'";
 
-/// 1, 2 or 5 times a power of ten that makes at most five steps of the range.
-double tic_step(double range) {
+/// 1, 2 or 5 times a power of ten that makes at most `steps` steps of the range.
+double tic_step(double range, double steps) {
   if (!(range > 0.0)) return 1.0;
-  const double decade = std::pow(10.0, std::floor(std::log10(range / 5.0)));
+  const double decade = std::pow(10.0, std::floor(std::log10(range / steps)));
   for (const double step : {1.0, 2.0, 5.0})
-    if (range <= 5.0 * step * decade * (1.0 + 1e-9)) return step * decade;
+    if (range <= steps * step * decade * (1.0 + 1e-9)) return step * decade;
   return 10.0 * decade;
 }
 
@@ -76,11 +76,12 @@ CurveMarks as_points(const Curve& curve, const std::string& of, double offset, d
 }
 
 /// `set` lines of an axis of numbers.
-std::vector<std::string> number_settings(const FigureAxis& x) {
+std::vector<std::string> number_settings(const FigureAxis& x, double width_in) {
   const auto [low, high] = std::minmax_element(x.at.begin(), x.at.end());
   const double padding = *high > *low ? kXPadding * (*high - *low) : 0.5;
-  return {fmt::format("set xrange [{:.9g}:{:.9g}]", *low - padding, *high + padding),
-          fmt::format("set xtics {:.9g}", tic_step(*high - *low))};
+  return {
+      fmt::format("set xrange [{:.9g}:{:.9g}]", *low - padding, *high + padding),
+      fmt::format("set xtics {:.9g}", tic_step(*high - *low, width_in < kNarrow_in ? 3.0 : 5.0))};
 }
 
 /// Which methods leave points of curves out, since their maps hold no voxel of a detected class.
@@ -108,7 +109,8 @@ class CurveFigure {
       : summary_(summary), layout_(layout) {
     sheet_.name = layout.figure_name(stem);
     sheet_.columns = static_cast<int>(columns);
-    sheet_.panel_width_in = panel_width_in(sheet_.columns);
+    sheet_.style = layout.style();
+    sheet_.panel_width_in = sheet_.style.panel_width_in(sheet_.columns, sheet_.least_panel_in);
   }
 
   /// `column`: of StudyLayout::columns().
@@ -157,10 +159,10 @@ class CurveFigure {
  private:
   [[nodiscard]] std::vector<std::string> x_settings() {
     const FigureAxis& x = layout_.x();
-    if (x.numeric) return number_settings(x);
+    if (x.numeric) return number_settings(x, sheet_.panel_width_in);
     const double padding = layout_.bars() ? 0.7 : 0.5;
     const double places = x.at.back() - x.at.front() + 2.0 * padding;
-    const NameTics tics = name_tics(x.values, sheet_.panel_width_in / places);
+    const NameTics tics = name_tics(x.values, sheet_.panel_width_in / places, sheet_.style);
     sheet_.x_tics_in = std::max(sheet_.x_tics_in, tics.height_in);
     return {fmt::format("set xrange [{}:{}]", x.at.front() - padding, x.at.back() + padding),
             tics.setting};
@@ -198,7 +200,7 @@ class CurveFigure {
       for (const Curve& curve : layout_.curves())
         sheet_.add_legend(fmt::format("{} pt {} ps 0.9 lw 1.4 dt {} lc rgb '{}'",
                                       layout_.named() ? "points" : "linespoints", curve.point,
-                                      layout_.named() ? 1 : curve.dash, curve.colour),
+                                      layout_.named() ? "1" : curve.dash.c_str(), curve.colour),
                           curve.name);
     sheet_.add_legend(std::string(layout_.bars() ? "points pt 2 ps 2 " : "lines ") + kLatticeStyle,
                       "lattice ceiling");

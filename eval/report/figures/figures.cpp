@@ -40,10 +40,11 @@ FigureSheet accuracy_figure(const StudySummary& summary, const StudyLayout& layo
                           " Counts pooled over classes and seeds. " + kCeilingsCaption);
 }
 
-std::vector<fs::path> draw_figures(const StudySummary& summary, const fs::path& folder) {
-  const StudyLayout layout(summary);
+std::vector<fs::path> draw_figures(const StudySummary& summary, const fs::path& folder,
+                                   const FigureStyle& style) {
+  const StudyLayout layout(summary, style);
   std::vector<FigureSheet> sheets{accuracy_figure(summary, layout), causes_figure(summary, layout)};
-  if (auto by_class = class_bars_figure(summary)) sheets.push_back(std::move(*by_class));
+  if (auto by_class = class_bars_figure(summary, style)) sheets.push_back(std::move(*by_class));
   if (auto by_class = class_figure(summary, layout)) sheets.push_back(std::move(*by_class));
   sheets.push_back(precision_recall_figure(summary, layout));
   sheets.push_back(reliability_figure(summary, layout));

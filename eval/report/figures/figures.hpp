@@ -13,17 +13,18 @@
 
 namespace mapscore::eval {
 
-/// Draws the figures of a study with gnuplot, each as NAME.png and NAME.pdf with its script NAME.gp
-/// and its numbers NAME.dat beside it; `gnuplot NAME.gp` in the folder draws it anew. The folder is
-/// made when it is not there. The first swept axis runs along x, the second over columns of panels,
-/// further ones over lines.
+/// Draws the figures of a study with gnuplot, each as NAME.png, .pdf and .svg with its script
+/// NAME.gp and its numbers NAME.dat beside it; `gnuplot NAME.gp` in the folder draws it anew. The
+/// folder is made when it is not there. The first swept axis runs along x, the second over columns
+/// of panels, further ones over lines.
 ///
 /// Which figures there are stands below, and in docs/figures.md.
 ///
 /// Returns the pictures that were drawn. Throws Error when gnuplot is missing or fails, or the
 /// folder cannot be written.
 [[nodiscard]] std::vector<std::filesystem::path> draw_figures(const StudySummary& summary,
-                                                              const std::filesystem::path& folder);
+                                                              const std::filesystem::path& folder,
+                                                              const FigureStyle& style = {});
 
 /// Writes trials.csv (tidy, everything) and table.txt (pooled and macro scores) into the folder.
 /// Returns both paths. Throws Error.
@@ -43,7 +44,8 @@ namespace mapscore::eval {
 /// the other axes at their middle. A column a score, a row a method. Nothing where no such axis is
 /// swept, or fewer than two classes occur. A block of the data file is one value in one panel:
 /// `place class value low high registration_ceiling lattice_ceiling`, `-` where undefined.
-[[nodiscard]] std::optional<FigureSheet> class_bars_figure(const StudySummary& summary);
+[[nodiscard]] std::optional<FigureSheet> class_bars_figure(const StudySummary& summary,
+                                                           const FigureStyle& style = {});
 
 /// F1 of each detected class, a panel each. Nothing for a single class, nor where the first axis
 /// has names, for which class_bars_figure is drawn.

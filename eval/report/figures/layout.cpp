@@ -3,7 +3,7 @@
 
 #include "eval/report/figures/layout.hpp"
 
-#include "eval/report/figures/script.hpp"
+#include "eval/report/figures/geometry.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ FigureAxis axis_of_methods(const Study& study) {
   return axis;
 }
 
-constexpr double kTics_pt = 6.5, kLine_in = 0.11, kOneLine_in = 0.16;
+constexpr double kLine_in = 0.11, kOneLine_in = 0.16;
 constexpr double kTurned = 0.57;  ///< sine of 35 degrees
 constexpr double kShareOfPlace = 0.97;
 
@@ -61,10 +61,10 @@ std::size_t longest_line(const std::string& name) {
   return longest;
 }
 
-double width_in(const std::vector<std::string>& names) {
+double width_in(const std::vector<std::string>& names, double font_pt) {
   std::size_t longest = 0;
   for (const std::string& name : names) longest = std::max(longest, longest_line(name));
-  return text_width_in(longest, kTics_pt);
+  return text_width_in(longest, font_pt);
 }
 
 /// gnuplot takes a label of a tic with a `%` for a format of numbers.
@@ -74,11 +74,12 @@ std::string without_format(const std::string& name) {
   return doubled;
 }
 
-std::string setting_of(const std::vector<std::string>& names, const std::string& turn) {
+std::string setting_of(const std::vector<std::string>& names, const std::string& turn,
+                       double font_pt) {
   std::string tics;
   for (std::size_t i = 0; i < names.size(); ++i)
     tics += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_quoted(without_format(names[i])), i);
-  return fmt::format("set xtics ({}) {} font ',{}'", tics, turn, kTics_pt);
+  return fmt::format("set xtics ({}) {} font ',{}'", tics, turn, font_pt);
 }
 
 }  // namespace
@@ -87,7 +88,8 @@ std::string palette_colour(std::size_t n) {
   return std::string(kColours[n % kColours.size()]);
 }
 
-StudyLayout::StudyLayout(const StudySummary& summary) : bars_(summary.study.sweep.empty()) {
+StudyLayout::StudyLayout(const StudySummary& summary, const FigureStyle& style)
+    : style_(style), bars_(summary.study.sweep.empty()) {
   std::vector<FigureAxis> axes;
   for (const SweepAxis& axis : summary.study.sweep)
     axes.push_back(figure_axis(summary.study, axis));
@@ -102,10 +104,14 @@ StudyLayout::StudyLayout(const StudySummary& summary) : bars_(summary.study.swee
   const std::vector<MethodSettings>& methods = summary.study.methods;
   const bool several = methods.size() > 1;
   for (std::size_t m = 0; m < methods.size(); ++m)
-    for (std::size_t tail = 0; tail < tails.size(); ++tail)
-      curves_.push_back(
-          {methods[m].name + tails[tail], methods[m].name, tail, palette_colour(several ? m : tail),
-           kPoints[curves_.size() % kPoints.size()], several ? kDashes[tail % kDashes.size()] : 1});
+    for (std::size_t tail = 0; tail < tails.size(); ++tail) {
+      const std::size_t n = curves_.size();
+      const int dash = several ? kDashes[tail % kDashes.size()] : 1;
+      curves_.push_back({methods[m].name + tails[tail], methods[m].name, tail,
+                         style.grey ? grey_tone(n) : palette_colour(several ? m : tail),
+                         kPoints[n % kPoints.size()],
+                         style.grey ? grey_dash(n) : std::to_string(dash)});
+    }
   for (std::size_t i = 0; i < summary.trials.size(); ++i) {
     const ResultLine& line = summary.trials[i];
     trials_[{line.method, static_cast<std::size_t>(line.cell.index)}] = i;
@@ -124,19 +130,25 @@ std::optional<std::size_t> StudyLayout::trial(const Curve& curve, std::size_t co
   return found == trials_.end() ? std::nullopt : std::optional(found->second);
 }
 
-NameTics name_tics(const std::vector<std::string>& names, double place_in) {
-  const double room_in = kShareOfPlace * place_in;
-  if (width_in(names) <= room_in) return {setting_of(names, "norotate"), kOneLine_in};
+NameTics name_tics(const std::vector<std::string>& names, double place_in,
+                   const FigureStyle& style) {
+  const double font_pt = style.small_pt();
+  // Digits are wider than most letters.
+  const double room_in =
+      kShareOfPlace * place_in - (style.width_mm ? text_width_in(1, font_pt) : 0.0);
+  if (width_in(names, font_pt) <= room_in)
+    return {setting_of(names, "norotate", font_pt), kOneLine_in};
   std::vector<std::string> broken = names;
   std::ptrdiff_t most_breaks = 0;
   for (std::string& name : broken) {
     std::replace(name.begin(), name.end(), ' ', '\n');
     most_breaks = std::max(most_breaks, std::count(name.begin(), name.end(), '\n'));
   }
-  if (width_in(broken) <= room_in)
-    return {setting_of(broken, "norotate"),
+  if (width_in(broken, font_pt) <= room_in)
+    return {setting_of(broken, "norotate", font_pt),
             kOneLine_in + kLine_in * static_cast<double>(most_breaks)};
-  return {setting_of(names, "rotate by 35 right"), kLine_in + kTurned * width_in(names)};
+  return {setting_of(names, "rotate by 35 right", font_pt),
+          kLine_in + kTurned * width_in(names, font_pt)};
 }
 
 }  // namespace mapscore::eval

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "eval/report/axes.hpp"
+#include "eval/report/figures/style.hpp"
 #include "eval/report/summary.hpp"
 
 #include <cstddef>
@@ -22,7 +23,7 @@ struct Curve {
   std::size_t tail = 0;  ///< position in the product of the axes from the third on
   std::string colour;    ///< #rrggbb of Okabe and Ito's palette, made for colour-blind readers too
   int point = 7;         ///< gnuplot's point type
-  int dash = 1;          ///< gnuplot's dash type
+  std::string dash = "1";  ///< gnuplot's dash type
 };
 
 /// The n-th colour of the figures: #rrggbb of Okabe and Ito's palette, over again after seven.
@@ -31,7 +32,9 @@ struct Curve {
 /// Which trial stands where in the figures of a study: x, column of panels, curve.
 class StudyLayout {
  public:
-  explicit StudyLayout(const StudySummary& summary);
+  explicit StudyLayout(const StudySummary& summary, const FigureStyle& style = {});
+
+  [[nodiscard]] const FigureStyle& style() const { return style_; }
 
   /// The first swept axis; the methods when nothing is swept.
   [[nodiscard]] const FigureAxis& x() const { return x_; }
@@ -50,6 +53,7 @@ class StudyLayout {
                                                  std::size_t x) const;
 
  private:
+  FigureStyle style_;
   FigureAxis x_;
   std::vector<std::string> columns_{""};
   std::vector<Curve> curves_;
@@ -66,6 +70,7 @@ struct NameTics {
 
 /// The names at 0, 1, 2, ... of a panel, where each has `place_in` of its width: on one line where
 /// all fit, or else broken between words, or else turned.
-[[nodiscard]] NameTics name_tics(const std::vector<std::string>& names, double place_in);
+[[nodiscard]] NameTics name_tics(const std::vector<std::string>& names, double place_in,
+                                 const FigureStyle& style = {});
 
 }  // namespace mapscore::eval

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kPanelsShown = 3;
 constexpr double kThresholdHeight_in = 2.0;
+constexpr double kNarrowUnit_in = 1.2;  ///< no room for six numbers below
 
 /// Values of the x axis that have a panel; all methods share one where nothing is swept.
 std::vector<std::size_t> values_shown(const StudyLayout& layout) {
@@ -44,7 +45,9 @@ class ThresholdFigure {
       : summary_(summary), layout_(layout), values_(values_shown(layout)) {
     sheet_.name = std::move(name);
     sheet_.columns = static_cast<int>(values_.size());
-    sheet_.panel_width_in = panel_width_in(sheet_.columns);
+    sheet_.style = layout.style();
+    sheet_.least_panel_in = kLeastInRow_in;
+    sheet_.panel_width_in = sheet_.style.panel_width_in(sheet_.columns, sheet_.least_panel_in);
     sheet_.panel_height_in = kThresholdHeight_in;
     for (const Curve& curve : layout.curves())
       sheet_.add_legend("linespoints " + style_of(curve), curve.name);
@@ -53,6 +56,17 @@ class ThresholdFigure {
   [[nodiscard]] static std::string style_of(const Curve& curve) {
     return fmt::format("pt {} ps 0.8 lw 1.4 dt {} lc rgb '{}'", curve.point, curve.dash,
                        curve.colour);
+  }
+
+  /// Both axes from 0 to 1.
+  [[nodiscard]] Panel unit_panel(const std::string& x_label, const std::string& y_label) const {
+    const bool narrow = sheet_.panel_width_in < kNarrowUnit_in;
+    return {"",
+            x_label,
+            y_label,
+            true,
+            {fmt::format("set xrange [0:1.02]; set xtics {}", narrow ? 0.5 : 0.2),
+             "set yrange [0:1.02]; set ytics 0.2"}};
   }
 
   /// One row: `fill(counts, curve, position of the curve, panel)` for every curve of every panel.
@@ -99,14 +113,6 @@ class ThresholdFigure {
   std::string head_;  ///< of the curve and panel that are being filled
 };
 
-Panel unit_panel(const std::string& x_label, const std::string& y_label) {
-  return {"",
-          x_label,
-          y_label,
-          true,
-          {"set xrange [0:1.02]; set xtics 0.2", "set yrange [0:1.02]; set ytics 0.2"}};
-}
-
 }  // namespace
 
 FigureSheet precision_recall_figure(const StudySummary& summary, const StudyLayout& layout) {
@@ -124,7 +130,7 @@ FigureSheet precision_recall_figure(const StudySummary& summary, const StudyLayo
         fmt::format("{} using 1:2 with points pt {} ps 1.1 lc rgb '{}' notitle", mark, curve.point,
                     curve.colour));
   };
-  figure.add_row(unit_panel("recall", "precision"), true, fill);
+  figure.add_row(figure.unit_panel("recall", "precision"), true, fill);
   return figure.finish(
       "Along a line the threshold falls from left to right; the mark is the threshold that all "
       "other figures are made at.");
@@ -134,7 +140,7 @@ FigureSheet reliability_figure(const StudySummary& summary, const StudyLayout& l
   ThresholdFigure figure(summary, layout, "reliability");
   const double bar = 0.8 / kReliabilityBins / static_cast<double>(layout.curves().size());
   std::vector<std::string> bars;  // of the lower row, in the order of its panels and curves
-  Panel upper = unit_panel("", "share that is true");
+  Panel upper = figure.unit_panel("", "share that is true");
   upper.elements = {"x with lines lw 0.8 dt (4,3) lc rgb '#666666' notitle"};
   figure.add_row(
       upper, true, [&](const ClassCounts& counts, const Curve& curve, std::size_t c, Panel& panel) {
@@ -152,11 +158,14 @@ FigureSheet reliability_figure(const StudySummary& summary, const StudyLayout& l
                                              ThresholdFigure::style_of(curve)));
         const double offset = 0.1 / kReliabilityBins + (static_cast<double>(c) + 0.5) * bar;
         bars.push_back(
-            fmt::format("{} using ($1+{:.5f}):4:({:.5f}) with boxes fs solid 1 noborder lc "
-                        "rgb '{}' notitle",
-                        block, offset, bar, curve.colour));
+            layout.style().grey
+                ? fmt::format("{} using ($1+{}):4 with linespoints {} notitle", block,
+                              0.5 / kReliabilityBins, ThresholdFigure::style_of(curve))
+                : fmt::format("{} using ($1+{:.5f}):4:({:.5f}) with boxes fs solid 1 noborder lc "
+                              "rgb '{}' notitle",
+                              block, offset, bar, curve.colour));
       });
-  Panel lower = unit_panel("probability", "share of the voxels");
+  Panel lower = figure.unit_panel("probability", "share of the voxels");
   std::size_t next = 0;
   figure.add_row(lower, false, [&](const ClassCounts&, const Curve&, std::size_t, Panel& panel) {
     panel.elements.push_back(bars[next++]);

@@ -62,9 +62,11 @@ Cells cells_over(double low, double high, double origin_m, double step_m) {
 class TrajectoryFigure {
  public:
   TrajectoryFigure(const OccupancyGrid& grid, std::span<const DrawnTrajectory> trajectories,
-                   const TrajectoryNotes& notes)
+                   const TrajectoryNotes& notes, const FigureStyle& style)
       : grid_(grid), trajectories_(trajectories), notes_(notes) {
     sheet_.name = notes.name;
+    sheet_.style = style;
+    sheet_.to_scale = true;
     for (const DrawnTrajectory& trajectory : trajectories)
       check(trajectory.points_map, trajectory.name);
     check(notes.waypoints_map, "waypoints");
@@ -86,8 +88,14 @@ class TrajectoryFigure {
   }
 
  private:
-  [[nodiscard]] static std::string colour(std::size_t trajectory) {
-    return trajectory == 0 ? kTruthColour : palette_colour(trajectory - 1);
+  [[nodiscard]] std::string colour(std::size_t trajectory) const {
+    if (trajectory == 0) return kTruthColour;
+    return sheet_.style.grey ? grey_tone(trajectory - 1) : palette_colour(trajectory - 1);
+  }
+
+  [[nodiscard]] std::string dash(std::size_t trajectory) const {
+    if (sheet_.style.grey) return grey_dash(trajectory - 1);
+    return trajectory == 1 ? "1" : "(7,3)";
   }
 
   /// Everything that must be in the picture, in the map.
@@ -151,7 +159,7 @@ class TrajectoryFigure {
       for (const Eigen::Vector2d& p : trajectories_[t].points_map) write(p);
       const std::string style =
           t == 0 ? fmt::format("lines lw 3.4 lc rgb '{}'", colour(t))
-                 : fmt::format("lines lw 1.5 dt {} lc rgb '{}'", t == 1 ? "1" : "(7,3)", colour(t));
+                 : fmt::format("lines lw 1.5 dt {} lc rgb '{}'", dash(t), colour(t));
       plot(of, style, trajectories_[t].name);
     }
   }
@@ -239,8 +247,8 @@ PlanarEllipse two_sigma_ellipse(const PoseEstimate& belief) {
 
 FigureSheet trajectory_figure(const OccupancyGrid& grid,
                               std::span<const DrawnTrajectory> trajectories,
-                              const TrajectoryNotes& notes) {
-  return TrajectoryFigure(grid, trajectories, notes).finish();
+                              const TrajectoryNotes& notes, const FigureStyle& style) {
+  return TrajectoryFigure(grid, trajectories, notes, style).finish();
 }
 
 }  // namespace mapscore::eval

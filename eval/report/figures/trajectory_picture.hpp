@@ -49,6 +49,7 @@ struct PlanarEllipse {
 /// nothing to draw, or a point or covariance is not finite.
 [[nodiscard]] FigureSheet trajectory_figure(const OccupancyGrid& grid,
                                             std::span<const DrawnTrajectory> trajectories,
-                                            const TrajectoryNotes& notes);
+                                            const TrajectoryNotes& notes,
+                                            const FigureStyle& style = {});
 
 }  // namespace mapscore::eval

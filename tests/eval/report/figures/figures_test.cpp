@@ -34,7 +34,7 @@ using testing::synthetic_study;
 using testing::synthetic_summary;
 using testing::text_of;
 
-constexpr std::size_t kSheets = 10;  // files that a study of one axis gets
+constexpr std::size_t kSheets = 15;  // files that a study of one axis gets
 
 // Erosion at 20 mm (cell 1): cups 0.06 + 0.02 = 0.08 false at seed 0 and 0.09 at seed 1, chairs
 // 0.04 more: of 200 predicted 20 and 22 are false, so precision is 0.9, 0.89, and 0.895 pooled. Its
@@ -156,7 +156,7 @@ TEST_F(FiguresTest, WithoutASweepAllMethodsShareAPanelOverTheThreshold) {
   EXPECT_THAT(block(sheet.data, "# erosion; at the working threshold"), ElementsAre("0.85 0.92"));
 }
 
-TEST_F(FiguresTest, DrawsPngAndPdfWithScriptAndDataBeside) {
+TEST_F(FiguresTest, DrawsPngPdfAndSvgWithScriptAndDataBeside) {
   const std::vector<fs::path> files = draw_figures(one_axis(), folder_);
   ASSERT_EQ(files.size(), kSheets);
   for (const fs::path& file : files) {
@@ -165,6 +165,9 @@ TEST_F(FiguresTest, DrawsPngAndPdfWithScriptAndDataBeside) {
     if (file.extension() == ".pdf") {
       EXPECT_EQ(bytes.substr(0, 5), "%PDF-");
       EXPECT_GT(bytes.size(), 5000u);
+    } else if (file.extension() == ".svg") {
+      EXPECT_THAT(bytes, HasSubstr("<svg"));
+      EXPECT_THAT(bytes, ::testing::EndsWith("</svg>\n\n"));
     } else {
       const cv::Mat image = cv::imread(file.string());
       EXPECT_GE(image.cols, 1000);
@@ -181,7 +184,8 @@ TEST_F(FiguresTest, DrawsPngAndPdfWithScriptAndDataBeside) {
 TEST_F(FiguresTest, SameStudySameDataAndScript) {
   const StudySummary summary = one_axis();
   for (const char* run : {"a", "b"}) static_cast<void>(draw_figures(summary, folder_ / run));
-  for (const char* file : {"accuracy_by_dose.gp", "accuracy_by_dose.dat", "accuracy_by_dose.png"})
+  for (const char* file : {"accuracy_by_dose.gp", "accuracy_by_dose.dat", "accuracy_by_dose.png",
+                           "accuracy_by_dose.svg"})
     EXPECT_EQ(text_of(folder_ / "a" / file), text_of(folder_ / "b" / file)) << file;
 }
 
@@ -214,7 +218,7 @@ TEST_F(FiguresTest, MethodsThatMapNothingAreDrawnAndNamed) {
       line.pooled = Counts(4);
       for (TrialResult& result : line.results) result.counts = Counts(4);
     }
-    EXPECT_GE(draw_figures(summary, folder_).size(), 8u);
+    EXPECT_GE(draw_figures(summary, folder_).size(), 12u);
     const FigureSheet sheet = accuracy_figure(summary, StudyLayout(summary));
     EXPECT_THAT(sheet.caption, HasSubstr(" direct maps nothing."));
   }

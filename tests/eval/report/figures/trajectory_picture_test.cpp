@@ -152,7 +152,7 @@ TEST(TrajectoryFigure, DrawsNorthUpInTheColoursOfTheGrid) {
   const std::vector<DrawnTrajectory> one{{"truth", {{0.75, 0.75}, {3.25, 0.75}}, {}}};
   const auto files =
       draw(trajectory_figure(grid, one, {"drive", "", "", {}}), folder.path() / "new");
-  ASSERT_EQ(files.size(), 2u);
+  ASSERT_EQ(files.size(), 3u);
   EXPECT_EQ(files[0].filename(), "drive.png");
   const cv::Mat3b picture = cv::imread(files[0].string());
   cv::Mat1b dark;
