@@ -118,7 +118,7 @@ FigureSheet tolerance_figure(const Study& study, const ToleranceAim& aim,
     SearchMarks(sheet, sheet.panels[panel->second], row, colour->second).add();
   }
   sheet.columns = static_cast<int>(std::min<std::size_t>(3, sheet.panels.size()));
-  sheet.panel_width_in = panel_width_in(sheet.columns);
+  sheet.panel_width_in = sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in);
   sheet.add_legend("lines lw 0.8 dt (4,3) lc rgb '#444444'", "target");
   sheet.caption = fmt::format(
       "{}: largest dose at which {}, voxels of {:.6g} cm. Points: trials, each of its own seed; "
