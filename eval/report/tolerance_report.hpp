@@ -38,7 +38,7 @@ struct ToleranceRow {
 /// figures; open is a side that the trials do not bound.
 [[nodiscard]] std::string text_of(const ToleranceRow& row);
 
-/// A row an answer: for people (Figures::rounded) with text_of, for programs with path, dose and
+/// A row an answer: for people with text_of, for programs with path, dose and
 /// ends of the interval in the unit of figures by themselves.
 [[nodiscard]] Table tolerance_table(const Study& study, const ToleranceAim& aim,
                                     const std::vector<ToleranceRow>& rows, bool for_people);

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/tolerance_report.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mapscore::eval {
+namespace {
+
+ToleranceRow row_of(ToleranceVerdict verdict, std::optional<double> dose, std::optional<double> low,
+                    std::optional<double> high) {
+  constexpr const char* kPath = "faults.misregistration.magnitude_m";
+  ToleranceRow row{kPath, figure_axis(field_of(Study{}, kPath), {"1"}), "direct", "pooled", {}, {},
+                   {}};
+  row.search = {0.0, 0.04, 0.8, 42};
+  row.tolerance.verdict = verdict;
+  row.tolerance.dose = dose;
+  row.tolerance.low = low;
+  row.tolerance.high = high;
+  row.tolerance.trials = 42;
+  return row;
+}
+
+TEST(ToleranceReport, SaysDosesInTheUnitOfFigures) {
+  using enum ToleranceVerdict;
+  EXPECT_EQ(text_of(row_of(found, 0.00712, 0.00641, 0.00789)), "7.12 mm [6.41, 7.89]");
+  EXPECT_EQ(text_of(row_of(found, 0.02, std::nullopt, 0.021)), "20 mm [open, 21]");
+  EXPECT_EQ(text_of(row_of(open, std::nullopt, 0.018, std::nullopt)), "- [18, open]");
+  EXPECT_EQ(text_of(row_of(above, std::nullopt, 0.04, std::nullopt)), "> 40 mm");
+  EXPECT_EQ(text_of(row_of(below, std::nullopt, std::nullopt, 0.0)), "< 0 mm");
+  EXPECT_EQ(text_of(row_of(not_monotone, std::nullopt, 0.01, 0.02)), "-");
+}
+
+TEST(ToleranceReport, ForProgramsHasPathUnitAndNineDigits) {
+  ToleranceAim aim;
+  aim.target = 0.8;
+  Study study;
+  study.name = "demo";
+  const std::vector<ToleranceRow> rows{
+      row_of(ToleranceVerdict::found, 0.0071234, 0.0064, std::nullopt)};
+  EXPECT_EQ(
+      to_csv(tolerance_table(study, aim, rows, false)),
+      "fault,method,group,path,unit,dose,low,high,verdict,trials,undefined\n"
+      "misregistration,direct,pooled,faults.misregistration.magnitude_m,mm,7.1234,6.4,-,found,"
+      "42,0\n");
+  EXPECT_EQ(aim.text(), "f1 >= 0.8");
+  aim.target.reset();
+  EXPECT_EQ(aim.text(), "f1 loses at most 0.05");
+}
+
+}  // namespace
+}  // namespace mapscore::eval
