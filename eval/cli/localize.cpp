@@ -152,8 +152,8 @@ void add_localize(CLI::App& program) {
       ->allow_extra_args(false);
   verb->add_flag("-q,--quiet", flags->quiet, "No progress");
   verb->footer(
-      "Writes grid.yaml and .pgm, localization.txt and trajectory_on_grid.png and .pdf (first "
-      "seed), and\n"
+      "Writes grid.yaml and .pgm, localization.txt and trajectory_on_grid.png, .pdf and .svg "
+      "(first seed), and\n"
       "localization.csv (errors by frame, all seeds); prints the errors after convergence\n"
       "(docs/metrics.md).\n"
       "Examples:\n"

@@ -44,8 +44,8 @@ const std::array<Side, 2> kSides{
 
 /// Of the causes of a side without colours.
 constexpr std::array<const char*, 3> kGreys{"#404040", "#A0A0A0", "#E8E8E8"};
-/// Height of a line of the second axis' value over that of the highest bar below it.
-constexpr double kHeadRow = 0.15;
+/// Height of a line of the second axis' value over that of the lowest panel.
+constexpr double kHeadRow = 0.135;
 
 std::string hex_of(const Colour& colour) {
   return fmt::format("#{:02X}{:02X}{:02X}", colour.r, colour.g, colour.b);
@@ -104,7 +104,7 @@ class CauseFigure {
   /// One scale for all panels of a side.
   [[nodiscard]] std::string y_settings(double greatest) const {
     double headroom = layout_.columns().size() > 1 ? 1.2 : 1.02;  // for the label inside
-    if (sheet_.style.width_mm) headroom = std::max(headroom, 1.07 + kHeadRow * head_rows_);
+    if (sheet_.style.width_mm) headroom = std::max(headroom, 1.0 / (0.93 - kHeadRow * head_rows_));
     const double top =
         std::clamp(std::ceil(20.0 * headroom * greatest) / 20.0, 0.05, std::max(1.2, headroom));
     return fmt::format("set yrange [0:{:.2f}]; set ytics {}", top,
@@ -120,9 +120,9 @@ class CauseFigure {
   [[nodiscard]] std::string head_label(std::string head) {
     const double font_pt = sheet_.style.small_pt();
     if (sheet_.style.width_mm) {
-      const auto lines = wrapped(head, 0.95 * sheet_.panel_width_in, font_pt);
+      const auto lines = wrapped(head, sheet_.panel_width_in + kGap_in / 2, font_pt);
       head = fmt::to_string(fmt::join(lines, "\n"));
-      head_rows_ = std::max(head_rows_, static_cast<double>(lines.size()));
+      head_rows_ = std::clamp(static_cast<double>(lines.size()), head_rows_, 4.0);
     }
     return fmt::format("set label 1 {} at graph 0.03,0.93 left font ',{}'", gnuplot_quoted(head),
                        font_pt);

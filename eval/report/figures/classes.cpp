@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kClassesShown = 12;
 constexpr double kGroup = 0.8;      ///< width of a group of bars; groups are 1 apart
 constexpr double kBarShare = 0.92;  ///< of a bar's place in its group
-constexpr double kClassHeight_in = 1.45, kLeastClasses_in = 2.0;
+constexpr double kClassHeight_in = 1.45, kLeastBar_in = 0.05;
 
 struct Score {
   const char *metric, *title;
@@ -69,7 +69,8 @@ class ClassBars {
     sheet_.name = "by_class_by_" + named_.key;
     sheet_.columns = static_cast<int>(kScores.size());
     sheet_.style = style;
-    sheet_.least_panel_in = kLeastClasses_in;
+    sheet_.least_panel_in = std::max(
+        kLeastPanel_in, kLeastBar_in * static_cast<double>(classes_.size() * named_.values.size()));
     sheet_.panel_width_in = style.panel_width_in(sheet_.columns, sheet_.least_panel_in);
     sheet_.panel_height_in = kClassHeight_in;
   }
