@@ -10,7 +10,7 @@ option(MAPSCORE_PRECOMPILE "Compile common headers once (GCC)" ON)
 # mapscore_use_precompiled(TARGET NAME). Where there is no precompiling, targets get the options alone.
 function(mapscore_precompiled_headers name)
   cmake_parse_arguments(arg "" "" "OPTIONS;LIBRARIES;HEADERS" ${ARGN})
-  file(WRITE ${CMAKE_BINARY_DIR}/precompiled/${name}.cpp "")
+  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled/${name}.cpp CONTENT "")  # stays as it is when it is there
   add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/precompiled/${name}.cpp)
   target_link_libraries(${name} PRIVATE mapscore_options ${arg_LIBRARIES})
   target_compile_options(${name} PUBLIC ${arg_OPTIONS})
