@@ -100,11 +100,15 @@ DoseFocus refined(const ToleranceSearch& search, const DoseFocus& focus, const P
     const Crossing& of_step = window.step->crossing;
     return {0.5 * (*of_step.low + *of_step.high), std::max(least, *of_step.high - *of_step.low)};
   }
-  if (window.bent)
-    return {falling_root(search, points), std::max(least, kCloser * focus.half_width)};
-  const DoseCurve line(window.points, 1), curve(window.points, kDoseDegree);
+  const DoseCurve curve(window.points, kDoseDegree);
+  const bool may_cross = std::ranges::any_of(window.points, [&](const DosePoint& point) {
+    return std::abs(curve.at(point.dose) - search.target) <= curve.half_width(point.dose);
+  });
   const double first = window.points.front().dose, last = window.points.back().dose;
   const auto root = curve_crossing(curve, search.target, first, last).dose;
+  if (window.bent || (!root && !may_cross))
+    return {falling_root(search, points), std::max(least, kCloser * focus.half_width)};
+  const DoseCurve line(window.points, 1);
   const double slope = root ? curve.slope(*root) : line.slope(first);
   if (slope >= 0.0) return focus;
   const double centre = root.value_or(first + (search.target - line.at(first)) / slope);

@@ -39,8 +39,9 @@ struct DoseWindow {
 [[nodiscard]] DoseWindow window_about(const DoseFocus& focus, const std::vector<DosePoint>& points,
                                       double target);
 
-/// The focus after a further stage, by all points so far: closer where the window is bent, else as
-/// wide as the scatter asks for.
+/// The focus after a further stage, by all points so far: as wide as the scatter asks for;
+/// closer to where the points cross the target when the window's curve does not hold or surely does
+/// not cross it.
 [[nodiscard]] DoseFocus refined(const ToleranceSearch& search, const DoseFocus& focus,
                                 const std::vector<DosePoint>& points);
 

@@ -118,6 +118,8 @@ FigureSheet tolerance_figure(const Study& study, const ToleranceAim& aim,
     SearchMarks(sheet, sheet.panels[panel->second], row, colour->second).add();
   }
   sheet.columns = static_cast<int>(std::min<std::size_t>(3, sheet.panels.size()));
+  for (std::size_t n = 0; n < sheet.panels.size(); ++n)
+    if (n % static_cast<std::size_t>(sheet.columns) != 0) sheet.panels[n].y_label.clear();
   sheet.panel_width_in = sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in);
   sheet.add_legend("lines lw 0.8 dt (4,3) lc rgb '#444444'", "target");
   sheet.caption = fmt::format(

@@ -87,6 +87,24 @@ TEST(ToleranceSearch, IsRepeatableAndAsksForAFreshTrialEachTime) {
   EXPECT_DOUBLE_EQ(fine.back(), 7.0);
 }
 
+TEST(ToleranceSearch, FindsTheFirstStepOfAStaircaseWithoutNoise) {
+  // A time offset acts in steps of the depth camera's frames.
+  const ToleranceSearch search{0.0, 300.0, -0.05, 42};
+  std::vector<DoseTrial> trials;
+  for (;;) {
+    const std::vector<double> doses = next_doses(search, trials);
+    if (doses.empty()) break;
+    for (const double dose : doses)
+      trials.push_back({dose, -0.2 * std::sqrt(std::round(dose / 14.3))});
+  }
+  const Tolerance of = tolerance_of(search, trials);
+  EXPECT_EQ(of.verdict, ToleranceVerdict::found);
+  EXPECT_TRUE(of.step);
+  EXPECT_LE(of.low.value(), 7.15);
+  EXPECT_GE(of.high.value(), 7.15);
+  EXPECT_LT(*of.high - *of.low, 5.0);
+}
+
 TEST(ToleranceSearch, ScoresThatAreUndefinedAreCountedAndEndTheSearch) {
   const ToleranceSearch search{0.0, 11.0, 0.5, 42};
   std::vector<DoseTrial> trials;
