@@ -54,32 +54,41 @@ class Strand {
 
   /// Scores the maps and lets go of them: done(task, result) for each trial.
   void finish(const auto& done, const auto& failed) {
-    each(failed, [&](Trial& trial) {
-      trial.result = trial.run->finish();
-      trial.run.reset();
-    });
-    for (const Trial& trial : std::exchange(trials_, {})) done(*trial.task, trial.result);
+    TrialResult result;
+    each(
+        failed,
+        [&](Trial& trial) {
+          result = trial.run->finish();
+          trial.run.reset();
+        },
+        [&](const Trial& trial) { done(*trial.task, result); });
+    trials_.clear();
   }
 
  private:
   struct Trial {
     std::unique_ptr<const Task> task;
     std::unique_ptr<TrialRun> run;
-    TrialResult result = {};
   };
 
-  void each(const auto& failed, const auto& work) {
+  /// work(trial) of each trial, and then(trial) where it did not throw; what `then` throws is not
+  /// the trial's failure.
+  void each(const auto& failed, const auto& work, const auto& then) {
     std::erase_if(trials_, [&](Trial& trial) {
       try {
         work(trial);
-        return false;
       } catch (const std::bad_alloc&) {
         throw;  // not this trial's fault
       } catch (const std::exception& error) {
         failed(*trial.task, error.what());
         return true;
       }
+      then(trial);
+      return false;
     });
+  }
+  void each(const auto& failed, const auto& work) {
+    each(failed, work, [](const Trial&) {});
   }
 
   std::vector<std::size_t> positions_;
