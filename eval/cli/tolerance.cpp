@@ -9,6 +9,7 @@
 #include "eval/cli/verbs.hpp"
 #include "eval/render/replay_check.hpp"
 #include "eval/render/study_recording.hpp"
+#include "eval/report/figures/frontier_figure.hpp"
 #include "eval/report/figures/tolerance_figure.hpp"
 #include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"
@@ -16,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 
 namespace mapscore::eval {
@@ -26,9 +28,17 @@ struct ToleranceFlags {
   WorkFlags work;
   ToleranceAim aim;
   ToleranceChoice choice;
-  std::string format = "text", figure;
+  std::string reference, format = "text", figure;
   bool yes = false;
 };
+
+/// The method whose tolerances the others' are compared with: the first searched, if none is named.
+std::string reference_method(const std::string& named, const std::vector<ToleranceRow>& rows) {
+  if (named.empty()) return rows.front().method;
+  if (std::ranges::find(rows, named, &ToleranceRow::method) == rows.end())
+    throw Error("--reference " + named + ": is not among the methods that are searched");
+  return named;
+}
 
 void tolerance(const ToleranceFlags& flags) {
   const Study study = flags.study.load();
@@ -39,6 +49,7 @@ void tolerance(const ToleranceFlags& flags) {
     std::cerr << "tolerance: " << note << '\n';
   const ClassTable table = detected_table(study, recording.info().table);
   std::vector<ToleranceRow> rows = tolerance_searches(study, table, flags.aim, flags.choice);
+  const std::string reference = reference_method(flags.reference, rows);
   check_truth_size(study, recording, rows.size() * static_cast<std::size_t>(flags.aim.trials),
                    flags.yes);
 
@@ -50,10 +61,14 @@ void tolerance(const ToleranceFlags& flags) {
                              cost.computed, cost.reused, shown(results / "results.sqlite"));
   if (!flags.figure.empty()) {
     const FolderLock lock(flags.figure);
-    for (const auto& file : draw(tolerance_figure(study, flags.aim, rows), flags.figure))
+    const FigureSheet sheet = flags.choice.against.empty()
+                                  ? tolerance_figure(study, flags.aim, rows)
+                                  : frontier_figure(study, flags.aim, rows);
+    for (const auto& file : draw(sheet, flags.figure))
       std::cerr << "tolerance: " << shown(file) << '\n';
   }
-  std::cout << formatted(tolerance_table(study, flags.aim, rows, flags.format == "text"),
+  const bool for_programs = flags.format == "csv" || flags.format == "json";
+  std::cout << formatted(tolerance_table(study, flags.aim, reference, rows, !for_programs),
                          flags.format);
 }
 
@@ -70,6 +85,12 @@ void add_aim(CLI::App& verb, ToleranceFlags& flags) {
       ->allow_extra_args(false);
   verb.add_option("--method", flags.choice.methods, "May be repeated [all]")
       ->allow_extra_args(false);
+  verb.add_option("--reference", flags.reference,
+                  "Method whose tolerances the others' are compared with, paired by seed [first]");
+  verb.add_option("--against", flags.choice.against,
+                  fmt::format("Swept path of a second fault: the tolerances under each of its "
+                              "doses ({} over a range of two)",
+                              kFrontierDoses));
   verb.add_option("--group", flags.choice.groups,
                   "pooled, macro, a detected class, or all of these; may be repeated [pooled]")
       ->allow_extra_args(false);
@@ -90,7 +111,8 @@ void add_tolerance(CLI::App& program) {
   add_aim(*verb, *flags);
   add_format_flag(*verb, flags->format);
   verb->add_option("--figure", flags->figure,
-                   "Folder for tolerance.png and .pdf, with script and numbers");
+                   "Folder for tolerance.png and .pdf (frontier.png with --against), with script "
+                   "and numbers");
   verb->footer(
       "Each swept path of the study is searched by itself, between its least and its greatest\n"
       "value, the others as the study has them. Trials go into the results folder and are never\n"
@@ -100,7 +122,9 @@ void add_tolerance(CLI::App& program) {
       "  mapscore tolerance configs/demo.yaml --target 0.8 --figure results/demo/figures\n"
       "  mapscore tolerance configs/tolerance.yaml --fault faults.time_offset_ms --format csv\n"
       "  mapscore tolerance configs/demo.yaml --set "
-      "sweep.faults.mount.magnitude_m=[0,0.1] --group all");
+      "sweep.faults.mount.magnitude_m=[0,0.1] --group all\n"
+      "  mapscore tolerance configs/tolerance.yaml --fault faults.misregistration.angle_deg "
+      "--against faults.pose.sigma_xy_m --figure FOLDER");
 }
 
 }  // namespace mapscore::eval

@@ -6,17 +6,35 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
 
-std::string in_unit(const ToleranceRow& row, const std::optional<double>& dose,
-                    std::string (*text)(const std::optional<double>&)) {
-  return text(dose ? std::optional(*dose * row.axis.at.front()) : std::nullopt);
+std::optional<double> in_unit(const ToleranceRow& row, const std::optional<double>& dose) {
+  return dose ? std::optional(*dose * row.axis.at.front()) : std::nullopt;
 }
 
-std::string three_digits(const std::optional<double>& value) {
-  return cell_text(value, "{:.3g}");
+/// Dose and interval; `format`: of the dose.
+std::string text_of(const ToleranceRow& row, const Crossing& of, const char* format) {
+  const std::string unit = row.axis.unit.empty() ? "" : " " + row.axis.unit;
+  const auto end = [&](const std::optional<double>& dose) {
+    return dose ? cell_text(in_unit(row, dose), "{:.3g}") : "open";
+  };
+  return fmt::format("{}{} [{}, {}]", cell_text(in_unit(row, of.dose), format), of.dose ? unit : "",
+                     end(of.low), end(of.high));
+}
+
+/// The row of the method `reference` for the same fault and group; none where it is this row.
+const ToleranceRow* reference_of(const ToleranceRow& row, const std::string& reference,
+                                 const std::vector<ToleranceRow>& rows) {
+  const auto second = [](const ToleranceRow& of) { return of.second ? of.second->value : ""; };
+  const auto at = std::ranges::find_if(rows, [&](const ToleranceRow& other) {
+    return other.method == reference && other.path == row.path && other.group == row.group &&
+           second(other) == second(row);
+  });
+  return row.method == reference || at == rows.end() ? nullptr : &*at;
 }
 
 }  // namespace
@@ -29,43 +47,73 @@ std::string ToleranceAim::text() const {
 std::string text_of(const ToleranceRow& row) {
   const Tolerance& of = row.tolerance;
   const std::string unit = row.axis.unit.empty() ? "" : " " + row.axis.unit;
-  const auto end = [&](const std::optional<double>& dose) {
-    return dose ? in_unit(row, dose, three_digits) : "open";
-  };
-  if (of.verdict == ToleranceVerdict::above) return "> " + end(row.search.high) + unit;
-  if (of.verdict == ToleranceVerdict::below) return "< " + end(row.search.low) + unit;
+  const auto end = [&](double dose) { return cell_text(in_unit(row, dose), "{:.3g}") + unit; };
+  if (of.verdict == ToleranceVerdict::above) return "> " + end(row.search.high);
+  if (of.verdict == ToleranceVerdict::below) return "< " + end(row.search.low);
   if (of.verdict == ToleranceVerdict::not_monotone || of.verdict == ToleranceVerdict::undefined)
     return "-";
-  return fmt::format("{}{} [{}, {}]", in_unit(row, of.dose, three_digits), of.dose ? unit : "",
-                     end(of.low), end(of.high));
+  return text_of(row, {of.dose, of.low, of.high}, "{:.3g}");
 }
 
-Table tolerance_table(const Study& study, const ToleranceAim& aim,
+std::string difference_text(const ToleranceRow& row, const ToleranceRow& from) {
+  const Crossing of = difference_of(row.tolerance, from.tolerance);
+  if (!of.dose && !of.low && !of.high) return "-";
+  return text_of(row, of, "{:+.3g}");
+}
+
+Table tolerance_table(const Study& study, const ToleranceAim& aim, const std::string& reference,
                       const std::vector<ToleranceRow>& rows, bool for_people) {
+  const auto from = [&](const ToleranceRow& row) { return reference_of(row, reference, rows); };
+  const auto number = [](const ToleranceRow& row, const std::optional<double>& dose) {
+    return nine_digits(in_unit(row, dose));
+  };
+  const auto difference = [&](const ToleranceRow& row) {
+    return from(row) ? difference_of(row.tolerance, from(row)->tolerance) : Crossing{};
+  };
+  const bool has_second = !rows.empty() && rows.front().second.has_value();
+  const bool has_difference = std::ranges::any_of(rows, from);
+
+  using Row = const ToleranceRow&;
+  std::vector<std::pair<std::string, std::function<std::string(Row)>>> columns;
+  columns.emplace_back("fault", [](Row row) { return row.axis.name; });
+  if (has_second) columns.emplace_back("at", [](Row row) { return row.second->axis.text(0); });
+  columns.emplace_back("method", [](Row row) { return row.method; });
+  columns.emplace_back("group", [](Row row) { return row.group; });
+  if (for_people) {
+    columns.emplace_back("tolerance", [](Row row) { return text_of(row); });
+    if (has_difference)
+      columns.emplace_back("less " + reference, [&](Row row) {
+        return from(row) ? difference_text(row, *from(row)) : "";
+      });
+  } else {
+    columns.emplace_back("path", [](Row row) { return row.path; });
+    columns.emplace_back("unit", [](Row row) { return row.axis.unit; });
+    columns.emplace_back("dose", [&](Row row) { return number(row, row.tolerance.dose); });
+    columns.emplace_back("low", [&](Row row) { return number(row, row.tolerance.low); });
+    columns.emplace_back("high", [&](Row row) { return number(row, row.tolerance.high); });
+    columns.emplace_back("reference", [&](Row row) { return from(row) ? reference : ""; });
+    columns.emplace_back("difference", [&](Row row) { return number(row, difference(row).dose); });
+    columns.emplace_back("difference_low",
+                         [&](Row row) { return number(row, difference(row).low); });
+    columns.emplace_back("difference_high",
+                         [&](Row row) { return number(row, difference(row).high); });
+  }
+  columns.emplace_back("verdict",
+                       [](Row row) { return std::string(name_of(row.tolerance.verdict)); });
+  columns.emplace_back("trials", [](Row row) { return std::to_string(row.tolerance.trials); });
+  columns.emplace_back("undefined",
+                       [](Row row) { return std::to_string(row.tolerance.undefined); });
+
   Table table;
   table.caption = {
       fmt::format("{}: largest dose at which {}, with its 95 % interval; voxels of {} m",
                   study.name, aim.text(), study.voxel_m),
       "found: crosses within the range; above, below: keeps it, misses it over the whole range; "
       "open: the trials do not tell where; not monotone: crosses it more than once"};
-  table.columns = {"fault", "method", "group"};
-  if (for_people)
-    table.columns.push_back("tolerance");
-  else
-    table.columns.insert(table.columns.end(), {"path", "unit", "dose", "low", "high"});
-  table.columns.insert(table.columns.end(), {"verdict", "trials", "undefined"});
-  for (const ToleranceRow& row : rows) {
-    const Tolerance& of = row.tolerance;
-    std::vector<std::string> cells{row.axis.name, row.method, row.group};
-    if (for_people)
-      cells.push_back(text_of(row));
-    else
-      cells.insert(cells.end(),
-                   {row.path, row.axis.unit, in_unit(row, of.dose, nine_digits),
-                    in_unit(row, of.low, nine_digits), in_unit(row, of.high, nine_digits)});
-    cells.insert(cells.end(), {std::string(name_of(of.verdict)), std::to_string(of.trials),
-                               std::to_string(of.undefined)});
-    table.rows.push_back(std::move(cells));
+  for (const auto& [name, text] : columns) table.columns.push_back(name);
+  for (Row row : rows) {
+    auto& cells = table.rows.emplace_back();
+    for (const auto& [name, text] : columns) cells.push_back(text(row));
   }
   return table;
 }

@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mapscore::eval {
@@ -24,10 +25,17 @@ struct ToleranceAim {
   [[nodiscard]] std::string text() const;
 };
 
+/// A dose of a second fault under which the first is searched.
+struct SecondFault {
+  std::string path, value;  ///< leaf and canonical value
+  FigureAxis axis;          ///< `at` and `values` hold that one value in the unit of figures
+};
+
 /// The answer for one fault, method and class group.
 struct ToleranceRow {
   std::string path;  ///< of the fault's leaf
   FigureAxis axis;   ///< its name and unit; `at` holds one value, what 1 of the leaf is in `unit`
+  std::optional<SecondFault> second;
   std::string method, group;
   ToleranceSearch search;         ///< in the unit of the leaf
   std::vector<DoseTrial> trials;  ///< scores, or without a target their change from the least dose
@@ -38,9 +46,15 @@ struct ToleranceRow {
 /// figures; open is a side that the trials do not bound.
 [[nodiscard]] std::string text_of(const ToleranceRow& row);
 
-/// A row an answer: for people with text_of, for programs with path, dose and
-/// ends of the interval in the unit of figures by themselves.
+/// "+7.1 mm [6.4, 7.9]", "> 18 mm", "- [open, 3]": how much larger the first tolerance is, paired
+/// by seed.
+[[nodiscard]] std::string difference_text(const ToleranceRow& row, const ToleranceRow& from);
+
+/// A row an answer, with its difference from that of the method `reference` for the same fault and
+/// group: for people with text_of and difference_text, for programs with path, doses and ends of
+/// the intervals in the unit of figures by themselves.
 [[nodiscard]] Table tolerance_table(const Study& study, const ToleranceAim& aim,
+                                    const std::string& reference,
                                     const std::vector<ToleranceRow>& rows, bool for_people);
 
 }  // namespace mapscore::eval

@@ -95,8 +95,11 @@ double DoseCurve::slope(double dose) const {
 }
 
 double DoseCurve::half_width(double dose) const {
-  const Eigen::VectorXd of_dose = powers(dose);
-  return t_ * residual_sd_ * std::sqrt(of_dose.dot(unit_covariance_ * of_dose));
+  return t_ * residual_sd_ * std::sqrt(influence(dose, dose));
+}
+
+double DoseCurve::influence(double of, double dose) const {
+  return powers(of).dot(unit_covariance_ * powers(dose));
 }
 
 double DoseCurve::p_of_highest() const {

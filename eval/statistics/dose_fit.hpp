@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,6 +14,7 @@ namespace mapscore::eval {
 /// A score at a dose, of one trial.
 struct DosePoint {
   double dose = 0.0, score = 0.0;
+  std::size_t trial = 0;  ///< position in the list of trials
   bool operator==(const DosePoint&) const = default;
 };
 
@@ -26,6 +28,8 @@ class DoseCurve {
   [[nodiscard]] double slope(double dose) const;
   /// Half of the 95 % interval of the mean score at a dose (Student t).
   [[nodiscard]] double half_width(double dose) const;
+  /// What a score at the dose `of` that is higher by 1 raises the curve at `dose` by.
+  [[nodiscard]] double influence(double of, double dose) const;
   [[nodiscard]] double residual_sd() const { return residual_sd_; }
   [[nodiscard]] double rss() const { return residual_sd_ * residual_sd_ * degrees_; }
   /// Two-sided p of Student t that the coefficient of the highest power is 0.

@@ -15,7 +15,8 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr double kDoubtDeviations = 2.0;  ///< beyond the target that raise doubt
+constexpr double kDoubtDeviations = 2.0;  ///< standard errors beyond the target that raise doubt
+constexpr std::size_t kDoubtRun = 4;      ///< neighbouring trials that may raise it together
 constexpr std::size_t kLeastRepeats = 4;  ///< at an end of the range, to tell its side
 constexpr double kDoubtLevel = 0.02;      ///< at which doubt is confirmed, one-sided
 
@@ -47,8 +48,8 @@ std::size_t trials_before(const ToleranceSearch& search, int stage) {
 /// Those with a score, by dose.
 Points points_of(std::span<const DoseTrial> trials) {
   Points points;
-  for (const DoseTrial& trial : trials)
-    if (trial.score) points.push_back({trial.dose, *trial.score});
+  for (std::size_t n = 0; n < trials.size(); ++n)
+    if (trials[n].score) points.push_back({trials[n].dose, *trials[n].score, n});
   std::ranges::stable_sort(points, {}, &DosePoint::dose);
   return points;
 }
@@ -68,9 +69,10 @@ DoseFocus focus_after(const ToleranceSearch& search, std::span<const DoseTrial> 
   return focus;
 }
 
-/// By a curve whose window reaches from first to last.
+/// By a curve through the tolerance's points.
 void read_curve(const ToleranceSearch& search, const DoseCurve& curve, Tolerance& tolerance) {
-  const double target = search.target, first = tolerance.first, last = tolerance.last;
+  const double target = search.target;
+  const double first = tolerance.points.front().dose, last = tolerance.points.back().dose;
   const Crossing crossing = curve_crossing(curve, target, first, last);
   if (crossing.dose) {
     tolerance.low = crossing.low;
@@ -87,22 +89,31 @@ void read_curve(const ToleranceSearch& search, const DoseCurve& curve, Tolerance
   }
 }
 
-/// The dose of a trial beyond the interval whose score is on the wrong side of the target, by the
-/// most; none where all are within chance.
+/// The dose beyond the interval at which neighbouring trials are most surely on the wrong side of
+/// the target: the middle of up to kDoubtRun of them whose mean is there by most of its standard
+/// errors; none where all are within chance.
 std::optional<double> doubtful_dose(const ToleranceSearch& search, const Tolerance& tolerance,
                                     const Points& points) {
   const double sd = tolerance.curve ? tolerance.curve->residual_sd()
                                     : 0.25 * (tolerance.step->above - tolerance.step->below);
+  const auto side_of = [&tolerance](double at) {  // of the interval; 0 within
+    if (tolerance.low && at < *tolerance.low) return -1.0;
+    return tolerance.high && at > *tolerance.high ? 1.0 : 0.0;
+  };
   double most = kDoubtDeviations * sd;
   std::optional<double> dose;
-  for (const DosePoint& point : points) {
-    const double missing = search.target - point.score;
-    double wrong = 0.0;
-    if (tolerance.low && point.dose < *tolerance.low) wrong = missing;
-    if (tolerance.high && point.dose > *tolerance.high) wrong = -missing;
-    if (wrong <= most) continue;
-    most = wrong;
-    dose = point.dose;
+  for (std::size_t first = 0; first < points.size(); ++first) {
+    double sum = 0.0;
+    const double side = side_of(points[first].dose);
+    for (std::size_t n = 0; n < kDoubtRun && first + n < points.size(); ++n) {
+      const DosePoint& point = points[first + n];
+      if (side == 0.0 || side_of(point.dose) != side) break;
+      sum += side * (point.score - search.target);
+      const double wrong = sum / std::sqrt(n + 1.0);
+      if (wrong <= most) continue;
+      most = wrong;
+      dose = points[first + n / 2].dose;
+    }
   }
   return dose;
 }
@@ -121,10 +132,9 @@ bool confirmed(const ToleranceSearch& search, const Tolerance& tolerance, const 
 
 /// By the points about the focus.
 Tolerance read_window(const ToleranceSearch& search, const DoseFocus& focus, const Points& all) {
-  const DoseWindow window = window_about(focus, all, search.target);
+  DoseWindow window = window_about(focus, all, search.target);
   Tolerance tolerance;
-  tolerance.first = window.points.front().dose;
-  tolerance.last = window.points.back().dose;
+  tolerance.points = std::move(window.points);
   tolerance.step = window.step;
   if (tolerance.step) {
     tolerance.verdict = ToleranceVerdict::found;
@@ -132,7 +142,7 @@ Tolerance read_window(const ToleranceSearch& search, const DoseFocus& focus, con
     tolerance.low = tolerance.step->crossing.low;
     tolerance.high = tolerance.step->crossing.high;
   } else {
-    tolerance.curve = DoseCurve(window.points, kDoseDegree);
+    tolerance.curve = DoseCurve(tolerance.points, kDoseDegree);
     read_curve(search, *tolerance.curve, tolerance);
   }
   return tolerance;
@@ -162,6 +172,26 @@ Tolerance read_stages(const ToleranceSearch& search, std::span<const DoseTrial> 
     tolerance.low = search.high;
   }
   return tolerance;
+}
+
+/// Of the errors of two tolerances that curves gave.
+double correlation_of(const Tolerance& a, const Tolerance& b) {
+  double residuals_a = 0.0, residuals_b = 0.0, residuals = 0.0;  // sums of products, shared trials
+  double influences = 0.0;
+  for (const DosePoint& of_a : a.points) {
+    const auto of_b = std::ranges::find(b.points, of_a.trial, &DosePoint::trial);
+    if (of_b == b.points.end()) continue;
+    const double error_a = of_a.score - a.curve->at(of_a.dose);
+    const double error_b = of_b->score - b.curve->at(of_b->dose);
+    residuals_a += error_a * error_a;
+    residuals_b += error_b * error_b;
+    residuals += error_a * error_b;
+    influences += a.curve->influence(of_a.dose, *a.dose) * b.curve->influence(of_b->dose, *b.dose);
+  }
+  // The influence of a dose on itself is the sum of the squares of all influences on it.
+  const double scale = residuals_a * residuals_b * a.curve->influence(*a.dose, *a.dose) *
+                       b.curve->influence(*b.dose, *b.dose);
+  return scale > 0.0 ? residuals * influences / std::sqrt(scale) : 0.0;
 }
 
 }  // namespace
@@ -208,6 +238,27 @@ Tolerance tolerance_of(const ToleranceSearch& search, std::span<const DoseTrial>
     tolerance.verdict = ToleranceVerdict::not_monotone;
   if (tolerance.verdict != ToleranceVerdict::found) tolerance.dose.reset();
   return tolerance;
+}
+
+Crossing difference_of(const Tolerance& a, const Tolerance& b) {
+  Crossing difference;
+  if (a.verdict == ToleranceVerdict::not_monotone || b.verdict == ToleranceVerdict::not_monotone)
+    return difference;
+  if (!a.dose || !b.dose) {
+    if (a.low && b.high) difference.low = *a.low - *b.high;
+    if (a.high && b.low) difference.high = *a.high - *b.low;
+    return difference;
+  }
+  const double correlation = a.curve && b.curve ? correlation_of(a, b) : 0.0;
+  const auto joined = [correlation](double of_a, double of_b) {
+    return std::sqrt(of_a * of_a + of_b * of_b - 2.0 * correlation * of_a * of_b);
+  };
+  difference.dose = *a.dose - *b.dose;
+  if (a.low && b.high)
+    difference.low = *difference.dose - joined(*a.dose - *a.low, *b.high - *b.dose);
+  if (a.high && b.low)
+    difference.high = *difference.dose + joined(*a.high - *a.dose, *b.dose - *b.low);
+  return difference;
 }
 
 }  // namespace mapscore::eval

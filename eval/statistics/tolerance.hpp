@@ -59,10 +59,10 @@ struct Tolerance {
   ToleranceVerdict verdict = ToleranceVerdict::open;
   std::optional<double> dose;       ///< of `found` alone
   std::optional<double> low, high;  ///< 95 % interval; none: this side is open
-  std::optional<DoseCurve> curve;   ///< that it was read from, between the doses `first` and `last`
+  std::optional<DoseCurve> curve;   ///< that it was read from
   std::optional<DoseStep> step;     ///< in place of a curve
-  double first = 0.0, last = 0.0;
-  int trials = 0, undefined = 0;  ///< all that were made; those without a score
+  std::vector<DosePoint> points;    ///< through which these lead, by dose
+  int trials = 0, undefined = 0;    ///< all that were made; those without a score
 };
 
 /// Doses of the next stage after these trials; none when the search is over. The same trials give
@@ -73,5 +73,12 @@ struct Tolerance {
 /// What finished trials say. Throws Error as next_doses.
 [[nodiscard]] Tolerance tolerance_of(const ToleranceSearch& search,
                                      std::span<const DoseTrial> trials);
+
+/// The tolerance of `a` less that of `b`, of searches whose trial n has the same seed: the two
+/// intervals joined by the method of variance estimates recovery (Zou and Donner 2008, correlated),
+/// the correlation of the two errors being that of the residuals of equal seeds times that of their
+/// influences. Without both doses, what the ends of the intervals alone leave. Nothing where one is
+/// not monotone.
+[[nodiscard]] Crossing difference_of(const Tolerance& a, const Tolerance& b);
 
 }  // namespace mapscore::eval

@@ -28,5 +28,26 @@ BENCHMARK(ToleranceCoverage)
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 
+void ToleranceDifference(benchmark::State& state) {
+  const std::vector<KnownCurve> curves = known_curves();
+  const KnownCurve& a = curves.at(static_cast<std::size_t>(state.range(0)));
+  const KnownCurve& b = curves.at(static_cast<std::size_t>(state.range(1)));
+  PairCoverage coverage;
+  for (auto _ : state)
+    coverage = coverage_of_pairs(a, b, static_cast<double>(state.range(2)) / 100.0, 1000);
+  state.SetLabel(std::string(a.name) + " less " + b.name);
+  state.counters["coverage"] = coverage.share;
+  state.counters["half_width"] = coverage.half_width;
+  state.counters["if_unpaired"] = coverage.if_unpaired;
+}
+BENCHMARK(ToleranceDifference)
+    ->ArgNames({"a", "b", "common_percent"})
+    ->ArgsProduct({{0}, {1}, {0, 50, 90}})
+    ->ArgsProduct({{2}, {2, 3}, {0, 50, 90}})
+    ->ArgsProduct({{8, 9}, {2}, {0, 50, 90}})
+    ->ArgsProduct({{4}, {1}, {0, 50, 90}})
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+
 }  // namespace
 }  // namespace mapscore::eval

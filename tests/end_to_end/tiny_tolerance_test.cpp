@@ -42,6 +42,20 @@ TEST_F(TinyTolerance, MakesTheTrialsOfTheStudyAndNoCeilings) {
   EXPECT_THAT(sweep.err, HasSubstr("3 trials computed, 2 already there"));
 }
 
+TEST_F(TinyTolerance, DrawsTheFrontierOfTwoFaults) {
+  const Outcome frontier =
+      mapscore({"tolerance", study(), "-o", results(), "-q", "--trials", "24", "--method", "direct",
+                "--fault", "faults.misregistration.magnitude_m", "--against",
+                "faults.pose.sigma_xy_m", "--set",
+                "sweep={faults.misregistration.magnitude_m: [0, 0.3], faults.pose.sigma_xy_m: [0, "
+                "0.1, 0.2]}",
+                "--figure", path("figures")});
+  expect_done(frontier);
+  for (const char* at : {"x and y = 0 mm", "x and y = 100 mm", "x and y = 200 mm"})
+    EXPECT_THAT(frontier.out, HasSubstr(at));
+  EXPECT_TRUE(std::filesystem::exists(folder() / "figures" / "frontier.png"));
+}
+
 TEST_F(TinyTolerance, RefusesWhatCannotBeSearched) {
   const auto refused = [&](std::vector<std::string> flags, const std::vector<std::string>& words) {
     flags.insert(flags.begin(), {"tolerance", study(), "-o", results(), "-q"});
@@ -52,6 +66,8 @@ TEST_F(TinyTolerance, RefusesWhatCannotBeSearched) {
   refused({"--method", "guess"}, {"--method guess", "direct, erosion"});
   refused({"--group", "wall"}, {"--group wall", "pooled"});
   refused({"--metric", "f9"}, {"f9"});
+  refused({"--reference", "guess"}, {"--reference guess"});
+  refused({"--against", "faults.mount.magnitude_m"}, {"--against faults.mount", "misregistration"});
   refused({"--trials", "5"}, {"--trials", "24"});
   refused({"--set", "sweep={}"}, {"sweep", "--set"});
   refused({"--set", "sweep={faults.misregistration.magnitude_m: [0.01]}"}, {"no range", "least"});

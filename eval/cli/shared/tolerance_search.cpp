@@ -28,34 +28,62 @@ std::vector<std::string> chosen(const char* flag, const std::vector<std::string>
   return names.empty() ? known : names;
 }
 
-/// The study with one fault alone, at both ends of its range.
-Study with_range(Study study, const SweepAxis& axis) {
-  std::vector<double> values;
+/// The doses of a swept path, ascending.
+std::vector<double> doses_of(const SweepAxis& axis) {
+  std::vector<double> doses;
   for (const std::string& value : axis.values) {
     const std::optional<double> number = parse_real(value);
     if (!number)
       throw Error(fmt::format("sweep.{}: {} is no number; a tolerance is that of a dose", axis.path,
                               value));
-    values.push_back(*number);
+    doses.push_back(*number);
   }
-  const auto [least, most] = std::ranges::minmax_element(values);
-  if (*least == *most)
+  std::ranges::sort(doses);
+  if (doses.front() == doses.back())
     throw Error(fmt::format("sweep.{}: gives no range of doses; write its least and its greatest",
                             axis.path));
-  const auto text = [&](auto value) {
-    return axis.values[static_cast<std::size_t>(value - values.begin())];
-  };
-  study.sweep = {{axis.path, {text(least), text(most)}}};
-  check(study);
-  return study;
+  return doses;
 }
 
-/// A dose in a thousandth of the decade of the range, as a study file writes it.
-std::string dose_text(const ToleranceSearch& search, double dose) {
+/// A dose in a thousandth of the decade of the range, as the study's canonical text has it. Throws
+/// Error where the leaf takes whole numbers alone.
+std::string dose_text(Study study, const std::string& path, const ToleranceSearch& search,
+                      double dose) {
   const int decade = static_cast<int>(std::floor(std::log10(search.high - search.low)));
   const double step = std::pow(10.0, decade - 3);
   const double rounded = std::clamp(std::round(dose / step) * step, search.low, search.high);
-  return fmt::format("{:.{}f}", rounded, std::clamp(3 - decade, 0, 17));
+  set_leaf(study, path, fmt::format("{:.{}f}", rounded, std::clamp(3 - decade, 0, 17)));
+  return leaf_text(study, path);
+}
+
+/// Where the second fault stands: nothing without one.
+std::vector<std::optional<SecondFault>> second_faults(const Study& study, const std::string& path) {
+  if (path.empty()) return {std::nullopt};
+  const SweepAxis& axis = *std::ranges::find(study.sweep, path, &SweepAxis::path);
+  std::vector<double> doses = doses_of(axis);
+  const ToleranceSearch range{doses.front(), doses.back()};
+  if (doses.size() == 2) {
+    doses.clear();
+    for (int n = 0; n < kFrontierDoses; ++n)
+      doses.push_back(range.low + (range.high - range.low) * n / (kFrontierDoses - 1));
+  }
+  std::vector<std::optional<SecondFault>> faults;
+  for (const double dose : doses) {
+    const std::string text = dose_text(study, path, range, dose);
+    faults.push_back(SecondFault{path, text, figure_axis(field_of(study, path), {text})});
+  }
+  return faults;
+}
+
+/// Throws Error when the study may not have these faults without its other swept ones.
+void check_alone(Study study, const std::string& path, const ToleranceSearch& search,
+                 const std::vector<std::optional<SecondFault>>& seconds) {
+  study.sweep = {
+      {path,
+       {dose_text(study, path, search, search.low), dose_text(study, path, search, search.high)}}};
+  if (seconds.front())
+    study.sweep.push_back({seconds.front()->path, {seconds.front()->value, seconds.back()->value}});
+  check(study);
 }
 
 /// One score that a stage asks for.
@@ -72,10 +100,10 @@ class Stage {
     for (ToleranceRow& row : rows) {
       int seed = static_cast<int>(row.trials.size());
       for (const double asked : next_doses(row.search, row.trials)) {
-        const std::string dose = dose_of(study, row, asked);
-        const std::size_t trial = add(row, dose, seed);
-        const std::size_t reference =
-            aim.target ? trial : add(row, dose_of(study, row, row.search.low), seed);
+        const std::string dose = dose_text(study, row.path, row.search, asked);
+        const std::string second = row.second ? row.second->value : "";
+        const std::size_t trial = add(row, dose, second, seed);
+        const std::size_t reference = aim.target ? trial : add_reference(study, row, rows, seed);
         wanted_.push_back({&row, parse_real(dose).value(), trial, reference});
         ++seed;
       }
@@ -102,15 +130,20 @@ class Stage {
   }
 
  private:
-  /// The canonical text of a dose; throws Error where the leaf takes whole numbers alone.
-  static std::string dose_of(Study study, const ToleranceRow& row, double dose) {
-    set_leaf(study, row.path, dose_text(row.search, dose));
-    return leaf_text(study, row.path);
+  std::size_t add(const ToleranceRow& row, const std::string& dose, const std::string& second,
+                  int seed) {
+    TrialSpec spec{0, row.method, {0, {{row.path, dose}}}, seed};
+    if (row.second) spec.cell.doses.emplace_back(row.second->path, second);
+    trials_.push_back(std::move(spec));
+    return trials_.size() - 1;
   }
 
-  std::size_t add(const ToleranceRow& row, const std::string& dose, int seed) {
-    trials_.push_back({0, row.method, {0, {{row.path, dose}}}, seed});
-    return trials_.size() - 1;
+  /// The least dose of both faults; that of the second stands in the first row.
+  std::size_t add_reference(const Study& study, const ToleranceRow& row,
+                            const std::vector<ToleranceRow>& rows, int seed) {
+    const auto& least = rows.front().second;
+    return add(row, dose_text(study, row.path, row.search, row.search.low),
+               least ? least->value : "", seed);
   }
 
   std::vector<TrialSpec> trials_;
@@ -127,7 +160,11 @@ std::vector<ToleranceRow> tolerance_searches(const Study& study, const ClassTabl
         "sweep: is empty, so no fault has a range of doses; write one into the study, or --set "
         "sweep.faults.misregistration.magnitude_m=[0,0.04]");
   std::vector<std::string> paths, methods, groups{std::string(kPooled), std::string(kMacro)};
-  for (const SweepAxis& axis : study.sweep) paths.push_back(axis.path);
+  for (const SweepAxis& axis : study.sweep)
+    if (axis.path != choice.against) paths.push_back(axis.path);
+  if (!choice.against.empty() && paths.size() == study.sweep.size()) {
+    static_cast<void>(chosen("--against", {choice.against}, paths));
+  }
   for (const MethodSettings& method : study.methods) methods.push_back(method.name);
   for (const std::string& name : detected_names(table)) groups.push_back(name);
   std::vector<std::string> of_groups = choice.groups;
@@ -136,14 +173,16 @@ std::vector<ToleranceRow> tolerance_searches(const Study& study, const ClassTabl
 
   std::vector<ToleranceRow> rows;
   for (const std::string& path : chosen("--fault", choice.faults, paths)) {
-    const SweepAxis range =
-        with_range(study, *std::ranges::find(study.sweep, path, &SweepAxis::path)).sweep.front();
-    ToleranceSearch search{parse_real(range.values[0]).value(), parse_real(range.values[1]).value(),
-                           aim.target.value_or(-aim.loss), aim.trials};
-    for (const std::string& group : chosen("--group", of_groups, groups))
-      for (const std::string& method : chosen("--method", choice.methods, methods))
-        rows.push_back(
-            {path, figure_axis(field_of(study, path), {"1"}), method, group, search, {}, {}});
+    const auto doses = doses_of(*std::ranges::find(study.sweep, path, &SweepAxis::path));
+    const ToleranceSearch search{doses.front(), doses.back(), aim.target.value_or(-aim.loss),
+                                 aim.trials};
+    const FigureAxis axis = figure_axis(field_of(study, path), {"1"});
+    const auto seconds = second_faults(study, choice.against);
+    check_alone(study, path, search, seconds);
+    for (const auto& second : seconds)
+      for (const std::string& group : chosen("--group", of_groups, groups))
+        for (const std::string& method : chosen("--method", choice.methods, methods))
+          rows.push_back({path, axis, second, method, group, search, {}, {}});
   }
   return rows;
 }

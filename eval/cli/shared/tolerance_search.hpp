@@ -13,16 +13,21 @@
 
 namespace mapscore::eval {
 
+/// Doses of a second fault that has but a range.
+inline constexpr int kFrontierDoses = 6;
+
 /// Names of what is searched; none: all of the study's, and of groups "pooled" alone.
 struct ToleranceChoice {
   std::vector<std::string> faults;  ///< swept paths
   std::vector<std::string> methods;
   std::vector<std::string> groups;  ///< "all": each of pooled, macro and the detected classes
+  std::string against;              ///< swept path of a second fault, or nothing
 };
 
 /// The searches of a study, without trials: a fault's range is from its least to its greatest swept
-/// value, and each fault is dosed by itself. Throws Error on a name that is not there, on a swept
-/// path without two numbers, and when nothing is swept.
+/// value, and each fault is dosed by itself, or beside each dose of the second: its swept values,
+/// or, where these are two, kFrontierDoses over the range between them. Throws Error on a name that
+/// is not there, on a swept path without two numbers, and when nothing is swept.
 [[nodiscard]] std::vector<ToleranceRow> tolerance_searches(const Study& study,
                                                            const ClassTable& table,
                                                            const ToleranceAim& aim,

@@ -88,6 +88,10 @@ std::string palette_colour(std::size_t n) {
   return std::string(kColours[n % kColours.size()]);
 }
 
+int point_type(std::size_t n) {
+  return kPoints[n % kPoints.size()];
+}
+
 StudyLayout::StudyLayout(const StudySummary& summary, const FigureStyle& style)
     : style_(style), bars_(summary.study.sweep.empty()) {
   std::vector<FigureAxis> axes;
@@ -109,8 +113,7 @@ StudyLayout::StudyLayout(const StudySummary& summary, const FigureStyle& style)
       const int dash = several ? kDashes[tail % kDashes.size()] : 1;
       curves_.push_back({methods[m].name + tails[tail], methods[m].name, tail,
                          style.grey ? grey_tone(n) : palette_colour(several ? m : tail),
-                         kPoints[n % kPoints.size()],
-                         style.grey ? grey_dash(n) : std::to_string(dash)});
+                         point_type(n), style.grey ? grey_dash(n) : std::to_string(dash)});
     }
   for (std::size_t i = 0; i < summary.trials.size(); ++i) {
     const ResultLine& line = summary.trials[i];

@@ -28,6 +28,8 @@ struct Curve {
 
 /// The n-th colour of the figures: #rrggbb of Okabe and Ito's palette, over again after seven.
 [[nodiscard]] std::string palette_colour(std::size_t n);
+/// gnuplot's type of the n-th curve's points, over again after twelve.
+[[nodiscard]] int point_type(std::size_t n);
 
 /// Which trial stands where in the figures of a study: x, column of panels, curve.
 class StudyLayout {

@@ -62,7 +62,8 @@ class SearchMarks {
 
   void add_curve(const DoseCurve& curve) {
     const std::string block = start("curve", "dose score low high");
-    const double first = row_.tolerance.first, last = row_.tolerance.last;
+    const double first = row_.tolerance.points.front().dose;
+    const double last = row_.tolerance.points.back().dose;
     for (int n = 0; n <= kPointsOfCurve; ++n) {
       const double dose = first + (last - first) * n / kPointsOfCurve, score = curve.at(dose);
       sheet_.data += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", in_unit(dose), score,
@@ -75,9 +76,10 @@ class SearchMarks {
   void add_step(const DoseStep& step) {
     const std::string block = start("step", "dose score");
     const double at = in_unit(*step.crossing.dose);
-    sheet_.data += fmt::format("{:.9g} {:.9g}\n{:.9g} {:.9g}\n{:.9g} {:.9g}\n{:.9g} {:.9g}\n",
-                               in_unit(row_.tolerance.first), step.above, at, step.above, at,
-                               step.below, in_unit(row_.tolerance.last), step.below);
+    sheet_.data +=
+        fmt::format("{:.9g} {:.9g}\n{:.9g} {:.9g}\n{:.9g} {:.9g}\n{:.9g} {:.9g}\n",
+                    in_unit(row_.tolerance.points.front().dose), step.above, at, step.above, at,
+                    step.below, in_unit(row_.tolerance.points.back().dose), step.below);
     panel_.elements.push_back(
         fmt::format("{} using 1:2 with lines lw 1.4 lc rgb '{}' notitle", block, colour_));
   }

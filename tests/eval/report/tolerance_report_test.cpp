@@ -11,8 +11,9 @@ namespace {
 ToleranceRow row_of(ToleranceVerdict verdict, std::optional<double> dose, std::optional<double> low,
                     std::optional<double> high) {
   constexpr const char* kPath = "faults.misregistration.magnitude_m";
-  ToleranceRow row{kPath, figure_axis(field_of(Study{}, kPath), {"1"}), "direct", "pooled", {}, {},
-                   {}};
+  ToleranceRow row{
+      kPath, figure_axis(field_of(Study{}, kPath), {"1"}), std::nullopt, "direct", "pooled", {}, {},
+      {}};
   row.search = {0.0, 0.04, 0.8, 42};
   row.tolerance.verdict = verdict;
   row.tolerance.dose = dose;
@@ -40,13 +41,46 @@ TEST(ToleranceReport, ForProgramsHasPathUnitAndNineDigits) {
   const std::vector<ToleranceRow> rows{
       row_of(ToleranceVerdict::found, 0.0071234, 0.0064, std::nullopt)};
   EXPECT_EQ(
-      to_csv(tolerance_table(study, aim, rows, false)),
-      "fault,method,group,path,unit,dose,low,high,verdict,trials,undefined\n"
-      "misregistration,direct,pooled,faults.misregistration.magnitude_m,mm,7.1234,6.4,-,found,"
-      "42,0\n");
+      to_csv(tolerance_table(study, aim, "direct", rows, false)),
+      "fault,method,group,path,unit,dose,low,high,reference,difference,difference_low,"
+      "difference_high,verdict,trials,undefined\n"
+      "misregistration,direct,pooled,faults.misregistration.magnitude_m,mm,7.1234,6.4,-,,-,-,-,"
+      "found,42,0\n");
   EXPECT_EQ(aim.text(), "f1 >= 0.8");
   aim.target.reset();
   EXPECT_EQ(aim.text(), "f1 loses at most 0.05");
+}
+
+TEST(ToleranceReport, ComparesWithTheReferenceOfTheSameFaultAndGroup) {
+  using enum ToleranceVerdict;
+  Study study;
+  study.name = "demo";
+  ToleranceRow first = row_of(found, 0.004, 0.003, 0.006),
+               second = row_of(found, 0.01, 0.008, 0.012);
+  ToleranceRow third = row_of(above, std::nullopt, 0.04, std::nullopt), other = second;
+  second.method = "erosion";
+  third.method = "growing";
+  other.method = "erosion";
+  other.group = "chair";
+  // Without curves nothing is known of the seeds' share: 6 - sqrt(2^2 + 2^2), 6 + sqrt(2^2 + 1^2).
+  EXPECT_EQ(difference_text(second, first), "+6 mm [3.17, 8.24]");
+  EXPECT_EQ(difference_text(first, second), "-6 mm [-8.24, -3.17]");
+  EXPECT_EQ(difference_text(third, first), "- [34, open]");
+  EXPECT_EQ(difference_text(third, third), "-");
+  const Table table = tolerance_table(study, {}, "direct", {first, second, third, other}, true);
+  EXPECT_EQ(table.columns[4], "less direct");
+  EXPECT_EQ(table.rows[0][4], "");
+  EXPECT_EQ(table.rows[1][4], "+6 mm [3.17, 8.24]");
+  EXPECT_EQ(table.rows[3][4], "");  // no reference for chairs
+}
+
+TEST(ToleranceReport, SaysTheDoseOfTheSecondFault) {
+  constexpr const char* kPath = "faults.pose.sigma_xy_m";
+  ToleranceRow row = row_of(ToleranceVerdict::above, std::nullopt, 0.04, std::nullopt);
+  row.second = SecondFault{kPath, "0.02", figure_axis(field_of(Study{}, kPath), {"0.02"})};
+  const Table table = tolerance_table({}, {}, "direct", {row}, true);
+  EXPECT_EQ(table.columns[1], "at");
+  EXPECT_EQ(table.rows[0][1], row.second->axis.text(0));
 }
 
 }  // namespace

@@ -38,10 +38,10 @@ TEST(DoseCurve, CrossingOfALineIsFiellersInterval) {
   const std::vector<DosePoint> points = falling_points();
   const double n = 20.0, target = 0.6;
   double mx = 0, my = 0, sxx = 0, sxy = 0, rss = 0;
-  for (const auto& [x, y] : points) mx += x / n, my += y / n;
-  for (const auto& [x, y] : points) sxx += (x - mx) * (x - mx), sxy += (x - mx) * (y - my);
+  for (const auto& [x, y, trial] : points) mx += x / n, my += y / n;
+  for (const auto& [x, y, trial] : points) sxx += (x - mx) * (x - mx), sxy += (x - mx) * (y - my);
   const double b = sxy / sxx;
-  for (const auto& [x, y] : points) rss += std::pow(y - my - b * (x - mx), 2);
+  for (const auto& [x, y, trial] : points) rss += std::pow(y - my - b * (x - mx), 2);
   const double t = student_t_quantile(0.975, 18), s = std::sqrt(rss / 18);
   const double root = mx + (target - my) / b, g = t * t * s * s / (b * b * sxx);
   const double middle = mx + (root - mx) / (1 - g);

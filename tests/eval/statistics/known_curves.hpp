@@ -79,10 +79,10 @@ inline double noisy(double mean, double dose, Noise noise, RandomStream& random)
   return mean;
 }
 
-/// One search to its end; doses are tried in hundredths, as the verb rounds them.
-inline Tolerance searched(const KnownCurve& curve, Noise noise, std::uint64_t repeat,
-                          int trials = 42) {
-  RandomStream random(repeat, curve.name, {static_cast<std::uint64_t>(noise)});
+/// One search to its end; doses are tried in hundredths, as the verb rounds them. `score` is asked
+/// with the dose and the trial.
+template <typename Score>
+Tolerance searched(const KnownCurve& curve, int trials, const Score& score) {
   const ToleranceSearch search{0.0, 60.0, curve.target, trials};
   std::vector<DoseTrial> made;
   for (;;) {
@@ -90,9 +90,17 @@ inline Tolerance searched(const KnownCurve& curve, Noise noise, std::uint64_t re
     if (doses.empty()) return tolerance_of(search, made);
     for (const double asked : doses) {
       const double dose = std::round(asked * 100.0) / 100.0;
-      made.push_back({dose, noisy(curve.mean(dose), dose, noise, random)});
+      made.push_back({dose, score(dose, made.size())});
     }
   }
+}
+
+inline Tolerance searched(const KnownCurve& curve, Noise noise, std::uint64_t repeat,
+                          int trials = 42) {
+  RandomStream random(repeat, curve.name, {static_cast<std::uint64_t>(noise)});
+  return searched(curve, trials, [&](double dose, std::size_t) {
+    return noisy(curve.mean(dose), dose, noise, random);
+  });
 }
 
 /// What many searches of one curve gave.
@@ -121,6 +129,46 @@ inline Coverage coverage_of(const KnownCurve& curve, Noise noise, int repeats, i
   coverage.both_ends = static_cast<double>(half_widths.size()) / repeats;
   std::ranges::sort(half_widths);
   if (!half_widths.empty()) coverage.half_width = half_widths[half_widths.size() / 2];
+  return coverage;
+}
+
+/// What the difference of two tolerances gave over many pairs of searches.
+struct PairCoverage {
+  double share = 0.0;        ///< whose interval holds the difference of the thresholds
+  double half_width = 0.0;   ///< median of those with two ends
+  double if_unpaired = 0.0;  ///< median where the second search has seeds of its own
+};
+
+/// Normal noise of .012, of which the share `common` is the seed's own for both curves.
+inline PairCoverage coverage_of_pairs(const KnownCurve& a, const KnownCurve& b, double common,
+                                      int repeats) {
+  PairCoverage coverage;
+  std::vector<double> paired, unpaired;
+  const double difference = a.threshold() - b.threshold();
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    const auto search = [&](const KnownCurve& curve, std::uint64_t which, std::uint64_t seeds) {
+      return searched(curve, 42, [&](double dose, std::size_t trial) {
+        RandomStream of_seed(static_cast<std::uint64_t>(repeat), "pair", {seeds, trial});
+        RandomStream own(static_cast<std::uint64_t>(repeat), "own", {which, trial});
+        return curve.mean(dose) + .012 * (std::sqrt(common) * of_seed.normal() +
+                                          std::sqrt(1.0 - common) * own.normal());
+      });
+    };
+    const Tolerance of_a = search(a, 0, 0);
+    const Crossing of = difference_of(of_a, search(b, 1, 0));
+    const Crossing other = difference_of(of_a, search(b, 1, 1));
+    coverage.share += (!of.low || *of.low <= difference) && (!of.high || *of.high >= difference)
+                          ? 1.0 / repeats
+                          : 0.0;
+    if (of.low && of.high) paired.push_back(0.5 * (*of.high - *of.low));
+    if (other.low && other.high) unpaired.push_back(0.5 * (*other.high - *other.low));
+  }
+  const auto median = [](std::vector<double>& values) {
+    std::ranges::sort(values);
+    return values.empty() ? -1.0 : values[values.size() / 2];
+  };
+  coverage.half_width = median(paired);
+  coverage.if_unpaired = median(unpaired);
   return coverage;
 }
 

@@ -17,7 +17,6 @@ TEST(ToleranceCoverage, HoldsTheThresholdOfKnownCurves) {
   double sum = 0.0;
   int cases = 0;
   for (const KnownCurve& curve : known_curves()) {
-    if (curve.crosses_again) continue;
     for (const Noise noise : {Noise::normal, Noise::binomial, Noise::heavy, Noise::growing}) {
       const Coverage coverage = coverage_of(curve, noise, kRepeats);
       EXPECT_GE(coverage.share, 0.87)
@@ -40,6 +39,35 @@ TEST(ToleranceCoverage, AnIntervalThatIsShiftedDoesNotCover) {
     held += of.low && of.high && *of.low <= 23.0 && *of.high >= 23.0 ? 1 : 0;
   }
   EXPECT_LE(held, 2);
+}
+
+TEST(ToleranceDifference, HoldsThatOfTheThresholdsAndGainsBySharedSeeds) {
+  const std::vector<KnownCurve> curves = known_curves();
+  for (const auto& [a, b] : {std::pair{0, 1}, {2, 3}, {8, 2}}) {
+    for (const double common : {0.0, 0.9}) {
+      const PairCoverage coverage = coverage_of_pairs(curves[a], curves[b], common, 100);
+      EXPECT_GE(coverage.share, 0.87) << curves[a].name << " - " << curves[b].name;
+      EXPECT_LT(coverage.half_width, (common > 0.0 ? 0.92 : 1.01) * coverage.if_unpaired)
+          << curves[a].name << " - " << curves[b].name;
+    }
+  }
+}
+
+TEST(ToleranceDifference, OfTheSameSearchIsNothing) {
+  const Tolerance of = searched(known_curves()[2], Noise::normal, 0);
+  const Crossing difference = difference_of(of, of);
+  EXPECT_EQ(difference.dose, 0.0);
+  // Equal residuals leave the skew of the interval alone.
+  EXPECT_NEAR(difference.low.value(), 0.0, 0.1 * (*of.high - *of.low));
+  EXPECT_NEAR(difference.high.value(), 0.0, 0.1 * (*of.high - *of.low));
+}
+
+TEST(ToleranceDifference, OfACurveThatIsNotMonotoneIsNone) {
+  Tolerance of = searched(known_curves()[2], Noise::normal, 0);
+  const Tolerance other = of;
+  of.verdict = ToleranceVerdict::not_monotone;
+  of.dose.reset();
+  EXPECT_FALSE(difference_of(of, other).low || difference_of(other, of).high);
 }
 
 TEST(ToleranceVerdict, SaysWhatIsNoCrossing) {

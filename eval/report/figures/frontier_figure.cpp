@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/figures/frontier_figure.hpp"
+
+#include "eval/report/figures/curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace mapscore::eval {
+namespace {
+
+using Rows = std::vector<const ToleranceRow*>;
+
+/// One method's line in one panel.
+void add_line(FigureSheet& sheet, Panel& panel, const Rows& rows, std::size_t number) {
+  const ToleranceRow& any = *rows.front();
+  const double unit = any.axis.at.front();
+  const auto start = [&](const char* what, const char* columns) {
+    return sheet.start_block(
+        fmt::format("{}; {}; {}; {}", any.axis.title(), any.group, any.method, what), columns);
+  };
+  const auto in_unit = [unit](const std::optional<double>& dose) {
+    return figure_number(dose ? std::optional(*dose * unit) : std::nullopt);
+  };
+  const std::string line = start("tolerances", "second tolerance low high");
+  for (const ToleranceRow* row : rows) {
+    const Tolerance& of = row->tolerance;
+    sheet.data += fmt::format("{:.9g} {} {} {}\n", row->second->axis.at.front(), in_unit(of.dose),
+                              in_unit(of.low.value_or(row->search.low)),
+                              in_unit(of.high.value_or(row->search.high)));
+  }
+  const std::string beyond = start("beyond the range", "second above below");
+  for (const ToleranceRow* row : rows) {
+    const auto end = [&](ToleranceVerdict verdict, double dose) {
+      return in_unit(row->tolerance.verdict == verdict ? std::optional(dose) : std::nullopt);
+    };
+    sheet.data += fmt::format("{:.9g} {} {}\n", row->second->axis.at.front(),
+                              end(ToleranceVerdict::above, row->search.high),
+                              end(ToleranceVerdict::below, row->search.low));
+  }
+  const std::string ink = fmt::format("lc rgb '{}'", palette_colour(number));
+  panel.elements.push_back(
+      fmt::format("{} using 1:(valid(2) ? $3 : NaN):(0):($4-$3) with vectors "
+                  "nohead lw 1 {} notitle",
+                  line, ink));
+  panel.elements.push_back(
+      fmt::format("{} using 1:2 with linespoints pt {} ps 0.8 lw 1.4 dt {} {} "
+                  "notitle",
+                  line, point_type(number), grey_dash(number), ink));
+  panel.elements.push_back(
+      fmt::format("{} using 1:2 with points pt 8 ps 1 {} notitle", beyond, ink));
+  panel.elements.push_back(
+      fmt::format("{} using 1:3 with points pt 10 ps 1 {} notitle", beyond, ink));
+}
+
+}  // namespace
+
+FigureSheet frontier_figure(const Study& study, const ToleranceAim& aim,
+                            const std::vector<ToleranceRow>& rows) {
+  FigureSheet sheet;
+  sheet.name = "frontier";
+  std::vector<std::string> methods;
+  std::vector<std::pair<std::string, std::string>> panels;  // fault and group
+  for (const ToleranceRow& row : rows) {
+    if (std::ranges::find(methods, row.method) == methods.end()) methods.push_back(row.method);
+    const std::pair key{row.path, row.group};
+    if (std::ranges::find(panels, key) == panels.end()) panels.push_back(key);
+  }
+  for (const auto& [path, group] : panels) {
+    std::map<std::string, Rows> lines;
+    for (const ToleranceRow& row : rows)
+      if (row.path == path && row.group == group) lines[row.method].push_back(&row);
+    const ToleranceRow& first = *lines.begin()->second.front();
+    const double unit = first.axis.at.front();
+    Panel& panel = sheet.panels.emplace_back(
+        Panel{group, first.second->axis.title(), "tolerance of " + first.axis.title()});
+    panel.settings = {
+        "set xtics autofreq; set ytics autofreq; set offsets graph 0.04, graph 0.04, 0, 0",
+        fmt::format("set yrange [{:.9g}:{:.9g}]", first.search.low * unit,
+                    first.search.high * unit)};
+    for (std::size_t n = 0; n < methods.size(); ++n)
+      add_line(sheet, panel, lines.at(methods[n]), n);
+  }
+  for (std::size_t n = 0; n < methods.size(); ++n)
+    sheet.add_legend(fmt::format("linespoints pt {} ps 0.8 lw 1.4 dt {} lc rgb '{}'", point_type(n),
+                                 grey_dash(n), palette_colour(n)),
+                     methods[n]);
+  sheet.columns = static_cast<int>(std::min<std::size_t>(3, sheet.panels.size()));
+  sheet.panel_width_in = sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in);
+  sheet.caption = fmt::format(
+      "{}: the doses of two faults at which {} together, voxels of {:.6g} cm; below a line it "
+      "does. Bars: 95 % interval. Triangles: beyond the range.",
+      study.name, aim.text(), 100.0 * study.voxel_m);
+  return sheet;
+}
+
+}  // namespace mapscore::eval
