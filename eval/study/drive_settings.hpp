@@ -79,8 +79,9 @@ struct TrajectorySettings {
     visit(s.frames_per_s,
           Field{"frames_per_s", "frames recorded in a second of the drive", above(0, 1000)});
     visit(s.depth_frames_per_s, Field{"depth_frames_per_s",
-                                      "depth images in a second of the drive; default: 30 where "
-                                      "faults.time_offset_ms is dosed, else frames_per_s",
+                                      "depth images in a second of the drive; default: where "
+                                      "faults.time_offset_ms is dosed the least multiple of "
+                                      "frames_per_s from 30 on, else frames_per_s",
                                       above(0, 1000)});
     visit(s.max_frames,
           Field{"max_frames", "stop after so many frames; 0: at the last waypoint", at_least(0)});

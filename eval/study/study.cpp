@@ -7,6 +7,7 @@
 #include "eval/study/study_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mapscore::eval {
 
@@ -60,14 +61,15 @@ bool on_wheels(const Study& study) {
 }
 
 double depth_rate(const Study& study) {
-  constexpr double kDepthCameraFps = 30.0;
+  constexpr double kLeastDosed = 30.0;  // images per second
   if (study.trajectory.depth_frames_per_s) return *study.trajectory.depth_frames_per_s;
   const auto doses_offset = [](const SweepAxis& axis) {
     return axis.path == "faults.time_offset_ms";
   };
   const bool is_dosed =
       study.faults.time_offset_ms != 0.0 || std::ranges::any_of(study.sweep, doses_offset);
-  return is_dosed ? kDepthCameraFps : study.trajectory.frames_per_s;
+  const double colour = study.trajectory.frames_per_s;
+  return is_dosed ? colour * std::ceil(kLeastDosed / colour) : colour;
 }
 
 DrawnFusion fusion_of(const DrawnFusion& of_study, const MethodFusion& of_method) {

@@ -201,8 +201,9 @@ void check(const Study& study);
 /// `path` if absolute, otherwise below the study's base folder.
 [[nodiscard]] std::filesystem::path resolve_path(const Study& study, const std::string& path);
 
-/// Depth frames per second of a study's recording: its own, else 30 where the study doses the time
-/// offset, else those of the colour camera.
+/// Depth frames per second of a study's recording: its own, else where the study doses the time
+/// offset the least multiple of the colour camera's that is 30 or more, so that without an offset
+/// their stamps agree, else those of the colour camera.
 [[nodiscard]] double depth_rate(const Study& study);
 
 /// True when the study's robot drives on wheels.

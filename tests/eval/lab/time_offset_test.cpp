@@ -124,6 +124,8 @@ TEST_F(TimeOffset, DefaultsTheDepthCameraToItsOwnRate) {
   EXPECT_EQ(rate("trajectory: {frames_per_s: 5, depth_frames_per_s: 15}\n"), 15.0);
   EXPECT_EQ(rate("faults: {time_offset_ms: 20}\n"), 30.0);
   EXPECT_EQ(rate("sweep: {faults.time_offset_ms: [0, 20]}\n"), 30.0);
+  EXPECT_DOUBLE_EQ(rate("trajectory: {frames_per_s: 1.4}\nfaults: {time_offset_ms: 20}\n"), 30.8);
+  EXPECT_EQ(rate("trajectory: {frames_per_s: 60}\nfaults: {time_offset_ms: 20}\n"), 60.0);
 }
 
 }  // namespace
