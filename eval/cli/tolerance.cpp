@@ -109,7 +109,7 @@ void add_tolerance(CLI::App& program) {
   flags->work.add_to(*verb);
   add_yes_flag(*verb, flags->yes);
   add_aim(*verb, *flags);
-  add_format_flag(*verb, flags->format);
+  add_format_flag(*verb, flags->format, {"text", "csv", "json", "markdown", "tex"});
   verb->add_option("--figure", flags->figure,
                    "Folder for tolerance.png and .pdf (frontier.png with --against), with script "
                    "and numbers");
