@@ -67,8 +67,11 @@ void tolerance(const ToleranceFlags& flags) {
     for (const auto& file : draw(sheet, flags.figure))
       std::cerr << "tolerance: " << shown(file) << '\n';
   }
-  const bool for_programs = flags.format == "csv" || flags.format == "json";
-  std::cout << formatted(tolerance_table(study, flags.aim, reference, rows, !for_programs),
+  const bool for_people = flags.format == "text";
+  const bool for_papers = flags.format == "markdown" || flags.format == "tex";
+  std::cout << formatted(for_papers
+                             ? tolerance_matrix(study, flags.aim, rows)
+                             : tolerance_table(study, flags.aim, reference, rows, for_people),
                          flags.format);
 }
 

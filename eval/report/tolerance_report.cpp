@@ -12,6 +12,8 @@
 namespace mapscore::eval {
 namespace {
 
+using Row = const ToleranceRow&;
+
 std::optional<double> in_unit(const ToleranceRow& row, const std::optional<double>& dose) {
   return dose ? std::optional(*dose * row.axis.at.front()) : std::nullopt;
 }
@@ -35,6 +37,11 @@ const ToleranceRow* reference_of(const ToleranceRow& row, const std::string& ref
            second(other) == second(row);
   });
   return row.method == reference || at == rows.end() ? nullptr : &*at;
+}
+
+std::string caption_of(const Study& study, const ToleranceAim& aim) {
+  return fmt::format("{}: largest dose at which {}, with its 95 % interval; voxels of {} m",
+                     study.name, aim.text(), study.voxel_m);
 }
 
 }  // namespace
@@ -73,7 +80,6 @@ Table tolerance_table(const Study& study, const ToleranceAim& aim, const std::st
   const bool has_second = !rows.empty() && rows.front().second.has_value();
   const bool has_difference = std::ranges::any_of(rows, from);
 
-  using Row = const ToleranceRow&;
   std::vector<std::pair<std::string, std::function<std::string(Row)>>> columns;
   columns.emplace_back("fault", [](Row row) { return row.axis.name; });
   if (has_second) columns.emplace_back("at", [](Row row) { return row.second->axis.text(0); });
@@ -106,14 +112,41 @@ Table tolerance_table(const Study& study, const ToleranceAim& aim, const std::st
 
   Table table;
   table.caption = {
-      fmt::format("{}: largest dose at which {}, with its 95 % interval; voxels of {} m",
-                  study.name, aim.text(), study.voxel_m),
+      caption_of(study, aim),
       "found: crosses within the range; above, below: keeps it, misses it over the whole range; "
       "open: the trials do not tell where; not monotone: crosses it more than once"};
   for (const auto& [name, text] : columns) table.columns.push_back(name);
   for (Row row : rows) {
     auto& cells = table.rows.emplace_back();
     for (const auto& [name, text] : columns) cells.push_back(text(row));
+  }
+  return table;
+}
+
+Table tolerance_matrix(const Study& study, const ToleranceAim& aim,
+                       const std::vector<ToleranceRow>& rows) {
+  const auto differs = [&](const auto& value_of) {
+    return std::ranges::any_of(
+        rows, [&](const ToleranceRow& row) { return value_of(row) != value_of(rows.front()); });
+  };
+  const auto second_of = [](const ToleranceRow& row) {
+    return row.second ? row.second->axis.text(0) : "";
+  };
+  const bool seconds = differs(second_of), groups = differs([](Row row) { return row.group; });
+  Table table;
+  table.caption = {caption_of(study, aim),
+                   "open: this side is not bounded by the trials; -: crosses it more than once"};
+  table.columns = {"fault"};
+  if (seconds) table.columns.emplace_back("at");
+  if (groups) table.columns.emplace_back("group");
+  std::vector<std::string> last;
+  for (const ToleranceRow& row : rows) {
+    std::vector<std::string> cells{row.axis.name};
+    if (seconds) cells.push_back(second_of(row));
+    if (groups) cells.push_back(row.group);
+    if (cells != std::exchange(last, cells)) table.rows.push_back(cells);
+    if (table.rows.size() == 1) table.columns.push_back(row.method);
+    table.rows.back().push_back(text_of(row));
   }
   return table;
 }

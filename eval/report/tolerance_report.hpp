@@ -57,4 +57,8 @@ struct ToleranceRow {
                                     const std::string& reference,
                                     const std::vector<ToleranceRow>& rows, bool for_people);
 
+/// The same for a paper: a row a fault and group, a column a method, text_of in the cells.
+[[nodiscard]] Table tolerance_matrix(const Study& study, const ToleranceAim& aim,
+                                     const std::vector<ToleranceRow>& rows);
+
 }  // namespace mapscore::eval

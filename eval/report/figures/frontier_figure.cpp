@@ -15,10 +15,13 @@
 namespace mapscore::eval {
 namespace {
 
+constexpr double kSideMargin = 0.05;  ///< beside the doses, in parts of their range
+
 using Rows = std::vector<const ToleranceRow*>;
 
-/// One method's line in one panel.
-void add_line(FigureSheet& sheet, Panel& panel, const Rows& rows, std::size_t number) {
+/// One method's line in one panel, beside those of the others by `aside` on the x axis.
+void add_line(FigureSheet& sheet, Panel& panel, const Rows& rows, std::size_t number,
+              double aside) {
   const ToleranceRow& any = *rows.front();
   const double unit = any.axis.at.front();
   const auto start = [&](const char* what, const char* columns) {
@@ -45,18 +48,15 @@ void add_line(FigureSheet& sheet, Panel& panel, const Rows& rows, std::size_t nu
                               end(ToleranceVerdict::below, row->search.low));
   }
   const std::string ink = fmt::format("lc rgb '{}'", palette_colour(number));
-  panel.elements.push_back(
-      fmt::format("{} using 1:(valid(2) ? $3 : NaN):(0):($4-$3) with vectors "
-                  "nohead lw 1 {} notitle",
-                  line, ink));
-  panel.elements.push_back(
-      fmt::format("{} using 1:2 with linespoints pt {} ps 0.8 lw 1.4 dt {} {} "
-                  "notitle",
-                  line, point_type(number), grey_dash(number), ink));
-  panel.elements.push_back(
-      fmt::format("{} using 1:2 with points pt 8 ps 1 {} notitle", beyond, ink));
-  panel.elements.push_back(
-      fmt::format("{} using 1:3 with points pt 10 ps 1 {} notitle", beyond, ink));
+  const auto plot = [&](const std::string& of, const char* columns, const std::string& with) {
+    panel.elements.push_back(
+        fmt::format("{} using ($1{:+.6g}):{} with {} {} notitle", of, aside, columns, with, ink));
+  };
+  plot(line, "(valid(2) ? $3 : NaN):(0):($4-$3)", "vectors nohead lw 1");
+  plot(line, "2", "lines lw 1.4 dt " + grey_dash(number));
+  plot(line, "2", fmt::format("points pt {} ps 0.8", point_type(number)));
+  plot(beyond, "2", "points pt 8 ps 1");
+  plot(beyond, "3", "points pt 10 ps 1");
 }
 
 }  // namespace
@@ -78,14 +78,19 @@ FigureSheet frontier_figure(const Study& study, const ToleranceAim& aim,
       if (row.path == path && row.group == group) lines[row.method].push_back(&row);
     const ToleranceRow& first = *lines.begin()->second.front();
     const double unit = first.axis.at.front();
-    Panel& panel = sheet.panels.emplace_back(
-        Panel{group, first.second->axis.title(), "tolerance of " + first.axis.title()});
-    panel.settings = {
-        "set xtics autofreq; set ytics autofreq; set offsets graph 0.04, graph 0.04, 0, 0",
-        fmt::format("set yrange [{:.9g}:{:.9g}]", first.search.low * unit,
-                    first.search.high * unit)};
+    Panel& panel =
+        sheet.panels.emplace_back(Panel{group, first.second->axis.title(), first.axis.title()});
+    const double left = first.second->axis.at.front();
+    const double right = lines.begin()->second.back()->second->axis.at.front();
+    panel.settings = {"set xtics autofreq; set ytics autofreq",
+                      fmt::format("set xrange [{:.9g}:{:.9g}]", left - kSideMargin * (right - left),
+                                  right + kSideMargin * (right - left)),
+                      fmt::format("set yrange [{:.9g}:{:.9g}]", first.search.low * unit,
+                                  first.search.high * unit)};
     for (std::size_t n = 0; n < methods.size(); ++n)
-      add_line(sheet, panel, lines.at(methods[n]), n);
+      add_line(sheet, panel, lines.at(methods[n]), n,
+               kSideMargin * (right - left) *
+                   ((static_cast<double>(n) + 0.5) / static_cast<double>(methods.size()) - 0.5));
   }
   for (std::size_t n = 0; n < methods.size(); ++n)
     sheet.add_legend(fmt::format("linespoints pt {} ps 0.8 lw 1.4 dt {} lc rgb '{}'", point_type(n),
@@ -94,8 +99,8 @@ FigureSheet frontier_figure(const Study& study, const ToleranceAim& aim,
   sheet.columns = static_cast<int>(std::min<std::size_t>(3, sheet.panels.size()));
   sheet.panel_width_in = sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in);
   sheet.caption = fmt::format(
-      "{}: the doses of two faults at which {} together, voxels of {:.6g} cm; below a line it "
-      "does. Bars: 95 % interval. Triangles: beyond the range.",
+      "{}: largest dose of the one fault at which {} under the dose of the other along x, voxels "
+      "of {:.6g} cm. Bars: 95 % interval. Triangles: beyond the range.",
       study.name, aim.text(), 100.0 * study.voxel_m);
   return sheet;
 }

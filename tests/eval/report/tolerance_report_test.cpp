@@ -74,6 +74,22 @@ TEST(ToleranceReport, ComparesWithTheReferenceOfTheSameFaultAndGroup) {
   EXPECT_EQ(table.rows[3][4], "");  // no reference for chairs
 }
 
+TEST(ToleranceReport, ForPapersHasAColumnAMethod) {
+  using enum ToleranceVerdict;
+  ToleranceRow first = row_of(found, 0.004, 0.003, 0.006), second = row_of(above, {}, 0.04, {});
+  second.method = "erosion";
+  ToleranceRow third = first, fourth = second;
+  third.group = fourth.group = "chair";
+  const Table one = tolerance_matrix({}, {}, {first, second});
+  EXPECT_EQ(one.columns, (std::vector<std::string>{"fault", "direct", "erosion"}));
+  EXPECT_EQ(one.rows,
+            (std::vector<std::vector<std::string>>{{"misregistration", "4 mm [3, 6]", "> 40 mm"}}));
+  const Table two = tolerance_matrix({}, {}, {first, second, third, fourth});
+  EXPECT_EQ(two.columns, (std::vector<std::string>{"fault", "group", "direct", "erosion"}));
+  ASSERT_EQ(two.rows.size(), 2u);
+  EXPECT_EQ(two.rows[1][1], "chair");
+}
+
 TEST(ToleranceReport, SaysTheDoseOfTheSecondFault) {
   constexpr const char* kPath = "faults.pose.sigma_xy_m";
   ToleranceRow row = row_of(ToleranceVerdict::above, std::nullopt, 0.04, std::nullopt);
