@@ -11,12 +11,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 namespace mapscore::eval {
 namespace {
 
 constexpr double kDoubtDeviations = 2.0;  ///< standard errors beyond the target that raise doubt
 constexpr std::size_t kDoubtRun = 4;      ///< neighbouring trials that may raise it together
+constexpr std::size_t kBoundingRun = 8;   ///< trials that close a side that the curve leaves open
+constexpr double kBoundingLevel = 0.005;  ///< at which they do, one-sided: many runs are looked at
 constexpr std::size_t kLeastRepeats = 4;  ///< at an end of the range, to tell its side
 constexpr double kDoubtLevel = 0.02;      ///< at which doubt is confirmed, one-sided
 
@@ -69,15 +72,39 @@ DoseFocus focus_after(const ToleranceSearch& search, std::span<const DoseTrial> 
   return focus;
 }
 
+/// A dose below (`side` -1) or above (1) the crossing that bounds it without the curve: the far end
+/// of the nearest kBoundingRun trials whose mean is surely on their side of the target. Since the
+/// score falls with the dose, it is there at that end too.
+std::optional<double> bound_of(const ToleranceSearch& search, double crossing, double side,
+                               const Points& all) {
+  const double t = student_t_quantile(1.0 - kBoundingLevel, static_cast<int>(kBoundingRun) - 1);
+  std::deque<double> run;
+  const auto surely = [&](const DosePoint& point) {
+    run.push_back(point.score);
+    if (run.size() > kBoundingRun) run.pop_front();
+    if (run.size() < kBoundingRun) return false;
+    const MeanInterval of_run = mean_interval(std::vector<double>(run.begin(), run.end()));
+    const double error = of_run.sd / std::sqrt(static_cast<double>(run.size()));
+    return side * (search.target - of_run.mean) > t * error;
+  };
+  Points outwards;
+  for (const DosePoint& point : all)
+    if (side * (point.dose - crossing) > 0.0) outwards.push_back(point);
+  if (side < 0.0) std::ranges::reverse(outwards);
+  const auto end = std::ranges::find_if(outwards, surely);
+  return end == outwards.end() ? std::nullopt : std::optional(end->dose);
+}
+
 /// By a curve through the tolerance's points.
-void read_curve(const ToleranceSearch& search, const DoseCurve& curve, Tolerance& tolerance) {
+void read_curve(const ToleranceSearch& search, const DoseCurve& curve, const Points& all,
+                Tolerance& tolerance) {
   const double target = search.target;
   const double first = tolerance.points.front().dose, last = tolerance.points.back().dose;
   const Crossing crossing = curve_crossing(curve, target, first, last);
   if (crossing.dose) {
-    tolerance.low = crossing.low;
-    tolerance.high = crossing.high;
-    if (!crossing.low && !crossing.high) return;
+    tolerance.low = crossing.low ? crossing.low : bound_of(search, *crossing.dose, -1.0, all);
+    tolerance.high = crossing.high ? crossing.high : bound_of(search, *crossing.dose, 1.0, all);
+    if (!tolerance.low && !tolerance.high) return;
     tolerance.verdict = ToleranceVerdict::found;
     tolerance.dose = crossing.dose;
   } else if (last >= search.high && curve.at(last) - curve.half_width(last) > target) {
@@ -143,7 +170,7 @@ Tolerance read_window(const ToleranceSearch& search, const DoseFocus& focus, con
     tolerance.high = tolerance.step->crossing.high;
   } else {
     tolerance.curve = DoseCurve(tolerance.points, kDoseDegree);
-    read_curve(search, *tolerance.curve, tolerance);
+    read_curve(search, *tolerance.curve, all, tolerance);
   }
   return tolerance;
 }
