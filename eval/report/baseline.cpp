@@ -8,10 +8,11 @@
 #include "files/file_bytes.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <tuple>
+#include <string_view>
 #include <utility>
 
 namespace mapscore::eval {
@@ -19,10 +20,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 2;  ///< 1 was a CSV of figures
-constexpr const char* kNoBaseline =
-    "no baseline of this mapscore; write it anew with `mapscore check RESULTS --baseline FILE "
-    "--update`";
+constexpr int kFormat = 3;  ///< 1 was a CSV of figures, 2 had no hash
+const std::string kWriteAnew =
+    "write it anew with `mapscore check RESULTS --baseline FILE --update`";
+const std::string kNoBaseline = "no baseline of this mapscore; " + kWriteAnew;
 
 /// Visits the counts of a class that a baseline keeps, in the order of its columns.
 void visit_counts(ClassCounts& counts, auto&& visit) {
@@ -112,6 +113,28 @@ Json numbers_of(ClassCounts counts) {
   return numbers;
 }
 
+Cell cell_of(const Json& doses) {
+  Cell cell;
+  for (const auto& [path, value] : doses.items()) cell.doses.emplace_back(path, value);
+  return cell;
+}
+
+Json doses_of(const Cell& cell) {
+  Json doses = Json::object();
+  for (const auto& [path, value] : cell.doses) doses[path] = value;
+  return doses;
+}
+
+Json trial_of(const ResultLine& line, std::size_t seed, const ClassTable& table) {
+  Json trial{{"role", name_of(line.role)},
+             {"method", line.method},
+             {"doses", doses_of(line.cell)},
+             {"seed", line.seeds[seed]}};
+  for (const SemanticClass& c : table.classes)
+    if (c.detect) trial["counts"][c.name] = numbers_of(line.results[seed].counts.at(c.id));
+  return trial;
+}
+
 ClassCounts counts_from(const Json& numbers, ClassCounts counts) {
   std::size_t next = 0;
   visit_counts(counts, [&](const std::string& name, std::int64_t& count) {
@@ -124,6 +147,24 @@ ClassCounts counts_from(const Json& numbers, ClassCounts counts) {
   return counts;
 }
 
+Json json_of(const TrialYields& yields) {
+  Json frames = Json::array();
+  for (const auto& classes : yields.frames) {
+    Json& frame = frames.emplace_back(Json::object());
+    for (const auto& [name, yield] : classes) frame[name] = {yield.found, yield.falses};
+  }
+  return {{"method", yields.method}, {"doses", doses_of(yields.cell)}, {"frames", frames}};
+}
+
+TrialYields yields_from(const Json& json) {
+  TrialYields yields{json.at("method"), cell_of(json.at("doses")), {}};
+  for (const Json& classes : json.at("frames")) {
+    auto& frame = yields.frames.emplace_back();
+    for (const auto& [name, yield] : classes.items()) frame[name] = {yield.at(0), yield.at(1)};
+  }
+  return yields;
+}
+
 /// Adds a trial to its line, which is the last one or new.
 void add_trial(const Json& trial, const ClassCounts& empty, Baseline& baseline) {
   Role role{};
@@ -132,8 +173,7 @@ void add_trial(const Json& trial, const ClassCounts& empty, Baseline& baseline) 
       throw Error("unknown role");
     else
       role = static_cast<Role>(static_cast<int>(role) + 1);
-  Cell cell;
-  for (const auto& [path, value] : trial.at("doses").items()) cell.doses.emplace_back(path, value);
+  const Cell cell = cell_of(trial.at("doses"));
   const std::string method = trial.at("method");
   if (baseline.lines.empty() || baseline.lines.back().role != role ||
       baseline.lines.back().method != method || baseline.lines.back().cell.doses != cell.doses)
@@ -147,9 +187,17 @@ void add_trial(const Json& trial, const ClassCounts& empty, Baseline& baseline) 
   line.results.push_back({std::move(counts), {}});
 }
 
+/// The first lines of a file, of which all else is `body`.
+std::string head_of(std::string_view body) {
+  return fmt::format("{{\n\"format\": {},\n\"hash\": \"{}\",\n", kFormat, hash_of(body));
+}
+
 Baseline baseline_from(const std::string& text) {
   const Json json = Json::parse(text);
   if (json.at("format") != kFormat) throw Error(kNoBaseline);
+  const std::size_t head = std::min(head_of("").size(), text.size());
+  if (!text.starts_with(head_of(std::string_view(text).substr(head))))
+    throw Error("was edited, merged or cut, so it is no result of any program; " + kWriteAnew);
   Baseline baseline{json.at("scoring_version"),
                     json.at("recording"),
                     json.at("build"),
@@ -160,7 +208,7 @@ Baseline baseline_from(const std::string& text) {
   const ClassCounts empty = empty_counts(baseline.scored);
   if (json.at("columns") != columns_of(empty)) throw Error(kNoBaseline);
   for (const Json& trial : json.at("trials")) add_trial(trial, empty, baseline);
-  if (baseline.lines.empty()) throw Error("holds no trial; write it anew with --update");
+  for (const Json& yields : json.at("frames")) baseline.yields.push_back(yields_from(yields));
   return baseline;
 }
 
@@ -196,35 +244,27 @@ Baseline baseline_of(const StudySummary& summary) {
 }
 
 void write_baseline(const Baseline& baseline, const std::filesystem::path& file) {
-  const Json head{{"format", kFormat},
-                  {"scoring_version", baseline.scoring_version},
-                  {"recording", baseline.recording_hash},
-                  {"build", baseline.build},
-                  {"study", to_yaml(baseline.study)},
-                  {"classes", detected_names(baseline.table)},
-                  {"tolerances", baseline.scored.tolerances},
-                  {"distances_m", baseline.scored.distances_m},
-                  {"columns", columns_of(empty_counts(baseline.scored))}};
-  std::string text = "{\n";
-  for (const auto& [key, value] : head.items())
-    text += fmt::format("\"{}\": {},\n", key, value.dump());
-  text += "\"trials\": [\n";
-  bool first = true;
-  for (auto at = baseline.lines.begin(); at != baseline.lines.end(); ++at) {
-    const ResultLine& line = *at;
-    if (std::any_of(baseline.lines.begin(), at,
-                    [&](const ResultLine& before) { return repeats(line, before); }))
-      continue;
-    for (std::size_t n = 0; n < line.seeds.size(); ++n) {
-      Json trial{{"role", name_of(line.role)}, {"method", line.method}, {"doses", Json::object()}};
-      for (const auto& [path, value] : line.cell.doses) trial["doses"][path] = value;
-      trial["seed"] = line.seeds[n];
-      for (const SemanticClass& c : baseline.table.classes)
-        if (c.detect) trial["counts"][c.name] = numbers_of(line.results[n].counts.at(c.id));
-      text += (std::exchange(first, false) ? "" : ",\n") + trial.dump();
-    }
-  }
-  write_whole_file(file, text + "\n]}\n");
+  const Json settings{{"scoring_version", baseline.scoring_version},
+                      {"recording", baseline.recording_hash},
+                      {"build", baseline.build},
+                      {"study", to_yaml(baseline.study)},
+                      {"classes", detected_names(baseline.table)},
+                      {"tolerances", baseline.scored.tolerances},
+                      {"distances_m", baseline.scored.distances_m},
+                      {"columns", columns_of(empty_counts(baseline.scored))}};
+  std::string body;
+  for (const auto& [key, value] : settings.items())
+    body += fmt::format("\"{}\": {},\n", key, value.dump());
+  std::vector<std::string> trials, frames;
+  for (auto line = baseline.lines.begin(); line != baseline.lines.end(); ++line)
+    if (std::none_of(baseline.lines.begin(), line,
+                     [&](const ResultLine& before) { return repeats(*line, before); }))
+      for (std::size_t n = 0; n < line->seeds.size(); ++n)
+        trials.push_back(trial_of(*line, n, baseline.table).dump());
+  for (const TrialYields& yields : baseline.yields) frames.push_back(json_of(yields).dump());
+  body += fmt::format("\"trials\": [\n{}\n],\n\"frames\": [\n{}\n]}}\n", fmt::join(trials, ",\n"),
+                      fmt::join(frames, ",\n"));
+  write_whole_file(file, head_of(body) + body);
 }
 
 Baseline read_baseline(const std::filesystem::path& file) try {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "eval/report/frame_yields.hpp"
 #include "eval/report/summary.hpp"
 
 #include <filesystem>
@@ -24,6 +25,7 @@ struct Baseline {
   /// doses of the first cell it belongs to. Of a count those that voxel_metrics need; no curves,
   /// boxes, bins of distances nor accounting.
   std::vector<ResultLine> lines;
+  std::vector<TrialYields> yields = {};  ///< of the trials of the first seed; empty: not kept
 };
 
 /// The metrics of metrics_of that a baseline can tell: all of precision, recall, F1 and IoU, at
@@ -35,7 +37,7 @@ struct Baseline {
 
 /// JSON, one line a trial (docs/formats.md). Written aside, then renamed.
 void write_baseline(const Baseline& baseline, const std::filesystem::path& file);
-/// Throws Error naming the file when it is missing or holds no baseline.
+/// Throws Error naming the file when it is missing, holds no baseline, or was edited.
 [[nodiscard]] Baseline read_baseline(const std::filesystem::path& file);
 
 }  // namespace mapscore::eval

@@ -46,12 +46,12 @@ struct ComparisonRow {
 enum class Figures { rounded, nine_digits };
 
 /// The same as a table: both means, the difference a - b, its interval (or range), p, p (Holm) and
-/// pairs. Errors as above.
+/// pairs. The caption ends, for each metric, with the row that differs most in a sentence that can
+/// be quoted. Errors as above.
 [[nodiscard]] Table comparison_table(const StudySummary& summary,
                                      const ComparisonQuestion& question,
                                      Figures figures = Figures::rounded);
-/// The rows of compare_results. The caption tells which settings differ, and of each metric the row
-/// that moved most in a sentence that can be quoted.
+/// The rows of compare_results; the caption tells which settings differ, too.
 [[nodiscard]] Table before_after_table(const StudySummary& before, const StudySummary& after,
                                        const ComparisonQuestion& question,
                                        Figures figures = Figures::rounded);

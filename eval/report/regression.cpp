@@ -4,11 +4,11 @@
 #include "eval/report/regression.hpp"
 
 #include "core/error.hpp"
+#include "eval/report/comparable.hpp"
+#include "eval/statistics/paired.hpp"
 #include "files/text_rows.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <array>
@@ -20,45 +20,36 @@ namespace {
 constexpr double kSignificant = 0.05;
 constexpr double kRounding = 1e-12;
 
-/// Leaves that decide no count of a common line, or that the recording's hash stands for.
-constexpr std::array kFreeSettings{"name",  "seed",   "seeds",     "scene",       "classes",
-                                   "robot", "motion", "recording", "cameras",     "trajectory",
-                                   "lidar", "detect", "sweep",     "picture_view"};
-
-void flatten(const YAML::Node& node, const std::string& path,
-             std::map<std::string, std::string>& leaves) {
-  if (node.IsMap() && node.size() > 0) {
-    for (const auto& entry : node)
-      flatten(entry.second, path.empty() ? entry.first.Scalar() : path + '.' + entry.first.Scalar(),
-              leaves);
-    return;
-  }
-  YAML::Emitter text;
-  text << YAML::Flow << node;
-  leaves[path] = text.c_str();
-}
-
-std::map<std::string, std::string> settings_of(const Study& study) {
-  std::map<std::string, std::string> leaves;
-  flatten(YAML::Load(to_yaml(study)), "", leaves);
-  return leaves;
-}
-
 /// Lines of one method and cell, of the seeds that both have.
 struct PairedLines {
   ResultLine before, after;
 };
 
-/// `line` at those seeds alone that `other` has too.
-ResultLine of_seeds(const ResultLine& line, const ResultLine& other) {
-  ResultLine part{line.role, line.method, line.cell, {}, {}, {}};
-  for (std::size_t n = 0; n < line.seeds.size(); ++n) {
-    if (std::ranges::find(other.seeds, line.seeds[n]) == other.seeds.end()) continue;
-    part.seeds.push_back(line.seeds[n]);
-    part.results.push_back(line.results[n]);
-    pool_into(part.pooled, line.results[n].counts);
+/// The results of a line at some of its seeds, in their order.
+ResultLine of_seeds(const ResultLine& line, const std::vector<int>& seeds) {
+  ResultLine part{line.role, line.method, line.cell, seeds, {}, {}};
+  for (const int seed : seeds) {
+    const auto place = std::ranges::find(line.seeds, seed) - line.seeds.begin();
+    part.results.push_back(line.results.at(static_cast<std::size_t>(place)));
+    pool_into(part.pooled, part.results.back().counts);
   }
   return part;
+}
+
+PairedLines paired(const ResultLine& before, const ResultLine& after) {
+  std::vector<int> seeds = before.seeds;
+  std::erase_if(seeds, [&](int seed) { return std::ranges::count(after.seeds, seed) == 0; });
+  return {of_seeds(before, seeds), of_seeds(after, seeds)};
+}
+
+/// After - before of each seed.
+SeedSummary differences(const Estimate& before, const Estimate& after) {
+  std::vector<std::optional<double>> differences;
+  for (std::size_t n = 0; n < before.by_seed.size(); ++n)
+    differences.push_back(before.by_seed[n] && after.by_seed[n]
+                              ? std::optional(*after.by_seed[n] - *before.by_seed[n])
+                              : std::nullopt);
+  return summarise(differences);
 }
 
 const ResultLine* counterpart(const ResultLine& line, const Baseline& in) {
@@ -91,11 +82,6 @@ std::vector<std::pair<std::string, std::int64_t>> grown_causes(const PairedLines
   return grown;
 }
 
-bool has_group(const Baseline& baseline, const std::string& group) {
-  return group == kPooled || group == kMacro ||
-         std::ranges::count(baseline.table.classes, group, &SemanticClass::name) > 0;
-}
-
 /// One-sided p of a mean gain beyond `limit` downwards, by Student's t; none for one pair.
 std::optional<double> p_below(const SeedSummary& gain, double limit) {
   if (gain.seeds < 2) return std::nullopt;
@@ -114,8 +100,7 @@ SeedSummary mirrored(SeedSummary gain) {
 
 /// The paired differences, turned so that more is better.
 SeedSummary gain_of(const JudgedFigure& figure) {
-  const SeedSummary& difference = figure.paired.difference;
-  return higher_is_better(figure.metric) ? difference : mirrored(difference);
+  return higher_is_better(figure.metric) ? figure.difference : mirrored(figure.difference);
 }
 
 /// Which gains (or, mirrored, losses) are significantly below -allowed, Holm over all.
@@ -146,9 +131,33 @@ void give_verdicts(Judgement& judgement) {
       figure.verdict = Standing::worse;
     else if (won[n] || (judgement.same_seeds && gain > limit))
       figure.verdict = Standing::better;
-    else if (!judgement.same_seeds && figure.paired.difference.kind != SpreadKind::interval)
+    else if (!judgement.same_seeds && figure.difference.kind != SpreadKind::interval)
       figure.verdict = Standing::not_judged;
   }
+}
+
+/// One figure of a line of the baseline; none where it is undefined there. `lines.after`: empty
+/// where the results lack the line.
+std::optional<JudgedFigure> judged_figure(const PairedLines& lines, const Baseline& before,
+                                          const Baseline& after, const std::string& group,
+                                          const std::string& metric) {
+  const Estimate then = estimate(lines.before, before.table, group, metric);
+  if (!then.pooled) return std::nullopt;
+  JudgedFigure figure;
+  figure.role = lines.before.role;
+  figure.method = lines.before.method;
+  figure.cell = lines.before.cell;
+  figure.group = group;
+  figure.metric = metric;
+  figure.before = then.pooled;
+  if (!lines.after.results.empty()) {
+    const Estimate now = estimate(lines.after, after.table, group, metric);
+    figure.after = now.pooled;
+    figure.difference = differences(then, now);
+    figure.grown = grown_causes(lines, figure, before, after);
+  }
+  if (!figure.after) figure.verdict = Standing::missing;
+  return figure;
 }
 
 /// Adds the figures of a line of the baseline.
@@ -156,10 +165,10 @@ void judge_line(const ResultLine& line, const Baseline& before, const Baseline& 
                 const std::vector<std::string>& metrics, const Tolerances& allowed,
                 Judgement& judgement) {
   const ResultLine* now = counterpart(line, after);
-  PairedLines lines{line, {}};
-  if (now) lines = {of_seeds(line, *now), of_seeds(*now, line)};
-  const std::size_t pairs = now ? lines.after.seeds.size() : 0;
+  PairedLines lines = paired(line, now ? *now : ResultLine{});
+  const std::size_t pairs = lines.after.results.size();
   judgement.seeds = std::max(judgement.seeds, static_cast<int>(pairs));
+  judgement.seeds_before = std::max(judgement.seeds_before, static_cast<int>(line.results.size()));
   judgement.trials += pairs;
   for (std::size_t n = 0; n < pairs; ++n)
     if (lines.before.results[n].counts != lines.after.results[n].counts) ++judgement.changed;
@@ -167,26 +176,11 @@ void judge_line(const ResultLine& line, const Baseline& before, const Baseline& 
   std::vector<std::string> groups = detected_names(before.table);
   groups.insert(groups.begin(), {std::string(kPooled), std::string(kMacro)});
   for (const std::string& group : groups)
-    for (const std::string& metric : metrics) {
-      const Estimate then = estimate(lines.before, before.table, group, metric);
-      if (!then.pooled) continue;
-      JudgedFigure figure;
-      figure.role = line.role;
-      figure.method = line.method;
-      figure.cell = line.cell;
-      figure.group = group;
-      figure.metric = metric;
-      figure.before = then.pooled;
-      figure.allowed = allowed.of(group, metric);
-      if (pairs > 0 && has_group(after, group)) {
-        const Estimate is = estimate(lines.after, after.table, group, metric);
-        figure.after = is.pooled;
-        figure.paired = compare_paired(is.by_seed, then.by_seed);
-        figure.grown = grown_causes(lines, figure, before, after);
+    for (const std::string& metric : metrics)
+      if (auto figure = judged_figure(lines, before, after, group, metric)) {
+        figure->allowed = allowed.of(group, metric);
+        judgement.figures.push_back(std::move(*figure));
       }
-      if (!figure.after) figure.verdict = Standing::missing;
-      judgement.figures.push_back(std::move(figure));
-    }
 }
 
 }  // namespace
@@ -239,46 +233,19 @@ bool Judgement::compared() const {
   return count(Standing::missing) + count(Standing::not_judged) < figures.size();
 }
 
-std::vector<std::string> differing_settings(const Study& before, const Study& after) {
-  const auto in_both = [&](const auto& has) { return has(before) && has(after); };
-  const auto is_free = [&](const std::string& path) {
-    const std::string root = path.substr(0, path.find('.'));
-    if (std::ranges::find(kFreeSettings, root) != kFreeSettings.end()) return true;
-    const std::string method = root == "methods" ? path.substr(8, path.find('.', 8) - 8) : "";
-    return (root == "methods" && !in_both([&](const Study& study) {
-              return std::ranges::count(study.methods, method, &MethodSettings::name) > 0;
-            })) ||
-           in_both([&](const Study& study) {
-             return std::ranges::count(study.sweep, path, &SweepAxis::path) > 0;
-           });
-  };
-  std::map<std::string, std::array<std::string, 2>> settings;
-  for (const auto& [path, value] : settings_of(before)) settings[path][0] = value;
-  for (const auto& [path, value] : settings_of(after)) settings[path][1] = value;
-  std::vector<std::string> differing;
-  for (const auto& [path, values] : settings)
-    if (!is_free(path) && values[0] != values[1])
-      differing.push_back(fmt::format("{} {} -> {}", path, values[0].empty() ? "none" : values[0],
-                                      values[1].empty() ? "none" : values[1]));
-  return differing;
+const JudgedFigure* Judgement::worst() const {
+  const auto found = std::ranges::find_if(figures, [](const JudgedFigure& figure) {
+    return figure.verdict == Standing::worse && figure.role == Role::trial;
+  });
+  return found == figures.end() ? nullptr : &*found;
 }
 
 Judgement judge(const Baseline& before, const Baseline& after,
                 const std::vector<std::string>& metrics, const Tolerances& allowed,
                 bool any_recording) {
+  check_comparable(before, after, any_recording);
   Judgement judgement;
-  std::vector<std::string> differing = differing_settings(before.study, after.study);
-  if (before.scoring_version != after.scoring_version)
-    differing.push_back(
-        fmt::format("scoring version {} -> {}", before.scoring_version, after.scoring_version));
-  if (!differing.empty())
-    throw Error(fmt::format("not comparable: {}", fmt::join(differing, ", ")));
   judgement.same_recording = before.recording_hash == after.recording_hash;
-  if (!judgement.same_recording && !any_recording)
-    throw Error(
-        fmt::format("not comparable: recording {} -> {}; give --any_recording where both "
-                    "show the same",
-                    before.recording_hash.substr(0, 8), after.recording_hash.substr(0, 8)));
   judgement.same_seeds = before.study.seed == after.study.seed;
   for (const ResultLine& line : before.lines)
     judge_line(line, before, after, metrics, allowed, judgement);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "eval/report/baseline.hpp"
-#include "eval/statistics/paired.hpp"
+#include "eval/statistics/intervals.hpp"
 
 #include <cstdint>
 #include <map>
@@ -45,7 +45,7 @@ struct JudgedFigure {
   Cell cell;
   std::string group, metric;
   std::optional<double> before, after;  ///< of counts pooled over the seeds that both have
-  PairedComparison paired;              ///< after - before, seed by seed
+  SeedSummary difference;               ///< after - before, seed by seed
   double allowed = 0.0;
   Standing verdict = Standing::held;
   std::vector<std::pair<std::string, std::int64_t>> grown;  ///< causes of errors, most first
@@ -57,30 +57,37 @@ struct JudgedFigure {
 /// Whether more of a metric is better; less is of distances, Brier scores and calibration errors.
 [[nodiscard]] bool higher_is_better(std::string_view metric);
 
+/// The trial of the first seed that lost most, by what its frames give by themselves.
+struct FrameTrace {
+  std::string method;
+  Cell cell;
+  std::string group;
+  std::vector<FrameLoss> losses;  ///< most first
+};
+
 struct Judgement {
   bool same_recording = true, same_seeds = true;
-  int seeds = 0;                        ///< that both have
-  std::size_t trials = 0, changed = 0;  ///< ceilings too; by their counts, seed by seed
-  std::vector<JudgedFigure> figures;    ///< worst first
+  int seeds = 0;                         ///< that both have
+  int seeds_before = 0;                  ///< that the baseline has
+  std::size_t trials = 0, changed = 0;   ///< ceilings too; by their counts, seed by seed
+  std::vector<JudgedFigure> figures;     ///< worst first
+  std::optional<FrameTrace> trace = {};  ///< not by judge(), which has no recording
 
   [[nodiscard]] std::size_t count(Standing verdict) const;
   /// Whether a figure got worse or is missing.
   [[nodiscard]] bool fell() const { return count(Standing::worse) + count(Standing::missing) > 0; }
   /// Whether any figure of the baseline was told better, worse or neither.
   [[nodiscard]] bool compared() const;
+  /// The figure of a trial that lost most; nullptr where none got worse.
+  [[nodiscard]] const JudgedFigure* worst() const;
 };
-
-/// The settings that two studies differ in, as `voxel_m 0.05 -> 0.1`; empty where their results
-/// compare. Name and seeds may differ, what the recording's hash stands for, and methods, classes
-/// and cells that one alone has.
-[[nodiscard]] std::vector<std::string> differing_settings(const Study& before, const Study& after);
 
 /// Judges the figures `metrics` (of those, that `before` has) of every line and group of `before`.
 /// On the same seeds a figure is worse when the pooled one is by more than is allowed: nothing but
 /// code differs. On any seeds it is when the paired difference is significantly beyond what is
 /// allowed: at least kSeedsForInterval pairs, their 95 % interval wholly beyond, and one-sided
-/// Student p, by Holm for all figures, below 0.05. Throws Error where settings or scoring versions
-/// differ, and where recordings do unless `any_recording`.
+/// Student p, by Holm for all figures, below 0.05. Throws Error where settings, detected classes or
+/// scoring versions differ, and where recordings do unless `any_recording`.
 [[nodiscard]] Judgement judge(const Baseline& before, const Baseline& after,
                               const std::vector<std::string>& metrics, const Tolerances& allowed,
                               bool any_recording = false);

@@ -23,9 +23,9 @@ std::string method_of(const JudgedFigure& figure) {
   return figure.method + (figure.role == Role::registration_ceiling ? " (ceiling)" : "");
 }
 
-std::string cell_of(const JudgedFigure& figure) {
+std::string doses_text(const Cell& cell) {
   std::string text;
-  for (const auto& [path, value] : figure.cell.doses)
+  for (const auto& [path, value] : cell.doses)
     text += (text.empty() ? "" : ", ") + path.substr(path.rfind('.') + 1) + '=' + value;
   return text.empty() ? "-" : text;
 }
@@ -87,9 +87,9 @@ Table group_table(const std::vector<Group>& groups, bool fallen) {
                : **std::ranges::max_element(group, {}, [&](const JudgedFigure* figure) {
                    return counts(figure) ? figure->gain().value() : -1.0;
                  });
-    const SeedSummary& difference = most.paired.difference;
+    const SeedSummary& difference = most.difference;
     table.rows.push_back({name_of(most.verdict), method_of(most), most.metric, most.group,
-                          fmt::format("{} of {}", cells, group.size()), cell_of(most),
+                          fmt::format("{} of {}", cells, group.size()), doses_text(most.cell),
                           cell_text(most.before, "{:.4f}"), cell_text(most.after, "{:.4f}"),
                           change_of(most, "{:+.4f}"), cell_text(difference.low, "{:+.4f}"),
                           cell_text(difference.high, "{:+.4f}"), fmt::format("{}", most.allowed),
@@ -103,31 +103,56 @@ Table all_figures(const Judgement& judgement) {
   table.columns = {"role", "method", "cell",   "class", "metric",  "before",  "after", "change",
                    "low",  "high",   "spread", "pairs", "allowed", "verdict", "grown"};
   for (const JudgedFigure& figure : judgement.figures) {
-    const SeedSummary& difference = figure.paired.difference;
-    table.rows.push_back({name_of(figure.role), figure.method, cell_of(figure), figure.group,
-                          figure.metric, nine_digits(figure.before), nine_digits(figure.after),
-                          change_of(figure, "{:.9g}"), nine_digits(difference.low),
-                          nine_digits(difference.high), name_of(difference.kind),
-                          std::to_string(difference.seeds), fmt::format("{}", figure.allowed),
-                          name_of(figure.verdict), causes_of(figure)});
+    const SeedSummary& difference = figure.difference;
+    table.rows.push_back(
+        {name_of(figure.role), figure.method, doses_text(figure.cell), figure.group, figure.metric,
+         nine_digits(figure.before), nine_digits(figure.after), change_of(figure, "{:.9g}"),
+         nine_digits(difference.low), nine_digits(difference.high), name_of(difference.kind),
+         std::to_string(difference.seeds), fmt::format("{}", figure.allowed),
+         name_of(figure.verdict), causes_of(figure)});
   }
   return table;
 }
 
+/// Which frames lost most; empty where none were traced.
+std::string frames_text(const Judgement& judgement) {
+  constexpr std::size_t kFrames = 3;
+  if (!judgement.trace) return "";
+  const auto& [method, cell, group, losses] = *judgement.trace;
+  const std::string of =
+      fmt::format("{} of {}, first seed, at {}", group, method, doses_text(cell));
+  if (losses.empty())
+    return fmt::format("no frame by itself lost voxels ({}): it lies in how frames are fused", of);
+  std::string text = fmt::format("frames that lost most by themselves ({}): ", of);
+  for (std::size_t n = 0; n < std::min(losses.size(), kFrames); ++n)
+    text += fmt::format("{}frame {} found {} -> {}, false {} -> {}", n > 0 ? "; " : "",
+                        losses[n].frame, losses[n].before.found, losses[n].after.found,
+                        losses[n].before.falses, losses[n].after.falses);
+  return text + fmt::format("; {} frames lost some", losses.size());
+}
+
 std::string conclusion(const Judgement& judgement, const std::string& results) {
   const std::size_t fallen = judgement.count(Standing::worse) + judgement.count(Standing::missing);
-  const std::string changed =
-      judgement.same_seeds
-          ? fmt::format("changed: {} of {} trials", judgement.changed, judgement.trials)
-          : "changed: not told, other seeds";
-  const std::string figures =
-      !judgement.compared() ? "nothing could be compared"
-      : fallen == 0         ? fmt::format("all {} figures hold", judgement.figures.size())
-                    : fmt::format("{} of {} figures got worse", fallen, judgement.figures.size());
+  const std::size_t unjudged = judgement.count(Standing::not_judged);
   const std::size_t better = judgement.count(Standing::better);
-  return fmt::format("{}: {}{}{}; {}\n", shown(results), figures,
-                     better > 0 ? fmt::format(", {} better", better) : "",
-                     judgement.same_recording ? "" : "; another recording", changed);
+  std::string text = fmt::format("mapscore check {}: ", shown(results));
+  if (!judgement.compared())
+    text += "nothing could be compared";
+  else if (fallen > 0)
+    text += fmt::format("{} of {} figures got worse", fallen, judgement.figures.size());
+  else if (unjudged > 0)
+    text += fmt::format("{} of {} figures hold", judgement.figures.size() - unjudged,
+                        judgement.figures.size());
+  else
+    text += fmt::format("all {} figures hold", judgement.figures.size());
+  if (judgement.compared() && unjudged > 0) text += fmt::format(", {} not judged", unjudged);
+  if (better > 0) text += fmt::format(", {} better", better);
+  if (judgement.seeds < judgement.seeds_before)
+    text += fmt::format("; {} of the baseline's {} seeds", judgement.seeds, judgement.seeds_before);
+  if (!judgement.same_recording) text += "; another recording";
+  return text + (judgement.same_seeds ? fmt::format("; changed: {} of {} trials", judgement.changed,
+                                                    judgement.trials)
+                                      : "; changed: not told, other seeds");
 }
 
 std::string text_report(const Judgement& judgement, const std::string& results,
@@ -143,37 +168,47 @@ std::string text_report(const Judgement& judgement, const std::string& results,
     if (more > 0) text += fmt::format("and {} rows more; --format csv has all figures\n", more);
     text += '\n';
   }
-  return text + conclusion(judgement, results);
+  if (judgement.trace) text += shown(frames_text(judgement)) + "\n\n";
+  return text + conclusion(judgement, results) + '\n';
 }
 
 std::string sentence_of(const Group& group) {
   const JudgedFigure& worst = *group.front();
   const std::string what = fmt::format("{} of {}, {}", worst.metric, method_of(worst), worst.group);
-  if (!worst.after) return what + ": missing at " + cell_of(worst);
+  if (!worst.after) return what + ": missing at " + doses_text(worst.cell);
   return fmt::format("{}: {:.4f} -> {:.4f} ({:+.4f}, allowed {}) at {}; grown: {}", what,
                      *worst.before, *worst.after, *worst.after - *worst.before, worst.allowed,
-                     cell_of(worst), causes_of(worst));
+                     doses_text(worst.cell), causes_of(worst));
 }
 
+/// In the form that Surefire's schema and Jenkins' ask for (tests/gate/formats.py).
 std::string junit_report(const Judgement& judgement, const std::string& results) {
   std::string cases;
-  std::size_t failures = 0;
+  std::size_t failures = 0, skipped = 0;
   const std::vector<Group> groups = groups_of(judgement);
   for (const Group& group : groups) {
     const JudgedFigure& worst = *group.front();
-    cases += fmt::format("  <testcase classname={} name={}", xml_quoted(method_of(worst)),
-                         xml_quoted(worst.metric + " " + worst.group));
+    cases +=
+        fmt::format("  <testcase classname={} name={} time=\"0\"", xml_quoted(method_of(worst)),
+                    xml_quoted(worst.metric + " " + worst.group));
     if (is_fallen(worst)) {
       ++failures;
-      cases += fmt::format("><failure message={}/></testcase>\n", xml_quoted(sentence_of(group)));
+      cases += fmt::format("><failure type=\"{}\" message={}/></testcase>\n",
+                           name_of(worst.verdict), xml_quoted(sentence_of(group)));
+    } else if (worst.verdict == Standing::not_judged) {
+      ++skipped;
+      cases += "><skipped message=\"other seeds, and too few of them\"/></testcase>\n";
     } else {
-      cases += worst.verdict == Standing::not_judged ? "><skipped/></testcase>\n" : "/>\n";
+      cases += "/>\n";
     }
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name={} tests=\"{}\" "
-      "failures=\"{}\">\n{}</testsuite>\n",
-      xml_quoted("mapscore check " + results), groups.size(), failures, cases);
+      "failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"0\">\n  <properties>"
+      "<property name=\"conclusion\" value={}/><property name=\"frames\" value={}/></properties>\n"
+      "{}</testsuite>\n",
+      xml_quoted("mapscore check " + results), groups.size(), failures, skipped,
+      xml_quoted(conclusion(judgement, results)), xml_quoted(frames_text(judgement)), cases);
 }
 
 /// Text of a workflow command: one line, in which % starts an escape.
@@ -185,15 +220,17 @@ std::string github_text(const std::string& text) {
 
 std::string github_report(const Judgement& judgement, const std::string& results) {
   std::string text;
-  for (const Group& group : groups_of(judgement))
-    if (is_fallen(*group.front()))
-      text += "::error title=mapscore check::" + github_text(sentence_of(group)) + '\n';
-  for (const auto& row : group_table(groups_of(judgement), false).rows)
-    text += "::notice title=mapscore check::" +
-            github_text(fmt::format("{} of {}, {}: {} -> {} at {}", row[2], row[1], row[3], row[6],
-                                    row[7], row[5])) +
-            '\n';
-  return text + conclusion(judgement, results);
+  const auto say = [&](const char* command, const std::string& what) {
+    text += fmt::format("::{} title=mapscore check::{}\n", command, github_text(what));
+  };
+  const std::vector<Group> groups = groups_of(judgement);
+  for (const Group& group : groups)
+    if (is_fallen(*group.front())) say("error", sentence_of(group));
+  if (judgement.trace) say("error", frames_text(judgement));
+  for (const auto& row : group_table(groups, false).rows)
+    say("notice", fmt::format("{} of {}, {}: {} -> {} at {}", row[2], row[1], row[3], row[6],
+                              row[7], row[5]));
+  return text + conclusion(judgement, results) + '\n';
 }
 
 }  // namespace

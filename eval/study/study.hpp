@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -173,6 +174,10 @@ void set_leaf(Study& study, std::string_view path, const std::string& yaml_value
 
 /// The same for `path=value` texts of flags, in their order.
 void set_leaves(Study& study, const std::vector<std::string>& overrides);
+
+/// Every leaf that is set, by dotted path, as its canonical text, and every choice as its kind; not
+/// the sweep.
+[[nodiscard]] std::map<std::string, std::string> leaf_texts(const Study& study);
 
 /// Canonical text of the leaf at a dotted path; an unset optional leaf is "-". Throws as set_leaf.
 [[nodiscard]] std::string leaf_text(Study study, std::string_view path);

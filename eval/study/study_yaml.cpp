@@ -92,7 +92,26 @@ std::string yaml_of(const Study& study, bool for_key) {
   return std::move(dumper).take();
 }
 
+template <class T>
+void add_leaves(const std::string& path, const T& value,
+                std::map<std::string, std::string>& leaves) {
+  if constexpr (Choice<T>) leaves[path] = kind_of(value);
+  if constexpr (Node<const T>)
+    for_each_child(value, [&](const auto& child, const Field& field) {
+      add_leaves(path.empty() ? std::string(field.key) : fmt::format("{}.{}", path, field.key),
+                 child, leaves);
+    });
+  else if constexpr (!std::same_as<T, Sweep>)
+    if (const std::string text = Leaf<T>::text(value); text != "-") leaves[path] = text;
+}
+
 }  // namespace
+
+std::map<std::string, std::string> leaf_texts(const Study& study) {
+  std::map<std::string, std::string> leaves;
+  add_leaves("", study, leaves);
+  return leaves;
+}
 
 std::string to_yaml(const Study& study) {
   return yaml_of(study, false);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "eval/cli/results/frame_trace.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/report/regression_report.hpp"
@@ -21,9 +22,9 @@ namespace {
 constexpr int kFell = 1, kNothingCompared = 3;
 
 struct CheckFlags {
-  std::string results, baseline, format = "text";
+  std::string results, baseline, pictures, format = "text";
   std::vector<std::string> allowed, metrics{"precision", "recall", "f1", "iou", "f1_t1", "f_2cm"};
-  bool update = false, any_build = false, any_recording = false;
+  bool update = false, frames = false, any_build = false, any_recording = false;
 };
 
 /// Results that the code under test did not make say nothing of it.
@@ -71,25 +72,42 @@ void check_tolerances(const Tolerances& tolerances, const Baseline& baseline) {
   }
 }
 
+/// The frames that lost most, and pictures of them where they are asked for. What cannot be traced
+/// changes no verdict.
+std::optional<FrameTrace> trace_of(const Baseline& baseline, const Judgement& judgement,
+                                   const CheckFlags& flags) try {
+  const JudgedFigure* worst = judgement.worst();
+  if (!worst || (baseline.yields.empty() && flags.pictures.empty())) return std::nullopt;
+  const TracedTrial trial(flags.results, *worst);
+  std::optional<FrameTrace> trace = trial.trace(baseline);
+  if (!flags.pictures.empty()) trial.draw(flags.pictures, trace);
+  return trace;
+} catch (const Error& error) {
+  std::cerr << "check: frames are not traced: " << shown(error.what()) << '\n';
+  return std::nullopt;
+}
+
 /// Prints how the results stand to the baseline and gives the exit code.
 int report(const Baseline& now, const Tolerances& allowed, const CheckFlags& flags) {
   const Baseline baseline = read_baseline(flags.baseline);
   check_tolerances(allowed, baseline);
-  const Judgement judgement =
+  Judgement judgement =
       judge(baseline, now, metrics_in(baseline, flags), allowed, flags.any_recording);
+  judgement.trace = trace_of(baseline, judgement, flags);
   std::cout << regression_report(judgement, flags.results, flags.format);
   if (!judgement.compared()) return kNothingCompared;
   return judgement.fell() ? kFell : 0;
 }
 
 /// Prints what it changes, where the old baseline compares, and writes the new one.
-void update(const Baseline& now, const Tolerances& allowed, const CheckFlags& flags) {
+void update(Baseline now, const Tolerances& allowed, const CheckFlags& flags) {
   std::string note;
   if (std::filesystem::exists(flags.baseline)) try {
       static_cast<void>(report(now, allowed, flags));
     } catch (const Error& error) {
       note = fmt::format("; the old one: {}", shown(error.what()));
     }
+  if (flags.frames) now.yields = yields_of_store(flags.results);
   write_baseline(now, flags.baseline);
   std::cerr << fmt::format("check: {} written{}\n", shown(flags.baseline), note);
 }
@@ -122,6 +140,11 @@ void add_check(CLI::App& program, int& exit_code) {
   add_format_flag(*verb, flags->format, kReportFormats);
   verb->add_flag("--update", flags->update,
                  "Write the baseline from these results, after what that changes");
+  verb->add_flag("--frames", flags->frames,
+                 "With --update: keep what each frame gives, so that a fall is traced to frames")
+      ->needs("--update");
+  verb->add_option("--pictures", flags->pictures,
+                   "Folder for pictures of the trial that lost most: its map, and the frames");
   verb->add_flag("--any_build", flags->any_build,
                  "Take results that another build of mapscore made");
   verb->add_flag("--any_recording", flags->any_recording,

@@ -194,14 +194,15 @@ cv::Mat3b put_together(const std::vector<CaptionedColumn>& columns,
 
 }  // namespace
 
-cv::Mat3b contact_sheet(const Study& study, const ClassTable& table, const Recording& recording) {
+cv::Mat3b contact_sheet(const Study& study, const ClassTable& table, const Recording& recording,
+                        const std::vector<int>& chosen) {
+  std::vector<int> shown = chosen;
+  const int rows = chosen.empty() ? std::min(kRows, recording.frame_count()) : 0;
+  for (int row = 0; row < rows; ++row)
+    shown.push_back(fullest_frame(recording, table, row * recording.frame_count() / rows,
+                                  (row + 1) * recording.frame_count() / rows));
   std::vector<Frame> frames;
-  const int rows = std::min(kRows, recording.frame_count());
-  for (int row = 0; row < rows; ++row) {
-    const int first = row * recording.frame_count() / rows,
-              end = (row + 1) * recording.frame_count() / rows;
-    frames.push_back(recording.read(fullest_frame(recording, table, first, end), {.color = true}));
-  }
+  for (const int frame : shown) frames.push_back(recording.read(frame, {.color = true}));
   const Calibration& truth = recording.info().calibration;
   const std::vector<CaptionedColumn> columns =
       columns_of(frames, table, truth, largest_fault(study, recording));

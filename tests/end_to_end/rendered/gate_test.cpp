@@ -205,11 +205,24 @@ TEST(WholeGate, AnErrorOfHalfAVoxelFailsTheCheck) {
   };
   expect_done(mapscore({"record", kGate, "-o", path("recording"), "-q"}));
   expect_done(mapscore(sweep_into("right")));
-  expect_done(mapscore({"check", path("right"), "--baseline", path("baseline.json"), "--update"}));
-  expect_done(mapscore({"check", path("right"), "--baseline", path("baseline.json")}));
+  const Arguments check{"--baseline", path("baseline.json")};
+  expect_done(mapscore(joined({"check", path("right"), "--update", "--frames"}, check)));
+  expect_done(mapscore(joined({"check", path("right")}, check)));
 
   expect_done(mutant(sweep_into("wrong")));
-  expect_fallen(mutant({"check", path("wrong"), "--baseline", path("baseline.json")}));
+  const Outcome fallen =
+      mutant(joined({"check", path("wrong"), "--pictures", path("pictures")}, check));
+  expect_fallen(fallen);
+  EXPECT_THAT(fallen.out, ::testing::ContainsRegex("frames that lost most by themselves .* of "
+                                                   ".*, first seed, .*: frame [0-9]+ found"));
+  for (const char* picture : {"errors.png", "frames.png"})
+    EXPECT_TRUE(fs::exists(folder.path() / "pictures" / picture)) << picture;
+
+  fs::remove_all(path("recording"));  // no frames, but the verdict stays
+  const Outcome untraced = mutant(joined({"check", path("wrong")}, check));
+  expect_fallen(untraced);
+  EXPECT_THAT(untraced.err, HasSubstr("check: frames are not traced: "));
+  EXPECT_THAT(untraced.out, Not(HasSubstr("by themselves")));
 }
 
 }  // namespace

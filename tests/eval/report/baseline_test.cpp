@@ -3,6 +3,7 @@
 
 #include "eval/report/baseline.hpp"
 
+#include "files/file_bytes.hpp"
 #include "tests/eval/report/synthetic_summary.hpp"
 #include "tests/support/expect_error.hpp"
 #include "tests/support/tiny_recording.hpp"
@@ -99,7 +100,8 @@ StudySummary rich_summary() {
 }
 
 TEST_F(BaselineFile, ReadsBackWhatWasWritten) {
-  const Baseline written = baseline_of(rich_summary());
+  Baseline written = baseline_of(rich_summary());
+  written.yields = {{"direct", written.lines[0].cell, {{{"cup", {3, 1}}}, {}}}};
   write_baseline(written, file());
   const Baseline read = read_baseline(file());
   EXPECT_EQ(read.scoring_version, kScoringVersion);
@@ -117,6 +119,9 @@ TEST_F(BaselineFile, ReadsBackWhatWasWritten) {
     for (std::size_t seed = 0; seed < read.lines[n].results.size(); ++seed)
       EXPECT_EQ(read.lines[n].results[seed].counts, written.lines[n].results[seed].counts);
   }
+  ASSERT_THAT(read.yields, SizeIs(1));
+  EXPECT_EQ(read.yields[0].cell.doses, written.lines[0].cell.doses);
+  EXPECT_EQ(read.yields[0].frames, written.yields[0].frames);
   const Estimate tau = estimate(read.lines[0], read.table, "cup", "precision_2cm");
   EXPECT_GT(tau.pooled.value(), 0.9);
   const std::string before = text();
@@ -134,22 +139,33 @@ TEST_F(BaselineFile, IsRefusedWhenMissingOrBroken) {
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string bad = good;
     EXPECT_NE(bad.find(from), std::string::npos) << from;
-    write(bad.replace(bad.find(from), from.size(), to));
+    bad.replace(bad.find(from), from.size(), to);
+    write(bad);
+    return bad;
   };
-  with("\"format\": 2", "\"format\": 3");
+  with("\"format\": 3", "\"format\": 2");
   expect_refused("no baseline of this mapscore");
-  with("\"predicted\"", "\"predicated\"");
+  with("\"cup\":[100,", "\"cup\":[101,");
+  expect_refused("was edited, merged or cut");
+  with("\"seed\":1", "\"seed\":2");
+  expect_refused("was edited, merged or cut");
+  write(good + ' ');
+  expect_refused("was edited, merged or cut");
+  const auto forged = [&](const std::string& from, const std::string& to) {
+    std::string text = with(from, to);
+    const std::size_t hash = text.find("\"hash\": \"") + 9, body = hash + 32 + 3;
+    write(text.replace(hash, 32, hash_of(std::string_view(text).substr(body))));
+  };
+  forged("\"predicted\"", "\"predicated\"");
   expect_refused("no baseline of this mapscore");
-  with("\"cup\":[100,", "\"cup\":[-1,");
+  forged("\"cup\":[100,", "\"cup\":[-1,");
   expect_refused("predicted: is no count");
-  with("\"cup\":[100,", "\"cup\":[1.5,");
+  forged("\"cup\":[100,", "\"cup\":[1.5,");
   expect_refused("predicted: is no count");
-  with("\"cup\":[100,", "\"cap\":[100,");
+  forged("\"cup\":[100,", "\"cap\":[100,");
   expect_refused("no baseline of this mapscore");
-  with("\"role\":\"trial\"", "\"role\":\"trail\"");
+  forged("\"role\":\"trial\"", "\"role\":\"trail\"");
   expect_refused("unknown role");
-  write(good.substr(0, good.find("\"trials\"")) + "\"trials\": []}");
-  expect_refused("holds no trial");
   write(good.substr(0, good.size() / 2));
   expect_refused("no baseline of this mapscore");
 }

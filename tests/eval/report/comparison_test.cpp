@@ -84,6 +84,18 @@ TEST(ComparisonTable, ShowsBothMeansTheIntervalAndP) {
                     HasSubstr("least p possible with 10 pairs: 0.0020; p (Holm): 0.0039")));
 }
 
+TEST(ComparisonTable, EndsWithASentenceForEachMetric) {
+  const Table table =
+      comparison_table(summary_of(10), {"erosion", "direct", "cup", {"precision", "recall"}});
+  ASSERT_GE(table.caption.size(), 2u);
+  EXPECT_THAT(
+      table.caption[table.caption.size() - 2],
+      HasSubstr("precision, cup at faults.misregistration.magnitude_m = 0: 0.9350 by direct, "
+                "0.8950 by erosion, a difference of -0.0400 (95 % interval -0.0400 to "
+                "-0.0400; 10 paired seeds, p = 0.0020, 0.0039 by Holm over all rows)"));
+  EXPECT_THAT(table.caption.back(), HasSubstr("0.9000 by direct and by erosion, over 10 seeds"));
+}
+
 TEST(ComparisonTable, WithFewSeedsShowsTheRangeAndWhatPCanReach) {
   const Table table = comparison_table(summary_of(4), {"direct", "erosion"});
   ASSERT_THAT(table.rows, SizeIs(2));

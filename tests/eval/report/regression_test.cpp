@@ -167,6 +167,37 @@ TEST(Regression, WhatIsGoneIsAsBadAsWorse) {
   EXPECT_FALSE(judged(before, after).compared());
 }
 
+TEST(Regression, SeedsPairByTheirIndex) {
+  const Baseline before = baseline_of(testing::summary_of(3));
+  Baseline after = before;
+  for (ResultLine& line : after.lines) {
+    std::ranges::reverse(line.seeds);
+    std::ranges::reverse(line.results);
+  }
+  const Judgement judgement = judged(before, after, 0.0);
+  EXPECT_EQ(judgement.changed, 0u);
+  for (const JudgedFigure& figure : judgement.figures) {
+    EXPECT_EQ(figure.difference.low, 0.0);
+    EXPECT_EQ(figure.difference.high, 0.0);
+  }
+}
+
+TEST(Regression, FewerSeedsAreTold) {
+  const Judgement judgement =
+      judged(baseline_of(testing::summary_of(3)), baseline_of(testing::summary_of(2)));
+  EXPECT_FALSE(judgement.fell());
+  EXPECT_THAT(regression_report(judgement, "", "text"), HasSubstr("; 2 of the baseline's 3 seeds"));
+}
+
+TEST(Regression, WhatIsNotJudgedDoesNotHold) {
+  Judgement judgement;
+  judgement.same_seeds = false;
+  judgement.figures.resize(3);
+  judgement.figures[2].verdict = Standing::not_judged;
+  EXPECT_THAT(regression_report(judgement, "x", "text"),
+              HasSubstr("2 of 3 figures hold, 1 not judged"));
+}
+
 TEST(Regression, OtherSettingsDoNotCompare) {
   const Baseline before = baseline_of(testing::summary_of(2));
   const auto expect_not_comparable = [&](const std::string& why, auto change) {
@@ -176,11 +207,23 @@ TEST(Regression, OtherSettingsDoNotCompare) {
   };
   expect_not_comparable("scoring version 3 -> 4", [](Baseline& b) { b.scoring_version = 4; });
   expect_not_comparable("voxel_m 0.05 -> 0.1", [](Baseline& b) { b.study.voxel_m = 0.1; });
-  expect_not_comparable("methods.erosion.segmentation.",
+  expect_not_comparable("methods.erosion.segmentation direct -> erosion",
                         [](Baseline& b) { b.study.methods.at(1).segmentation = Erosion{7}; });
   expect_not_comparable("recording recordin -> other",
                         [](Baseline& b) { b.recording_hash = "other"; });
+  expect_not_comparable("classes chair cup -> chair cup tv", [](Baseline& b) {
+    b.table.classes.push_back({3, "tv", {}, true});
+  });
+  expect_not_comparable("classes chair cup -> chair",
+                        [](Baseline& b) { b.table.classes.at(1).detect = false; });
+  expect_not_comparable("cameras.width_px 640 -> 320, recording", [](Baseline& b) {
+    b.study.cameras.width_px = 320;
+    b.recording_hash = "other";
+  });
   Baseline elsewhere = before;
+  elsewhere.study.cameras.width_px = 320;
+  EXPECT_FALSE(judged(before, elsewhere).fell()) << "the same recording stands for its cameras";
+  elsewhere = before;
   elsewhere.recording_hash = "other";
   elsewhere.study.name = "renamed";
   elsewhere.study.seeds = 5;
@@ -232,12 +275,25 @@ TEST_F(RegressionReport, NamesMethodMetricClassCellAndCause) {
   EXPECT_THAT(text, Not(HasSubstr("direct")));
 }
 
+TEST_F(RegressionReport, NamesTheFramesThatLostMost) {
+  EXPECT_EQ(judgement_.worst()->method, "erosion");
+  judgement_.trace = {"erosion", judgement_.worst()->cell, "chair", {{7, {100, 5}, {80, 9}}}};
+  for (const char* format : {"text", "markdown", "github", "junit"})
+    EXPECT_THAT(report(format),
+                ::testing::ContainsRegex("chair of erosion, first seed, at magnitude_m=0.01.*"
+                                         "frame 7 found 100 -(>|&gt;) 80, false 5 -(>|&gt;) 9"))
+        << format;
+  judgement_.trace->losses.clear();
+  EXPECT_THAT(report("text"), HasSubstr("no frame by itself lost voxels"));
+}
+
 TEST_F(RegressionReport, SpeaksToCi) {
   EXPECT_THAT(report("github"),
               HasSubstr("::error title=mapscore check::recall of erosion, chair"));
   EXPECT_THAT(report("junit"),
-              HasSubstr("<testcase classname=\"erosion\" name=\"f1 chair\"><failure"));
-  EXPECT_THAT(report("junit"), HasSubstr("<testcase classname=\"direct\" name=\"f1 chair\"/>"));
+              HasSubstr("<testcase classname=\"erosion\" name=\"f1 chair\" time=\"0\"><failure"));
+  EXPECT_THAT(report("junit"),
+              HasSubstr("<testcase classname=\"direct\" name=\"f1 chair\" time=\"0\"/>"));
   EXPECT_THAT(report("markdown"), HasSubstr("| worse | erosion | recall | chair |"));
   EXPECT_THAT(report("csv"), HasSubstr("trial,erosion,magnitude_m=0.01,chair,f1,"));
   EXPECT_THAT(report("json"), HasSubstr("\"verdict\": \"worse\""));
