@@ -33,26 +33,33 @@ if(NOT MAPSCORE_SIMULATOR)
   return()
 endif()
 
-# A mapscore that is wrong by half a voxel (mutant/rounding_placement.cpp), whichever way a frame is placed. Its
-# object comes before the library's, so the library's, which holds nothing else, is never linked.
-set(placement ${PROJECT_SOURCE_DIR}/core/placement/placement.cpp)
-set_source_files_properties(${placement} TARGET_DIRECTORY mapscore_core PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-set(mutant ${CMAKE_CURRENT_BINARY_DIR}/mutant)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${placement})
-file(READ ${placement} text)
-string(REPLACE "\nstd::vector<VoxelHit> place(" "\nstd::vector<VoxelHit> exactly_placed(" renamed "${text}")
-if(renamed STREQUAL text)
-  message(FATAL_ERROR "${placement}: no `std::vector<VoxelHit> place(` to put the error of half a voxel in; mend "
-                      "end_to_end.cmake")
-endif()
-file(CONFIGURE OUTPUT ${mutant}/exact_placement.cpp CONTENT "${renamed}" @ONLY)
+# mapscore_mutant(NAME MUTANT SOURCE RETURNS FUNCTION EXACT): a mapscore with mutant/MUTANT.cpp in the place of
+# core/SOURCE.cpp, whose own FUNCTION CMake writes, as EXACT, into a file beside it. The mutant's object comes before
+# the library's, so the library's, which holds nothing else, is never linked.
+function(mapscore_mutant name mutant source returns function exact)
+  set(original ${PROJECT_SOURCE_DIR}/core/${source}.cpp)
+  set_source_files_properties(${original} TARGET_DIRECTORY mapscore_core PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${original})
+  file(READ ${original} text)
+  string(REPLACE "\n${returns} ${function}(" "\n${returns} ${exact}(" renamed "${text}")
+  if(renamed STREQUAL text)
+    message(FATAL_ERROR "${original}: no `${returns} ${function}(` to put an error in; mend end_to_end.cmake")
+  endif()
+  set(written ${CMAKE_CURRENT_BINARY_DIR}/mutant)
+  file(CONFIGURE OUTPUT ${written}/${exact}.cpp CONTENT "${renamed}" @ONLY)
+  add_executable(${name} ${folder}/mutant/${mutant}.cpp $<TARGET_OBJECTS:mapscore_cli>)
+  target_include_directories(${name} PRIVATE ${written})
+  target_link_libraries(${name} PRIVATE mapscore::eval)
+  mapscore_build_identity(${name} ${mapscore_deciding_rooms} tests/end_to_end/mutant)
+endfunction()
 
-add_executable(mapscore_mutant ${folder}/mutant/rounding_placement.cpp $<TARGET_OBJECTS:mapscore_cli>)
-target_include_directories(mapscore_mutant PRIVATE ${mutant})
-target_link_libraries(mapscore_mutant PRIVATE mapscore::eval)
-mapscore_build_identity(mapscore_mutant ${mapscore_deciding_rooms} tests/end_to_end/mutant)
+mapscore_mutant(mapscore_mutant rounding_placement placement/placement "std::vector<VoxelHit>" place exactly_placed)
 target_compile_definitions(end_to_end_test PRIVATE MAPSCORE_MUTANT="$<TARGET_FILE:mapscore_mutant>")
 add_dependencies(end_to_end_test mapscore_mutant)
+# Of tests/gate/trials.py, which CI does not run.
+mapscore_mutant(mapscore_losing_voxels losing_voxels placement/placement "std::vector<VoxelHit>" place exactly_placed)
+mapscore_mutant(mapscore_eroding_more eroding_more segmentation/erosion cv::Mat1b erode_mask exactly_eroded)
+set_target_properties(mapscore_losing_voxels mapscore_eroding_more PROPERTIES EXCLUDE_FROM_ALL ON)
 
 # The same counts from a second implementation, written from the documents alone.
 find_program(PYTHON3 python3 PATHS /usr/bin NO_DEFAULT_PATH)
@@ -63,6 +70,11 @@ foreach(drive apartment person)
                    $<TARGET_FILE:mapscore> ${PROJECT_SOURCE_DIR}/scenes ${drive})
   set_tests_properties(independent_ruler.${drive} PROPERTIES COST 100)  # the longest ones start first
 endforeach()
+# What CI reads of `check`, and what docs/ci.md tells people to copy.
+add_test(NAME gate.formats COMMAND ${PYTHON3} -B ${CMAKE_CURRENT_SOURCE_DIR}/gate/formats.py $<TARGET_FILE:mapscore>)
+add_test(NAME gate.page
+         COMMAND ${PYTHON3} -B ${CMAKE_CURRENT_SOURCE_DIR}/gate/page.py $<TARGET_FILE:mapscore>
+                 $<TARGET_FILE:mapscore_mutant> ${CMAKE_CURRENT_BINARY_DIR}/gate_page)
 add_test(NAME independent_ruler.foreign_maps
          COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/foreign_maps.py
                  $<TARGET_FILE:mapscore> ${PROJECT_SOURCE_DIR}/scenes)

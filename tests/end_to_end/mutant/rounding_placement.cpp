@@ -3,7 +3,7 @@
 
 // Placement that is wrong by half a voxel: it rounds where it should take the floor. It stands in
 // for core/placement/placement.cpp, whose own place() CMake writes, as exactly_placed(), into this:
-#include "exact_placement.cpp"
+#include "exactly_placed.cpp"
 
 namespace mapscore {
 
