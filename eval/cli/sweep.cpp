@@ -3,9 +3,11 @@
 
 #include "core/error.hpp"
 #include "eval/cli/shared/live_status.hpp"
-#include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
+#include "eval/cli/shared/shard_stores.hpp"
+#include "eval/cli/shared/slurm_sweep.hpp"
 #include "eval/cli/shared/stop_signal.hpp"
+#include "eval/cli/shared/sweep_flags.hpp"
 #include "eval/cli/shared/sweep_size.hpp"
 #include "eval/cli/shared/truth_source.hpp"
 #include "eval/cli/verbs.hpp"
@@ -14,6 +16,7 @@
 #include "eval/render/study_recording.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/results/plan.hpp"
+#include "eval/results/shards.hpp"
 #include "eval/results/store.hpp"
 #include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"
@@ -21,30 +24,12 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
 
 namespace mapscore::eval {
 namespace {
-
-struct SweepFlags {
-  StudyFlags study;
-  WorkFlags work;
-  std::string shard = "1/1";
-  std::vector<std::string> merged;
-  bool yes = false, dry_run = false, keep_builds = false;
-};
-
-/// "i/n" with 1 <= i <= n.
-std::pair<int, int> parse_shard(const std::string& text) {
-  int shard = 0, shards = 0, read = 0;
-  if (std::sscanf(text.c_str(), "%d/%d%n", &shard, &shards, &read) != 2 ||
-      read != static_cast<int>(text.size()) || shard < 1 || shard > shards)
-    throw Error("--shard " + text + ": must be i/n with 1 <= i <= n, e.g. 2/4");
-  return {shard, shards};
-}
 
 /// A store keeps the trials of every study, and shows those of the last one.
 void note_other_study(const ResultStore& store, const std::filesystem::path& results,
@@ -74,14 +59,6 @@ std::string lattice_note(const TaskList& tasks, const ResultStore& store, const 
   return check.note();
 }
 
-/// The stores of `--merge`. Throws Error where one is none.
-std::vector<ResultStore> merged_stores(const SweepFlags& flags) {
-  std::vector<ResultStore> stores;
-  for (const std::string& other : flags.merged)
-    stores.push_back(ResultStore::open_existing(store_file(other)));
-  return stores;
-}
-
 /// Keeps other sweeps out of the folder, so that none binds it to another study while this one
 /// runs. Waits for one that is there, and says so.
 void enter(const std::filesystem::path& results, bool quiet, std::optional<FolderLock>& lock) {
@@ -98,43 +75,57 @@ void enter(const std::filesystem::path& results, bool quiet, std::optional<Folde
 struct Workplace {
   const SweepFlags& flags;
   const Study& study;
-  std::filesystem::path results;
+  std::filesystem::path whole;    ///< the results folder, with the recording
+  std::filesystem::path results;  ///< where this sweep's store is: the same, or that of its shard
   const Recording& recording;
   const ClassTable& table;
   const Plan& plan;
 };
 
-/// The store, bound to the study, with the trials of `merged`.
-ResultStore bound_store(const Workplace& at, const std::vector<ResultStore>& merged) {
+/// The store, bound to the study, with the trials of `merged` and, unless it is itself of a shard,
+/// of the shards in its folder.
+ResultStore bound_store(const Workplace& at, const OtherStores& merged) {
+  const bool quiet = at.flags.work.quiet;
   ResultStore store = ResultStore::open(at.results / "results.sqlite");
-  if (!at.flags.work.quiet) note_other_study(store, at.results, at.study);
+  if (!quiet) note_other_study(store, at.results, at.study);
   write_study(store,
               {at.study, at.table, at.recording.content_hash(),
                std::filesystem::relative(at.recording.folder(), at.results).string()},
               at.results);
-  for (std::size_t n = 0; n < merged.size(); ++n) {
-    const int taken = store.merge(merged[n]);
-    if (!at.flags.work.quiet)
-      std::cerr << fmt::format("sweep: {} trials taken over from {}\n", taken,
-                               shown(at.flags.merged[n]));
+  for (const auto& [name, other] : merged) {
+    const int taken = take_over(store, other);
+    if (!quiet) std::cerr << fmt::format("sweep: {} trials taken over from {}\n", taken, name);
   }
+  if (at.results != at.whole) return store;
+  if (const int taken = take_over_shards(store, at.whole); taken > 0 && !quiet)
+    std::cerr << fmt::format("sweep: {} trials taken over from shards\n", taken);
   return store;
+}
+
+/// What the whole folder holds beside a shard.
+std::unordered_set<std::string> held_elsewhere(const Workplace& at) {
+  const std::filesystem::path file = store_file(at.whole);
+  if (at.results == at.whole || !std::filesystem::exists(file)) return {};
+  return kept_keys(ResultStore::open_existing(file), at.flags.keep_builds);
 }
 
 RunnerOutcome computed(const Workplace& at, ResultStore& store, const StopSignal& stop) {
   const WorkFlags& work = at.flags.work;
-  const auto [shard, shards] = parse_shard(at.flags.shard);
+  const auto [shard, shards] = at.flags.shard_of();
   SweepStatus first;
   first.study = at.study.name;
   first.shard = at.flags.shard;
   first.jobs = work.jobs;
   const bool keep_builds = at.flags.keep_builds;
-  first.missing = static_cast<std::int64_t>(
-      missing_tasks(at.plan.tasks, kept_keys(store, keep_builds), shard, shards).size());
+  RunnerOptions options{work.jobs, work.memory_bytes, shard,
+                        shards,    keep_builds,       held_elsewhere(at)};
+  auto held = kept_keys(store, keep_builds);
+  held.insert(options.held_elsewhere.begin(), options.held_elsewhere.end());
+  first.missing =
+      static_cast<std::int64_t>(missing_tasks(at.plan.tasks, held, shard, shards).size());
   if (!work.quiet) note_other_builds(held_tasks(store, at.plan.tasks), keep_builds);
   LiveStatus status(std::move(first), at.results, at.recording.frame_count());
   Progress progress("sweep", "frame evaluations", work.quiet);
-  RunnerOptions options{work.jobs, work.memory_bytes, shard, shards, keep_builds};
   options.progress = [&](std::int64_t done, std::int64_t total) {
     progress.show(done, total);
     status.progress(done, total);
@@ -160,45 +151,58 @@ void tell_failures(const RunnerOutcome& outcome, const std::filesystem::path& re
       how, shown(first.reason), shell_word(results.native()));
 }
 
+/// Computes what is missing.
+int compute(const Workplace& at, ResultStore& store) {
+  const TaskList& tasks = at.plan.tasks;
+  const StopSignal stop;
+  const RunnerOutcome outcome = computed(at, store, stop);
+  tell_failures(outcome, at.results);
+  if (outcome.stopped) {
+    std::cerr << fmt::format(
+        "sweep: stopped; {} of {} trials are in {}; the same command goes on where it stopped\n",
+        held_tasks(store, tasks).all, tasks.size(), shown(at.results / "results.sqlite"));
+    return 128 + stop.taken();
+  }
+  if (!at.flags.work.quiet)
+    std::cerr << fmt::format(
+        "sweep {}: {} trials computed, {} already there or of other shards; {}\n", at.study.name,
+        outcome.computed, outcome.reused, shown(at.results / "results.sqlite"));
+  if (const std::string note = lattice_note(tasks, store, at.table); !note.empty())
+    std::cerr << "sweep: note: " << note << '\n';
+  return outcome.failures.empty() ? 0 : 1;
+}
+
 int sweep(const SweepFlags& flags) {
   const Study study = flags.study.load();
-  const std::filesystem::path results = flags.study.results_folder(study);
-  const auto [shard, shards] = parse_shard(flags.shard);
-  const std::vector<ResultStore> merged = merged_stores(flags);
+  const std::filesystem::path whole = flags.study.results_folder(study);
+  const auto [shard, shards] = flags.shard_of();
+  flags.check(whole);
+  const OtherStores merged = stores_of(flags.merged);
   if (flags.dry_run) {
-    print_dry_run(study, results, shard, shards, flags.keep_builds);
+    print_dry_run(study, whole, shard, shards, flags.keep_builds);
     return 0;
   }
-  SweepSize(study, results).refuse_many(flags.yes);
+  SweepSize(study, whole).refuse_many(flags.yes);
 
   ShownRecording display(flags.work.quiet);
-  const Recording recording = recording_of(study, results, flags.work.jobs, display.progress());
+  const Recording recording = recording_of(study, whole, flags.work.jobs, display.progress());
   if (const std::string note = note_on_baked(recording.info()); !note.empty())
     std::cerr << "sweep: " << note << '\n';
   const ClassTable table = detected_table(study, recording.info().table);
   const Plan plan = plan_of(study, recording.content_hash());
   check_truth_size(study, recording, plan.tasks.size(), flags.yes);
 
+  const std::filesystem::path results = shards > 1 ? shard_folder(whole, shard, shards) : whole;
   std::optional<FolderLock> lock;
   enter(results, flags.work.quiet, lock);
-  const Workplace at{flags, study, results, recording, table, plan};
+  const Workplace at{flags, study, whole, results, recording, table, plan};
   ResultStore store = bound_store(at, merged);
-  const StopSignal stop;
-  const RunnerOutcome outcome = computed(at, store, stop);
-  tell_failures(outcome, results);
-  if (outcome.stopped) {
-    std::cerr << fmt::format(
-        "sweep: stopped; {} of {} trials are in {}; the same command goes on where it stopped\n",
-        held_tasks(store, plan.tasks).all, plan.tasks.size(), shown(results / "results.sqlite"));
-    return 128 + stop.taken();
+  const SharedOutSweep shared_out{flags, whole, study.name, plan.tasks, store};
+  if (flags.slurm) {
+    lock.reset();  // for the merge
+    return submit_missing(shared_out);
   }
-  if (!flags.work.quiet)
-    std::cerr << fmt::format(
-        "sweep {}: {} trials computed, {} already there or of other shards; {}\n", study.name,
-        outcome.computed, outcome.reused, shown(results / "results.sqlite"));
-  if (const std::string note = lattice_note(plan.tasks, store, table); !note.empty())
-    std::cerr << "sweep: note: " << note << '\n';
-  return outcome.failures.empty() ? 0 : 1;
+  return flags.merge_only ? tell_missing(shared_out) : compute(at, store);
 }
 
 }  // namespace
@@ -206,19 +210,11 @@ int sweep(const SweepFlags& flags) {
 void add_sweep(CLI::App& program, int& exit_code) {
   auto* verb = program.add_subcommand("sweep", "Compute all trials of a study; resumes");
   const auto flags = std::make_shared<SweepFlags>();
-  verb->callback([flags, &exit_code] { exit_code = sweep(*flags); });
-  flags->study.add_to(*verb);
-  flags->work.add_to(*verb);
-  add_yes_flag(*verb, flags->yes,
-               "Begin a sweep of very many trials, or a truth that takes much memory");
-  verb->add_flag("--dry-run", flags->dry_run,
-                 "Only print how many trials there are, how many are missing, and for how long");
-  verb->add_option("--shard", flags->shard,
-                   "Only every n-th trial: i/n, for several processes or machines");
-  verb->add_option("--merge", flags->merged, "Take over the trials of another results folder first")
-      ->allow_extra_args(false);
-  verb->add_flag("--keep_builds", flags->keep_builds,
-                 "Keep trials that another build of mapscore made");
+  verb->callback([flags, verb, &exit_code] {
+    flags->jobs_given = verb->count("--jobs") > 0;
+    exit_code = sweep(*flags);
+  });
+  flags->add_to(*verb);
   verb->footer(
       "Records the scene first if its recording is not there. A trial that this build made is\n"
       "never computed again, so a killed sweep goes on where it stopped. A trial that fails is\n"
@@ -231,8 +227,10 @@ void add_sweep(CLI::App& program, int& exit_code) {
       "  mapscore sweep configs/demo.yaml --dry-run\n"
       "  mapscore sweep configs/demo.yaml -o /data/demo --jobs 8 --memory 4GiB\n"
       "  mapscore sweep configs/demo.yaml --set seeds=20 --set voxel_m=0.02\n"
-      "  mapscore sweep configs/demo.yaml -o part2 --shard 2/2\n"
-      "  mapscore sweep configs/demo.yaml -o part1 --merge part2");
+      "  mapscore sweep configs/demo.yaml -o results/demo --shard 2/8      one of eight processes\n"
+      "  mapscore sweep configs/demo.yaml -o results/demo      takes over what shards have done\n"
+      "  mapscore sweep configs/demo.yaml -o here --merge there\n"
+      "  mapscore sweep configs/demo.yaml --slurm -- --partition=main --time=30");
 }
 
 }  // namespace mapscore::eval

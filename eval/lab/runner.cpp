@@ -14,6 +14,7 @@
 #include <atomic>
 #include <mutex>
 #include <new>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -166,6 +167,22 @@ class Sweep {
   std::atomic<std::size_t> sights_{0};
 };
 
+/// Positions of all tasks, those of one lattice together, and of these those of one cell.
+std::vector<std::size_t> in_order_of_lattices(const TaskList& tasks) {
+  std::vector<std::size_t> order(tasks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&tasks](std::size_t position) {
+    return std::pair(tasks.seed_index(position), tasks.config(position).voxel_m);
+  });
+  return order;
+}
+
+/// Where the slice of a shard begins.
+std::ptrdiff_t first_of_shard(std::size_t tasks, int shard, int shards) {
+  return static_cast<std::ptrdiff_t>(tasks * static_cast<std::size_t>(shard - 1) /
+                                     static_cast<std::size_t>(shards));
+}
+
 }  // namespace
 
 std::unordered_set<std::string> kept_keys(const ResultStore& store, bool keep_builds) {
@@ -175,21 +192,34 @@ std::unordered_set<std::string> kept_keys(const ResultStore& store, bool keep_bu
 std::vector<std::size_t> missing_tasks(const TaskList& tasks,
                                        const std::unordered_set<std::string>& held, int shard,
                                        int shards) {
+  std::vector<std::size_t> missing = in_order_of_lattices(tasks);
+  missing.erase(missing.begin() + first_of_shard(missing.size(), shard + 1, shards), missing.end());
+  missing.erase(missing.begin(), missing.begin() + first_of_shard(tasks.size(), shard, shards));
+  if (!held.empty())
+    std::erase_if(missing,
+                  [&](std::size_t position) { return held.contains(tasks.key(position)); });
+  return missing;
+}
+
+std::vector<std::size_t> missing_by_shard(const TaskList& tasks,
+                                          const std::unordered_set<std::string>& held, int shards) {
+  const std::vector<std::size_t> order = in_order_of_lattices(tasks);
   std::vector<std::size_t> missing;
-  for (auto position = static_cast<std::size_t>(shard - 1); position < tasks.size();
-       position += static_cast<std::size_t>(shards))
-    if (held.empty() || !held.contains(tasks.key(position))) missing.push_back(position);
-  std::ranges::stable_sort(missing, {}, [&tasks](std::size_t position) {
-    return std::pair(tasks.seed_index(position), tasks.config(position).voxel_m);
-  });
+  for (int shard = 1; shard <= shards; ++shard)
+    missing.push_back(static_cast<std::size_t>(
+        std::count_if(order.begin() + first_of_shard(order.size(), shard, shards),
+                      order.begin() + first_of_shard(order.size(), shard + 1, shards),
+                      [&](std::size_t position) { return !held.contains(tasks.key(position)); })));
   return missing;
 }
 
 RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
                        ResultStore& store, const RunnerOptions& options) {
   const TaskList& tasks = plan.tasks;
+  std::unordered_set<std::string> held = kept_keys(store, options.keep_builds);
+  held.insert(options.held_elsewhere.begin(), options.held_elsewhere.end());
   const std::vector<std::size_t> missing =
-      missing_tasks(tasks, kept_keys(store, options.keep_builds), options.shard, options.shards);
+      missing_tasks(tasks, held, options.shard, options.shards);
   RunnerOutcome outcome;
   if (!missing.empty()) {
     const bool colour = std::ranges::any_of(

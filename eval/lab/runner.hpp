@@ -20,8 +20,9 @@ namespace mapscore::eval {
 struct RunnerOptions {
   int jobs = 1;                                     ///< worker threads
   std::size_t memory_bytes = std::size_t{1} << 30;  ///< decoded frames held at once
-  int shard = 1, shards = 1;  ///< this process does every shards-th task that is missing
+  int shard = 1, shards = 1;  ///< this process does the missing tasks of one slice (missing_tasks)
   bool keep_builds = false;   ///< trials that another build made are not missing
+  std::unordered_set<std::string> held_elsewhere = {};  ///< keys that are not missing either
   std::function<void(std::int64_t done, std::int64_t total)> progress =
       {};  ///< in frame evaluations
   /// After each trial, one call at a time: how many were computed and how many failed so far.
@@ -46,10 +47,16 @@ struct RunnerOutcome {
 /// with `keep_builds`.
 [[nodiscard]] std::unordered_set<std::string> kept_keys(const ResultStore& store, bool keep_builds);
 
-/// Positions of the tasks of a shard whose keys are not `held`, those of one lattice together.
+/// Positions of the tasks of a shard whose keys are not `held`. All tasks in the order of their
+/// lattices are cut into `shards` slices that differ by one task at most, whatever is held, since
+/// tasks of one lattice share its truth, and those of one cell the frames under its faults.
 [[nodiscard]] std::vector<std::size_t> missing_tasks(const TaskList& tasks,
                                                      const std::unordered_set<std::string>& held,
                                                      int shard, int shards);
+/// How many tasks each shard misses, from the first shard on.
+[[nodiscard]] std::vector<std::size_t> missing_by_shard(const TaskList& tasks,
+                                                        const std::unordered_set<std::string>& held,
+                                                        int shards);
 
 /// Computes the tasks of a plan that the store does not hold, or holds of another build, and adds
 /// each to it as soon as it is done. Trials walk the frames together in blocks that fit the memory,

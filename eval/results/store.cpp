@@ -260,11 +260,16 @@ int ResultStore::merge(const ResultStore& other) {
                               other.tells_builds_ ? "build" : "''"));
   const int before = sqlite3_total_changes(database_.get());
   execute("BEGIN");
-  while (query.step()) {
-    (void)result_of(query.text(2), other.file_);  // so that none comes in which cannot be read
-    add_row({query.text(0), query.text(1), query.text(2), query.text(3)});
+  try {
+    while (query.step()) {
+      (void)result_of(query.text(2), other.file_);  // so that none comes in which cannot be read
+      add_row({query.text(0), query.text(1), query.text(2), query.text(3)});
+    }
+    execute("COMMIT");
+  } catch (...) {
+    sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
+    throw;
   }
-  execute("COMMIT");
   return sqlite3_total_changes(database_.get()) - before;
 }
 

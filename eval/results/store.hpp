@@ -105,7 +105,7 @@ class ResultStore {
   /// Reasons by key.
   [[nodiscard]] std::map<std::string, std::string> failures() const;
   /// Takes over the trials of another store that are not here yet, or that this build made there
-  /// and another here. Returns how many.
+  /// and another here. Returns how many; all or, where it throws, none.
   int merge(const ResultStore& other);
 
  private:

@@ -66,7 +66,7 @@ TEST_F(SweepControl, ADryRunCountsAndWritesNothing) {
   EXPECT_THAT(more.out,
               AllOf(HasSubstr("10 there, 5 missing"), HasSubstr(" s a trial, as the last")));
   EXPECT_THAT(sweep({"--dry-run", "--set", "seeds=3", "--shard", "2/2"}).out,
-              HasSubstr("5 missing, 2 in shard 2/2"));
+              HasSubstr("5 missing, 5 in shard 2/2"));
   EXPECT_THAT(sweep({"--dry-run"}).out, HasSubstr("time: none"));
   EXPECT_TRUE(bytes_of(path("results/results.sqlite")) == store);
 }
@@ -89,12 +89,13 @@ TEST_F(SweepControl, RefusesBadFlagsBeforeTheWork) {
 }
 
 TEST_F(SweepControl, StatusOfAFinishedAndAnUnfinishedSweep) {
-  expect_done(sweep({"-q", "--shard", "1/2"}));
+  expect_done(sweep({"-q", "--set", "seeds=1"}));
+  EXPECT_EQ(sweep({"-q", "--merge_only"}).exit_code, 1) << "binds the folder to both seeds";
   const Outcome half = mapscore({"status", results()});
   expect_done(half);
   EXPECT_THAT(half.out,
               AllOf(HasSubstr("5 of 10 trials and ceilings done, 0 failed, 5 not tried yet"),
-                    HasSubstr("finished sweep of study study by "), HasSubstr("shard 1/2"),
+                    HasSubstr("finished sweep of study study by "), HasSubstr("shard 1/1"),
                     HasSubstr("5 of 5 trials computed"), HasSubstr("frame evaluations/s")));
   expect_done(sweep({"-q"}));
   EXPECT_THAT(mapscore({"status", results()}).out, HasSubstr("10 of 10 trials and ceilings done"));
@@ -189,10 +190,9 @@ TEST_F(SweepControl, ListsTrialsAndRepeatsOneToTheLastCount) {
 
 TEST_F(SweepControl, InterimTablesAndFiguresAreMarked) {
   expect_refused(mapscore({"table", results(), "--interim"}), {"no result store there"});
-  expect_done(sweep({"-q", "--shard", "1/2"}));
-  expect_refused(mapscore({"table", results()}), {"5 of 10 trials are not there yet"});
   expect_done(sweep({"-q", "--set", "seeds=1"}));  // the first seed of each line
-  expect_done(sweep({"-q", "--shard", "1/2"}));
+  EXPECT_EQ(sweep({"-q", "--merge_only"}).exit_code, 1);
+  expect_refused(mapscore({"table", results()}), {"5 of 10 trials are not there yet"});
   const Outcome table = mapscore({"table", results(), "--interim"});
   expect_done(table);
   EXPECT_THAT(table.out,

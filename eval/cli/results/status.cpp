@@ -3,9 +3,12 @@
 
 #include "core/error.hpp"
 #include "eval/cli/shared/progress.hpp"
+#include "eval/cli/shared/shard_stores.hpp"
+#include "eval/cli/shared/slurm_jobs.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/results/plan.hpp"
+#include "eval/results/shards.hpp"
 #include "eval/results/study_store.hpp"
 #include "eval/results/sweep_status.hpp"
 #include "files/folder_lock.hpp"
@@ -14,8 +17,11 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 #include <iostream>
+#include <map>
+#include <unordered_set>
 
 namespace mapscore::eval {
 namespace {
@@ -50,11 +56,9 @@ std::string text_of(const SweepStatus& status, bool running) {
   return text + '\n';
 }
 
-/// What the store holds of its study.
-std::string store_text(const fs::path& file) {
-  const ResultStore store = ResultStore::open_existing(file);
-  const StudyRecord record = read_study(store, file.parent_path());
-  const TaskList tasks = plan_of(record.study, record.recording_hash).tasks;
+/// What a store holds of its study.
+std::string store_text(const fs::path& file, const ResultStore& store, const StudyRecord& record,
+                       const TaskList& tasks) {
   const auto held = store.keys();
   const auto failures = store.failures();
   std::size_t done = 0, failed = 0;
@@ -73,16 +77,85 @@ std::string store_text(const fs::path& file) {
   return text;
 }
 
+/// What a shard says of itself: finished, stopped, running, or silent where it was killed or its
+/// host is out of touch.
+std::string state_of(const ShardFolder& shard, const std::optional<SweepStatus>& status) {
+  constexpr std::int64_t kSilentSeconds = 60;
+  if (!status) return "silent";
+  if (status->state != "running") return status->state;
+  const bool here =
+      shard_folder("", shard.shard, shard.shards).filename() == shard.folder.filename();
+  const bool running = here ? FolderLock(shard.folder, WhenTaken::go_on).taken()
+                            : std::time(nullptr) - status->updated_s < kSilentSeconds;
+  return running ? "running" : "silent";
+}
+
+/// How shards stand: how many in each state, and a line for some that have not finished.
+std::string shards_text(const std::vector<ShardFolder>& shards) {
+  constexpr int kNamed = 10;
+  std::map<std::string, int> states;
+  std::string lines;
+  for (int unfinished = 0; const ShardFolder& shard : shards) {
+    const auto status = read_status(shard.folder);
+    const std::string state = state_of(shard, status);
+    ++states[state];
+    if (state == "finished" || ++unfinished > kNamed) continue;
+    lines += fmt::format("  shard {}/{} on {} {}", shard.shard, shard.shards, shown(shard.host),
+                         shown(state));
+    if (status)
+      lines += fmt::format(": {} of {} trials, {} failed, last heard of {}", status->computed,
+                           status->missing, status->failed, utc(status->updated_s));
+    lines += '\n';
+  }
+  std::string text = "shards:";
+  for (const auto& [state, count] : states) text += fmt::format(" {} {}", count, shown(state));
+  return text + '\n' + lines;
+}
+
+/// How many tasks of its study the stores of a folder hold together, its own and those of shards.
+std::string together_text(const fs::path& folder, const OtherStores& shards) {
+  const fs::path file = folder / "results.sqlite";
+  std::unordered_set<std::string> keys;
+  for (const auto& [name, shard] : shards) keys.merge(shard.keys());
+  if (fs::exists(file)) keys.merge(ResultStore::open_existing(file).keys());
+  const auto bound = std::ranges::find_if(
+      shards, [](const auto& shard) { return !shard.second.text("study").empty(); });
+  if (bound == shards.end()) return {};
+  const StudyRecord record = read_study(bound->second, folder / "shards" / "any");
+  const TaskList tasks = plan_of(record.study, record.recording_hash).tasks;
+  std::size_t done = 0;
+  for (std::size_t n = 0; n < tasks.size(); ++n) done += keys.contains(tasks.key(n)) ? 1 : 0;
+  return fmt::format("{} with its shards: study {}, {} of {} trials and ceilings done\n",
+                     shown(folder), shown(record.study.name), done, tasks.size());
+}
+
+std::string jobs_text(const SlurmJobs& jobs) {
+  const std::string queue = queue_text(jobs);
+  return fmt::format("slurm: array job {} of {} shards, merge job {}: {}\n", jobs.array,
+                     jobs.shards, jobs.merge, queue.empty() ? "not in the queue" : queue);
+}
+
 void print_status(const StatusFlags& flags) {
   const fs::path file = store_file(flags.results);
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (!fs::exists(file))
+  const std::vector<ShardFolder> shards = shard_folders(folder);
+  if (!fs::exists(file) && shards.empty())
     throw Error(file.string() + ": no result store there; run `mapscore sweep` first");
   const bool running = FolderLock(folder, WhenTaken::go_on).taken();
-  std::cout << store_text(file);
+  if (fs::exists(file)) {
+    const ResultStore store = ResultStore::open_existing(file);
+    const StudyRecord record = read_study(store, folder);
+    std::cout << store_text(file, store, record,
+                            plan_of(record.study, record.recording_hash).tasks);
+  }
+  if (const OtherStores stores = shard_stores(folder); !stores.empty())
+    std::cout << together_text(folder, stores);
+  if (!shards.empty()) std::cout << shards_text(shards);
+  const auto jobs = read_slurm_jobs(folder);
+  if (jobs) std::cout << jobs_text(*jobs);
   if (const auto status = read_status(folder))
     std::cout << text_of(*status, running);
-  else
+  else if (shards.empty() && !jobs)
     std::cout << "no sweep has left its status here\n";
 }
 
@@ -93,7 +166,8 @@ void add_status(CLI::App& program) {
       program, "status", "How far a sweep is: done, failed, rate, time left, who", print_status);
   verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
   verb->footer(
-      "Works beside a running sweep, and after one that has ended, was stopped or killed.\n"
+      "Works beside a running sweep, and after one that has ended, was stopped or killed. Counts\n"
+      "the shards of a sweep that was shared out, and its jobs in Slurm's queue.\n"
       "Examples:\n"
       "  mapscore status results/demo\n"
       "  watch mapscore status results/demo");

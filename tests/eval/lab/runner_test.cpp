@@ -118,6 +118,45 @@ TEST_F(Runner, ShardsShareTheTasksOut) {
   EXPECT_EQ(results_of(plan, results), run(plan, one_job(), "whole"));
 }
 
+TEST_F(Runner, AShardIsASliceThatKeepsSeedsTogether) {
+  const TaskList tasks = plan_with_pose_noise().tasks;
+  const auto seeds_of = [&](int shard, int shards) {
+    std::vector<int> seeds;
+    for (const std::size_t position : missing_tasks(tasks, {}, shard, shards))
+      seeds.push_back(tasks.seed_index(position));
+    return seeds;
+  };
+  const int half = static_cast<int>(tasks.size() / 2);
+  EXPECT_EQ(seeds_of(1, 2), std::vector<int>(static_cast<std::size_t>(half), 0));
+  EXPECT_EQ(seeds_of(2, 2), std::vector<int>(static_cast<std::size_t>(half), 1));
+  const auto more = static_cast<int>(tasks.size()) + 3;  // some are empty
+  std::size_t sum = 0;
+  for (int shard = 1; shard <= more; ++shard) sum += seeds_of(shard, more).size();
+  EXPECT_EQ(sum, tasks.size());
+}
+
+TEST_F(Runner, SlicesStayWhereTheyAreWhateverIsHeld) {
+  const TaskList tasks = plan_with_pose_noise().tasks;
+  const auto second = missing_tasks(tasks, {}, 2, 3);
+  const std::unordered_set<std::string> held{tasks.key(0), tasks.key(second.front())};
+  const auto left = missing_tasks(tasks, held, 2, 3);
+  EXPECT_EQ(left, std::vector<std::size_t>(second.begin() + 1, second.end()));
+  std::vector<std::size_t> counts;
+  for (int shard = 1; shard <= 3; ++shard)
+    counts.push_back(missing_tasks(tasks, held, shard, 3).size());
+  EXPECT_EQ(missing_by_shard(tasks, held, 3), counts);
+}
+
+TEST_F(Runner, WhatIsHeldElsewhereIsNotComputed) {
+  const Plan plan = plan_with_pose_noise();
+  ResultStore results = store();
+  RunnerOptions options = one_job();
+  options.held_elsewhere = {plan.tasks.key(0), plan.tasks.key(3)};
+  const RunnerOutcome outcome = run_plan(plan, recording(), table(), results, options);
+  EXPECT_EQ(outcome.computed, plan.tasks.size() - 2);
+  EXPECT_FALSE(results.find(plan.tasks.key(3)));
+}
+
 TEST_F(Runner, WhatTheStoreHoldsIsNotComputedAgain) {
   const Plan plan = plan_with_pose_noise();
   ResultStore results = store();
