@@ -12,7 +12,8 @@ ends a program by SIGXFSZ that does not look out. A run with room says what is w
 
   - the exit code is 2, with one line on standard error, or it is 0 and every file is whole;
   - no file under a final name differs from the whole one (dates in PDF are left out; files with measured times have to be
-    well-formed; a store passes SQLite's check, and `table` reads it or refuses it in one line);
+    well-formed; a store passes SQLite's check, holds trials of the whole one alone, and `table` reads it or refuses it in
+    one line);
   - under RLIMIT_FSIZE nothing else is left;
   - the same command, with room, does its work over what was left.
 
@@ -30,6 +31,7 @@ import time
 
 import tiny_files as tiny
 from program import Failures, Program, shown, snapshot
+from together import trials_of
 from well_formed import store_fault
 from whole import files_of, unsteady_files
 
@@ -57,6 +59,7 @@ def commands(work):
         "record": ["record", at("scene/study.yaml"), "-o", "{out}/rec", *quiet],
         "sweep": ["sweep", at("study.yaml"), "-o", "{out}", "--set", "seeds=4", *quiet],
         "sweep that records": ["sweep", at("scene/study.yaml"), "-o", "{out}", *quiet],
+        "tolerance": ["tolerance", at("study.yaml"), "-o", "{out}", "--trials", "24", "--figure", "{out}/figures", *quiet],
         "run": ["run", at("study.yaml"), "-o", "{out}", *quiet],
         "frames": ["frames", at("study.yaml"), "-o", "{out}", "--set", "score.unit=frame", *quiet],
         "map": ["map", at("rec"), "-o", "{out}/map.ot", "--color", "{out}/colour.ot", "--ply", "{out}/map.ply", "-q"],
@@ -125,7 +128,7 @@ class Verb:
                 raise SystemExit(f"{self.name}: ended with {outcome.code} on a disk with room: {shown(outcome.err)}")
             self.whole, self.used = files_of(self.place, self.unsteady), disk.used()
             self.sizes = sorted({len(data) for data in snapshot(self.place).values()})
-            self.table = self.table_of_store()
+            self.table, self.trials = self.table_of_store(), trials_of(os.path.join(self.place, "results.sqlite"))
             return self.whole
 
     def run(self, before=None):
@@ -152,10 +155,15 @@ class Verb:
             return None
         if os.path.getsize(path) and store_fault(path):
             return f"results.sqlite: {store_fault(path)}"
+        trials = trials_of(path)
+        if any(self.trials.get(key) != row for key, row in trials.items()):
+            return "results.sqlite: holds other trials"
+        if outcome.code == 0 and len(trials) < len(self.trials):
+            return f"results.sqlite: {len(trials)} of {len(self.trials)} trials after exit code 0"
         table = self.table_of_store()
         if table.code == 0:
             return None if table.out == self.table.out else "results.sqlite: table prints other scores"
-        if outcome.code == 0:
+        if outcome.code == 0 and self.table.code == 0:  # that of a tolerance alone has none
             return "results.sqlite: table refuses it after exit code 0"
         return table.complaint()
 

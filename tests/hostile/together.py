@@ -21,6 +21,7 @@ import os
 import shutil
 import sqlite3
 import sys
+import tempfile
 import time
 
 import tiny_files as tiny
@@ -93,11 +94,17 @@ def filled(command, place):
 
 
 def trials_of(store):
-    """{key: (description, result)}"""
-    with contextlib.closing(sqlite3.connect(f"file:{store}?mode=ro", uri=True)) as file:
-        if file.execute("pragma integrity_check").fetchone() != ("ok",):
-            return None
-        return {row[0]: row[1:] for row in file.execute("select key, description, result from trials")}
+    """{key: (description, result)} of a copy, in which SQLite rolls back what was not finished; None when damaged."""
+    with tempfile.TemporaryDirectory() as folder:
+        for ending in ("", "-journal", "-wal"):
+            if os.path.exists(store + ending):
+                shutil.copyfile(store + ending, os.path.join(folder, "copy.sqlite" + ending))
+        with contextlib.closing(sqlite3.connect(os.path.join(folder, "copy.sqlite"))) as file:
+            if file.execute("pragma integrity_check").fetchone() != ("ok",):
+                return None
+            if not file.execute("select * from sqlite_master where name = 'trials'").fetchall():
+                return {}
+            return {row[0]: row[1:] for row in file.execute("select key, description, result from trials")}
 
 
 class Alone:

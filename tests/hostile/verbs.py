@@ -37,6 +37,17 @@ def sweep_and_show(case, study, classes, full, results="results"):
     case.run("run", study, "-o", folder, "-q", "-j", "1")
 
 
+def tolerance_of(case, study, results="tolerance"):
+    """A folder that no sweep has bound to a study: only `info` says what it holds."""
+    folder = case.out(results)
+    if not case.run("tolerance", study, "-o", folder, "--trials", "24", "--group", "all", "--figure", case.out("t"), "-q",
+                    "-j", "1"):
+        return
+    case.run("info", folder)
+    for verb in ("status", "trials", "table", "figures"):
+        case.run(verb, folder, codes=(2,))
+
+
 def frames_of(case, study):
     case.run("frames", study, "-o", case.out("frames"), "-q", "-j", "1", "--set", "score.unit=frame")
 
@@ -80,6 +91,8 @@ def whole_recording(case, recording, classes, full):
         case.run("map", recording, "-o", case.out("map.ot"), "-q")
         return
     sweep_and_show(case, case.at("study.yaml"), classes, full)
+    if full:
+        tolerance_of(case, case.at("study.yaml"))
     frames_of(case, case.at("study.yaml"))
     map_and_score(case, recording, full)
     if full:
