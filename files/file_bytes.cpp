@@ -4,6 +4,7 @@
 #include "files/file_bytes.hpp"
 
 #include "core/error.hpp"
+#include "files/suggestion.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -37,6 +38,11 @@ std::string read_file(const std::filesystem::path& path) {
   if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character ||
       type == std::filesystem::file_type::socket)
     throw Error(fmt::format("{}: is a pipe or a device; put a file there", path.string()));
+  if (type == std::filesystem::file_type::directory)
+    throw Error(fmt::format("{}: cannot open, it is a folder; give a file", path.string()));
+  if (type == std::filesystem::file_type::not_found)
+    throw Error(fmt::format("{}: cannot open (no such file); {}", path.string(),
+                            path_suggestion(path, kMend)));
   const File file(std::fopen(path.c_str(), "rb"));
   if (!file) fail(path, "cannot open", kMend);
   std::string bytes;

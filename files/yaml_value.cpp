@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "files/file_bytes.hpp"
+#include "files/suggestion.hpp"
 #include "files/text.hpp"
 #include "files/text_rows.hpp"
 
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -119,21 +119,6 @@ std::optional<std::uint64_t> digits_of(std::string_view text, int base) {
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value, base);
   return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
 }
 
 }  // namespace
@@ -280,18 +265,6 @@ std::string yaml_text(std::string_view text) {
   const bool word = is_word(text, "_-./") && text.front() != '-' && text != "null" &&
                     text != "Null" && text != "NULL" && text != "...";
   return word ? std::string(text) : yaml_quoted(text);
-}
-
-std::string suggestion(std::string_view word, const std::vector<std::string>& choices) {
-  // Most often the unit is what is missing: a choice that continues the word is the nearest of all.
-  const auto distance = [&](const std::string& choice) {
-    return choice.starts_with(std::string(word) + "_") ? 0 : edit_distance(word, choice);
-  };
-  const auto nearest = std::ranges::min_element(choices, {}, distance);
-  if (nearest == choices.end()) return "remove it";
-  const std::size_t most = std::max<std::size_t>(1, std::min<std::size_t>(3, word.size() / 3));
-  if (distance(*nearest) <= most) return fmt::format("did you mean '{}'?", *nearest);
-  return fmt::format("write one of {}", fmt::join(choices, ", "));
 }
 
 std::string join_path(std::string_view head, std::string_view tail) {

@@ -79,10 +79,6 @@ struct YamlValue {
 /// The text as a YAML scalar that `scalar` reads back: in double quotes unless it is a plain word.
 [[nodiscard]] std::string yaml_text(std::string_view text);
 
-/// "did you mean 'NEAREST'?", or the choices when none is near.
-[[nodiscard]] std::string suggestion(std::string_view word,
-                                     const std::vector<std::string>& choices);
-
 /// "head.tail", or "tail" when head is empty.
 [[nodiscard]] std::string join_path(std::string_view head, std::string_view tail);
 

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/results/build_identity.hpp"
+#include "files/suggestion.hpp"
 #include "files/text.hpp"
 
 #include <algorithm>
@@ -68,12 +69,11 @@ int complain(const std::string& message) {
 /// CLI11 would only say that a verb is missing.
 void refuse_unknown_verb(const CLI::App& program, const std::vector<std::string>& words) {
   if (words.empty() || words.front().starts_with('-')) return;
-  std::string verbs;
-  for (const CLI::App* verb : program.get_subcommands({})) {
-    if (verb->get_name() == words.front()) return;
-    verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
-  }
-  throw mapscore::Error("no verb '" + words.front() + "'; there are: " + verbs);
+  std::vector<std::string> verbs;
+  for (const CLI::App* verb : program.get_subcommands({})) verbs.push_back(verb->get_name());
+  if (std::ranges::find(verbs, words.front()) != verbs.end()) return;
+  throw mapscore::Error("no verb '" + words.front() + "'; " +
+                        mapscore::suggestion(words.front(), verbs));
 }
 
 /// An unset variable of a shell would otherwise pass for a flag that was not given.

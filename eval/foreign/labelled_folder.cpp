@@ -10,6 +10,7 @@
 #include "files/file_bytes.hpp"
 #include "files/png.hpp"
 #include "files/refusal.hpp"
+#include "files/suggestion.hpp"
 #include "files/text_rows.hpp"
 #include "files/yaml_value.hpp"
 
@@ -109,7 +110,8 @@ cv::Mat1w in_our_units(const cv::Mat1w& depth, double units_per_m) {
 
 LabelledFolder::LabelledFolder(const fs::path& folder, const LabelledFolderOptions& options)
     : folder_(folder), options_(options) {
-  if (!fs::is_directory(folder)) refuse(folder, "no such folder; give the folder of a recording");
+  if (!fs::is_directory(folder))
+    refuse(folder, "no such folder; {}", path_suggestion(folder, "give the folder of a recording"));
   read_meaning();
   pair_frames();
   size_cameras();

@@ -9,6 +9,7 @@
 #include "files/file_bytes.hpp"
 #include "files/png.hpp"
 #include "files/refusal.hpp"
+#include "files/suggestion.hpp"
 
 #include <system_error>
 
@@ -29,7 +30,8 @@ std::vector<std::string> log_paths(const RecordingInfo& info) {
 }
 
 void check_is_recording(const fs::path& folder) {
-  if (!fs::is_directory(folder)) refuse(folder, "no such folder; give the folder of a recording");
+  if (!fs::is_directory(folder))
+    refuse(folder, "no such folder; {}", path_suggestion(folder, "give the folder of a recording"));
   if (!fs::is_regular_file(folder / "recording.yaml"))
     refuse(folder, "not a recording (no recording.yaml in it); make one with 'mapscore record'");
 }

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/results/store_trouble.hpp"
+#include "files/suggestion.hpp"
 #include "files/text.hpp"
 #include "files/zlib_text.hpp"
 
@@ -179,7 +180,7 @@ ResultStore ResultStore::open(const std::filesystem::path& file, std::string_vie
 
 ResultStore ResultStore::open_existing(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file))
-    fail(file, "no result store there; run `mapscore sweep` first");
+    fail(file, "no result store there; " + path_suggestion(file, "run `mapscore sweep` first"));
   // Read-write, so that SQLite can roll back what a killed sweep left half-written; a store on a
   // read-only disk is opened for reading all the same.
   ResultStore store(file, SQLITE_OPEN_READWRITE, "cannot be opened; check its permissions");

@@ -149,7 +149,8 @@ Study load_study(const std::filesystem::path& file, const std::vector<std::strin
   std::ifstream stream(file, std::ios::binary);
   const std::string name = file.generic_string();
   if (!stream || std::filesystem::is_directory(file))
-    throw Error(name + ": cannot be read; give the path of a study file");
+    throw Error(name + ": cannot be read; " +
+                path_suggestion(file, "give the path of a study file"));
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   Study study = parse_study(text, file, overrides);
   std::vector<Override> changes;

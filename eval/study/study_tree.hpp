@@ -4,6 +4,7 @@
 #pragma once
 
 #include "eval/study/leaf_yaml.hpp"
+#include "files/suggestion.hpp"
 
 #include <fmt/format.h>
 

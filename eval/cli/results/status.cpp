@@ -12,6 +12,7 @@
 #include "eval/results/study_store.hpp"
 #include "eval/results/sweep_status.hpp"
 #include "files/folder_lock.hpp"
+#include "files/suggestion.hpp"
 #include "files/text.hpp"
 
 #include <fmt/chrono.h>
@@ -140,7 +141,8 @@ void print_status(const StatusFlags& flags) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const std::vector<ShardFolder> shards = shard_folders(folder);
   if (!fs::exists(file) && shards.empty())
-    throw Error(file.string() + ": no result store there; run `mapscore sweep` first");
+    throw Error(file.string() + ": no result store there; " +
+                path_suggestion(file, "run `mapscore sweep` first"));
   const bool running = FolderLock(folder, WhenTaken::go_on).taken();
   if (fs::exists(file)) {
     const ResultStore store = ResultStore::open_existing(file);

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mapscore {
+
+/// "did you mean 'NEAREST'?", or the choices when none is near.
+[[nodiscard]] std::string suggestion(std::string_view word,
+                                     const std::vector<std::string>& choices);
+
+/// "did you mean 'PATH'?" with what is there under nearly the name of the first part of `missing`
+/// that is not; `otherwise` where nothing is near. Never throws.
+[[nodiscard]] std::string path_suggestion(const std::filesystem::path& missing,
+                                          std::string_view otherwise);
+
+}  // namespace mapscore

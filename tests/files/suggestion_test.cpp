@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "files/suggestion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace mapscore {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PathSuggestion : public ::testing::Test {
+ protected:
+  PathSuggestion() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "results/demo");
+    for (const char* name : {"demo.yaml", "home.yaml"}) std::ofstream(folder_ / name) << "x";
+  }
+  ~PathSuggestion() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string of(const char* missing) const {
+    return path_suggestion(folder_ / missing, "give one");
+  }
+  [[nodiscard]] std::string meant(const char* path) const {
+    return "did you mean '" + (folder_ / path).string() + "'?";
+  }
+  fs::path folder_ = fs::temp_directory_path() / "mapscore_path_suggestion";
+};
+
+TEST_F(PathSuggestion, IsTheNearestNameAtTheFirstMissingPart) {
+  EXPECT_EQ(of("dmeo.yaml"), meant("demo.yaml"));
+  EXPECT_EQ(of("demo.yml"), meant("demo.yaml"));
+  EXPECT_EQ(of("result/demo/results.sqlite"), meant("results"));
+  EXPECT_EQ(of("results/demos"), meant("results/demo"));
+  EXPECT_EQ(of("dome.yaml"), meant("home.yaml"));  // by one letter, demo.yaml by two
+}
+
+TEST_F(PathSuggestion, IsSilentWhereNothingIsNear) {
+  EXPECT_EQ(of("kitchen.yaml"), "give one");
+  EXPECT_EQ(of("demo.yaml/study"), "give one") << "below a file";
+  EXPECT_EQ(of("results/demo/results.sqlite"), "give one") << "an empty folder";
+  EXPECT_EQ(path_suggestion("", "give one"), "give one");
+}
+
+}  // namespace
+}  // namespace mapscore
