@@ -81,6 +81,7 @@ Study determining(Study config, const std::string& pose_file, const std::string&
   config.cameras = none.cameras;
   config.lidar = none.lidar;
   config.sweep.clear();
+  config.sampling = {};
   config.picture_view.reset();
   config.faults = with_canonical_doses(config.faults);
   resolve_localization(config.localization, config.faults, pose_file);

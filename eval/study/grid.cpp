@@ -4,16 +4,21 @@
 #include "eval/study/grid.hpp"
 
 #include "core/random_stream.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <set>
 
 namespace mapscore::eval {
+namespace {
 
-std::vector<Cell> cells(const Study& study) {
+std::vector<Cell> product(const std::vector<SweepAxis>& sweep) {
   std::vector<Cell> grid{Cell{}};
-  for (const SweepAxis& axis : study.sweep) {
+  for (const SweepAxis& axis : sweep) {
     std::vector<Cell> finer;
     for (const Cell& cell : grid) {
       for (const std::string& value : axis.values) {
@@ -23,8 +28,61 @@ std::vector<Cell> cells(const Study& study) {
     }
     grid = std::move(finer);
   }
-  for (std::size_t i = 0; i < grid.size(); ++i) grid[i].index = static_cast<int>(i);
   return grid;
+}
+
+/// Rounded to a hundred-thousandth of the decade of the range.
+std::string number_at(double unit, double low, double high) {
+  const int digits = 5 - static_cast<int>(std::floor(std::log10(high - low)));
+  const std::string rounded =
+      fmt::format("{:.{}f}", low + unit * (high - low), std::clamp(digits, 0, 300));
+  const double number = std::clamp(parse_real(rounded).value(), low, high);
+  return fmt::format("{}", number == 0 ? 0 : number);
+}
+
+/// The value of a path at a place from 0 to 1; names and whole numbers have equal shares.
+std::string value_at(double unit, const SweepAxis& axis, bool whole) {
+  const auto numbers = numbers_of(axis);
+  if (!numbers)
+    return axis.values[static_cast<std::size_t>(unit * static_cast<double>(axis.values.size()))];
+  const double low = numbers->at(0), high = numbers->at(1);
+  if (!whole) return number_at(unit, low, high);
+  return fmt::format("{:.0f}", low + std::floor(unit * (high - low + 1)));
+}
+
+/// Points that fall together stand once.
+std::vector<Cell> sampled(const Study& study) {
+  std::vector<bool> whole;
+  for (const SweepAxis& axis : study.sweep) whole.push_back(is_whole_number(study, axis.path));
+  std::vector<Cell> points;
+  std::set<decltype(Cell::doses)> there;
+  for (const auto& point : unit_points(study.sampling, study.sweep.size(), study.seed)) {
+    Cell cell;
+    for (std::size_t axis = 0; axis < point.size(); ++axis)
+      cell.doses.emplace_back(study.sweep[axis].path,
+                              value_at(point[axis], study.sweep[axis], whole[axis]));
+    if (there.insert(cell.doses).second) points.push_back(std::move(cell));
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<Cell> cells(const Study& study) {
+  const bool over_ranges = points_of(study.sampling) > 0 && !study.sweep.empty();
+  std::vector<Cell> all = over_ranges ? sampled(study) : product(study.sweep);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].index = static_cast<int>(i);
+  return all;
+}
+
+std::optional<std::vector<double>> numbers_of(const SweepAxis& axis) {
+  std::vector<double> numbers;
+  for (const std::string& value : axis.values) {
+    const std::optional<double> number = parse_real(value);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
 }
 
 LazyList<TrialSpec> trials(const Study& study) {
@@ -46,6 +104,7 @@ std::uint64_t trial_seed(std::uint64_t study_seed, int seed_index) {
 Study resolve(const Study& study, const Cell& cell) {
   Study resolved = study;
   resolved.sweep.clear();
+  resolved.sampling = {};
   for (const auto& [path, value] : cell.doses) set_leaf(resolved, path, value);
   return resolved;
 }

@@ -8,13 +8,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace mapscore::eval {
 
-/// One point of a sweep's grid.
+/// One point of a sweep.
 struct Cell {
   int index = 0;
   /// Path and canonical value, in file order.
@@ -68,9 +69,12 @@ class LazyList {
   std::function<Element(std::size_t)> make_;
 };
 
-/// The product of the swept values, paths in the order of the file, the last path fastest. A study
-/// without a sweep has one cell without doses.
+/// The product of the swept values, paths in the order of the file, the last path fastest; or the
+/// points of another `sampling`. A study without a sweep has one cell without doses.
 [[nodiscard]] std::vector<Cell> cells(const Study& study);
+
+/// The swept values as numbers; nothing where one of them is none.
+[[nodiscard]] std::optional<std::vector<double>> numbers_of(const SweepAxis& axis);
 
 /// Every method at every cell with every seed. Cells vary slowest, methods fastest, so that
 /// neighbouring trials have the same faults and share the corrupted frames (Sights).

@@ -86,6 +86,7 @@ DrawnFusion fusion_of(const DrawnFusion& of_study, const MethodFusion& of_method
 Study with_method(Study config, const std::string& name) {
   std::erase_if(config.methods, [&](const MethodSettings& method) { return method.name != name; });
   config.sweep.clear();
+  config.sampling = {};
   for (MethodSettings& method : config.methods) {
     config.fusion = fusion_of(config.fusion, method.fusion);
     method.fusion = StudyFusion{};
@@ -114,6 +115,13 @@ Field field_of(Study study, std::string_view path) {
   at_leaf_below(YamlValue{{}, "", 0, std::string(path)}, study, path,
                 [&](const StudyLeaf& leaf) { found = leaf.field; });
   return found;
+}
+
+bool is_whole_number(Study study, std::string_view path) {
+  bool whole = false;
+  at_leaf_below(YamlValue{{}, "", 0, std::string(path)}, study, path,
+                [&](const StudyLeaf& leaf) { whole = leaf.whole; });
+  return whole;
 }
 
 bool decides_recording(std::string_view path) {

@@ -6,6 +6,7 @@
 #include "core/space/occupancy.hpp"
 #include "eval/study/drive_settings.hpp"
 #include "eval/study/localization_settings.hpp"
+#include "eval/study/sampling.hpp"
 #include "eval/study/trial_settings.hpp"
 #include "sim/faults/calibration_faults.hpp"
 #include "sim/faults/image_doses.hpp"
@@ -99,6 +100,7 @@ struct Study {
   FaultSettings faults;
   ScoreSettings score;
   std::vector<SweepAxis> sweep;
+  Sampling sampling;
   std::optional<std::vector<double>> picture_view;  ///< see view_of_numbers; changes no result
 
   std::filesystem::path base_folder;
@@ -145,6 +147,12 @@ struct Study {
     visit(s.faults, Field{"faults", "doses of the faults"});
     visit(s.score, Field{"score", "how maps are scored"});
     visit(s.sweep, Field{"sweep", "values of the leaf at a path; several paths make a grid"});
+    visit(s.sampling, Field{.key = "sampling",
+                            .meaning = "which points of the swept paths are tried; but for a grid, "
+                                       "a path with numbers has a range, [LOW, HIGH], and one with "
+                                       "names a list (docs/scoring.md)",
+                            .later = true,
+                            .swept = false});
     visit(s.picture_view,
           Field{.key = "picture_view",
                 .meaning = "view of the pictures: [ex, ey, ez, tx, ty, tz, vfov_deg], eye and "
@@ -235,6 +243,9 @@ void check(const Study& study);
 
 /// The field of the leaf at a dotted path. Throws as set_leaf.
 [[nodiscard]] Field field_of(Study study, std::string_view path);
+
+/// Whether the leaf at a dotted path is a whole number. Throws as set_leaf.
+[[nodiscard]] bool is_whole_number(Study study, std::string_view path);
 
 /// True when the leaf decides what a recording holds (scene, trajectory, cameras, ...), so that a
 /// sweep over it needs a recording for each of its values.

@@ -10,13 +10,12 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 namespace mapscore::eval {
 namespace {
-
-constexpr std::size_t kMostTrials = 1000000;
 
 /// The name becomes a folder's and stands in figures.
 void check_name(const std::string& name, const Blame& blame) {
@@ -28,9 +27,13 @@ void check_name(const std::string& name, const Blame& blame) {
 }
 
 void check_input(const Study& study, const Blame& blame) {
-  if (study.motion && !study.scene)
-    blame("motion",
-          "stands without a scene, whose joints it moves; write scene: PATH, or remove it");
+  const auto needs_scene = [&](const auto& of_scene, const char* path, const char* why) {
+    if (of_scene && !study.scene)
+      blame(path, fmt::format("stands without a scene, {}; write scene: PATH, or remove it", why));
+  };
+  needs_scene(study.motion, "motion", "whose joints it moves");
+  if (study.recording) needs_scene(study.classes, "classes", "whose bodies it names");
+  if (study.recording) needs_scene(study.robot, "robot", "through which it drives");
   if (study.recording) return;
   if (!study.scene)
     blame("scene", "is missing; write scene: PATH, or recording: PATH to replay one");
@@ -207,17 +210,45 @@ void check_leaves(const Study& study, const Blame& blame) {
   check_ascending(study.score.distances_m, "score.distances_m", blame);
 }
 
+/// Paths with numbers have ranges.
+void check_sampling(const Study& study, const Blame& blame) {
+  if (points_of(study.sampling) == 0) return;
+  if (study.sweep.empty())
+    blame("sampling",
+          "stands without a sweep, whose ranges its points fill; write sweep: {PATH: [LOW, HIGH]}");
+  for (const SweepAxis& axis : study.sweep) {
+    const auto numbers = numbers_of(axis);
+    if (!numbers) continue;
+    if (numbers->size() != 2)
+      blame("sweep." + axis.path,
+            fmt::format("has {} value{}; beside sampling write a range, [LOW, HIGH]",
+                        numbers->size(), numbers->size() == 1 ? "" : "s"));
+    if (numbers->front() >= numbers->back())
+      blame("sweep." + axis.path, fmt::format("{} is not below {}; write a range, [LOW, HIGH]",
+                                              axis.values.front(), axis.values.back()));
+  }
+}
+
+/// Cells are held in memory, trials are counted by an int.
 void check_size(const Study& study, const Blame& blame) {
-  std::size_t trials = study.methods.size() * static_cast<std::size_t>(study.seeds);
+  constexpr std::size_t kMostCells = 1'000'000, kMostTrials = 1'000'000'000;
+  const auto points = static_cast<std::size_t>(points_of(study.sampling));
+  std::size_t cells = std::max<std::size_t>(1, points);
   for (const SweepAxis& axis : study.sweep) {
     if (axis.values.empty()) blame("sweep." + axis.path, "has no values; write at least one");
     check_distinct(axis.values, "sweep." + axis.path, blame);
-    trials *= axis.values.size();
-    if (trials > kMostTrials) {
+    if (points == 0) cells *= axis.values.size();
+    if (cells > kMostCells)
       blame("sweep." + axis.path,
-            fmt::format("the grid grows beyond {} trials; sweep fewer values", kMostTrials));
-    }
+            fmt::format("the grid grows beyond {} cells; sweep fewer values, or write sampling: "
+                        "{{sobol: {{points: N}}}} and ranges",
+                        kMostCells));
   }
+  const std::size_t trials = cells * study.methods.size() * static_cast<std::size_t>(study.seeds);
+  if (trials > kMostTrials)
+    blame("seeds", fmt::format("{} cells by {} methods and {} seeds are more than {} trials; write "
+                               "fewer of them",
+                               cells, study.methods.size(), study.seeds, kMostTrials));
 }
 
 void check_cell(const Study& study, const Cell& cell, const Blame& blame) {
@@ -232,6 +263,7 @@ void check_cell(const Study& study, const Cell& cell, const Blame& blame) {
 void check(const Study& study, const Blame& blame) {
   check_name(study.name, blame);
   check_view(study, blame);
+  check_sampling(study, blame);
   check_size(study, blame);
   if (study.sweep.empty()) return check_leaves(study, blame);
   check_input(study, blame);

@@ -125,6 +125,7 @@ struct StudyLeaf {
   const Field& field;
   const std::function<void(const YamlValue&)>& read;  ///< sets it; throws Error
   const std::function<std::string()>& text;           ///< throws Error for a choice
+  bool whole = false;                                 ///< a whole number
 };
 using LeafAct = std::function<void(const StudyLeaf&)>;
 
@@ -185,7 +186,7 @@ void at_leaf(const YamlValue& at, const Field& field, T& value, std::string_view
       at.fail(
           fmt::format("'{}' is a value and has no key '{}'; end the path there", field.key, rest));
     act({field, [&](const YamlValue& yaml) { read_leaf(yaml, field.range, value); },
-         [&] { return Leaf<T>::text(value); }});
+         [&] { return Leaf<T>::text(value); }, Leaf<T>::type() == Leaf<int>::type()});
   }
 }
 

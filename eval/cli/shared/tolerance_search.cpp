@@ -78,6 +78,7 @@ std::vector<std::optional<SecondFault>> second_faults(const Study& study, const 
 /// Throws Error when the study may not have these faults without its other swept ones.
 void check_alone(Study study, const std::string& path, const ToleranceSearch& search,
                  const std::vector<std::optional<SecondFault>>& seconds) {
+  study.sampling = {};
   study.sweep = {
       {path,
        {dose_text(study, path, search, search.low), dose_text(study, path, search, search.high)}}};

@@ -75,15 +75,6 @@ CurveMarks as_points(const Curve& curve, const std::string& of, double offset, d
                       curve.point, ink)};
 }
 
-/// `set` lines of an axis of numbers.
-std::vector<std::string> number_settings(const FigureAxis& x, double width_in) {
-  const auto [low, high] = std::minmax_element(x.at.begin(), x.at.end());
-  const double padding = *high > *low ? kXPadding * (*high - *low) : 0.5;
-  return {
-      fmt::format("set xrange [{:.9g}:{:.9g}]", *low - padding, *high + padding),
-      fmt::format("set xtics {:.9g}", tic_step(*high - *low, width_in < kNarrow_in ? 3.0 : 5.0))};
-}
-
 /// Which methods leave points of curves out, since their maps hold no voxel of a detected class.
 std::string empty_maps_caption(const StudySummary& summary) {
   std::string text;
@@ -235,6 +226,14 @@ FigureSheet curve_figure(const StudySummary& summary, const StudyLayout& layout,
     figure.add(score, i % heads, std::move(panel));
   }
   return figure.finish(caption);
+}
+
+std::vector<std::string> number_settings(const FigureAxis& x, double width_in) {
+  const auto [low, high] = std::minmax_element(x.at.begin(), x.at.end());
+  const double padding = *high > *low ? kXPadding * (*high - *low) : 0.5;
+  return {
+      fmt::format("set xrange [{:.9g}:{:.9g}]", *low - padding, *high + padding),
+      fmt::format("set xtics {:.9g}", tic_step(*high - *low, width_in < kNarrow_in ? 3.0 : 5.0))};
 }
 
 std::string figure_number(const std::optional<double>& value) {

@@ -35,6 +35,9 @@ inline constexpr const char* kCeilingsCaption =
     "Lattice ceiling: true labels on the depth pixels, true pose. Registration ceiling: the same "
     "method with every fault at zero.";
 
+/// `set` lines of an axis of numbers.
+[[nodiscard]] std::vector<std::string> number_settings(const FigureAxis& x, double width_in);
+
 /// A figure in the data file: `-` where undefined.
 [[nodiscard]] std::string figure_number(const std::optional<double>& value);
 

@@ -5,6 +5,7 @@
 
 #include "core/whole_file.hpp"
 #include "eval/report/figures/curves.hpp"
+#include "eval/report/figures/scatter.hpp"
 #include "eval/report/table.hpp"
 #include "eval/report/tidy_csv.hpp"
 
@@ -42,6 +43,7 @@ FigureSheet accuracy_figure(const StudySummary& summary, const StudyLayout& layo
 
 std::vector<fs::path> draw_figures(const StudySummary& summary, const fs::path& folder,
                                    const FigureStyle& style) {
+  if (points_of(summary.study.sampling) > 0) return draw(scatter_figure(summary, style), folder);
   const StudyLayout layout(summary, style);
   std::vector<FigureSheet> sheets{accuracy_figure(summary, layout), causes_figure(summary, layout)};
   if (auto by_class = class_bars_figure(summary, style)) sheets.push_back(std::move(*by_class));

@@ -16,7 +16,7 @@ namespace mapscore::eval {
 /// Draws the figures of a study with gnuplot, each as NAME.png, .pdf and .svg with its script
 /// NAME.gp and its numbers NAME.dat beside it; `gnuplot NAME.gp` in the folder draws it anew. The
 /// folder is made when it is not there. The first swept axis runs along x, the second over columns
-/// of panels, further ones over lines.
+/// of panels, further ones over lines. Points over ranges have one figure, scatter_figure.
 ///
 /// Which figures there are stands below, and in docs/figures.md.
 ///

@@ -33,6 +33,16 @@ std::string wanted_value(const SweepAxis& axis, const PictureChoice& choice) {
   return axis.values[axis.values.size() / 2];
 }
 
+/// Of points over ranges, the first with the wanted doses.
+Cell chosen_point(const Study& study, const PictureChoice& choice) {
+  for (Cell& cell : cells(study))
+    if (std::ranges::all_of(choice.doses, [&](const auto& dose) {
+          return std::ranges::find(cell.doses, dose) != cell.doses.end();
+        }))
+      return cell;
+  throw Error("sweep: the study has no point with these doses; see `mapscore table RESULTS`");
+}
+
 void check_paths(const Study& study, const PictureChoice& choice) {
   for (const auto& [path, value] : choice.doses) {
     const auto axis = std::ranges::find(study.sweep, path, &SweepAxis::path);
@@ -112,6 +122,7 @@ std::optional<double> drawn_time(const Study& study, const ClassTable& table,
 }  // namespace
 
 Cell chosen_cell(const Study& study, const PictureChoice& choice) {
+  if (points_of(study.sampling) > 0) return chosen_point(study, choice);
   check_paths(study, choice);
   decltype(Cell::doses) doses;
   for (const SweepAxis& axis : study.sweep)

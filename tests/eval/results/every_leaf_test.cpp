@@ -42,7 +42,7 @@ bool has_reason(const std::string& path) {
   return false;
 }
 
-/// The keys of the reference that are leaves.
+/// The keys of the reference that are leaves, but for those that choose cells.
 std::vector<std::string> leaves() {
   std::vector<std::string> paths;
   std::istringstream lines(config_reference());
@@ -51,7 +51,8 @@ std::vector<std::string> leaves() {
     const std::size_t end = line.find('`', 3);
     const std::string type = line.substr(end + 4, line.find(" |", end + 4) - end - 4);
     const std::string path = line.substr(3, end - 3);
-    if (type != "section" && type != "map" && !type.starts_with("one of") && path != "sweep.PATH")
+    if (type != "section" && type != "map" && !type.starts_with("one of") && path != "sweep.PATH" &&
+        !path.starts_with("sampling."))
       paths.push_back(path);
   }
   return paths;

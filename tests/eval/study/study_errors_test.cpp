@@ -51,6 +51,13 @@ TEST_P(BadStudy, IsRefusedWithFileLineAndKey) {
   EXPECT_EQ(std::ranges::count(message, '\n'), 0);
 }
 
+/// "[0.001, 0.002, ...]"
+std::string numbers(int count) {
+  std::string list = "[";
+  for (int n = 1; n <= count; ++n) list += fmt::format("{}{}", n > 1 ? ", " : "", 0.001 * n);
+  return list + ']';
+}
+
 const std::string kPose = "faults:\n  pose:\n    ";
 const std::string kZeros = "[0, 0, 0, 0, 0, 0]";
 
@@ -169,10 +176,22 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"sweep_cell", "sweep: {cameras.range_min_m: [1, 5], cameras.range_max_m: [8, 4]}\n",
                 "6: sweep: with cameras.range_min_m = 5, cameras.range_max_m = 4, "
                 "cameras.range_min_m: 5 is not below range_max_m, 4; write a lesser number"},
-        BadLine{"grid_too_large",
-                "seeds: 100000\nsweep: {voxel_m: [1, 2, 3], map_yaw_deg: [1, 2]}\n",
-                "7: sweep.map_yaw_deg: the grid grows beyond 1000000 trials; sweep fewer values"}),
+        BadLine{"sweep_huge",
+                "sweep:\n  voxel_m: " + numbers(1001) + "\n  map_yaw_deg: " + numbers(1000) + "\n",
+                "8: sweep.map_yaw_deg: the grid grows beyond 1000000 cells; sweep fewer values, or "
+                "write sampling: {sobol: {points: N}} and ranges"},
+        BadLine{"huge_study", "seeds: 100000\nsweep:\n  map_yaw_deg: " + numbers(5001) + "\n",
+                "6: seeds: 5001 cells by 2 methods and 100000 seeds are more than 1000000000 "
+                "trials; write fewer of them"}),
     [](const auto& test) { return std::string(test.param.name); });
+
+TEST(BadStudyFile, OfASceneWithoutOneBesideARecording) {
+  for (const char* line : {"classes: a.classes.yaml\n", "robot: a.xml\n", "motion: a.csv\n"})
+    EXPECT_THAT(refusal(std::string(line) +
+                        "recording: there\nmethods: {d: {segmentation: {direct: {}}}}\n"),
+                ::testing::HasSubstr("stands without a scene"))
+        << line;
+}
 
 TEST(BadStudyFile, WithoutSceneOrRecording) {
   EXPECT_EQ(refusal("methods: {d: {segmentation: {direct: {}}}}\n"),
