@@ -10,6 +10,7 @@
 #include "eval/report/summary.hpp"
 #include "eval/results/plan.hpp"
 #include "eval/results/study_store.hpp"
+#include "files/suggestion.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
@@ -19,6 +20,8 @@
 #include <cmath>
 #include <iostream>
 #include <numbers>
+#include <set>
+#include <string>
 
 namespace mapscore::eval {
 namespace {
@@ -76,18 +79,33 @@ void print_recording(const fs::path& folder) {
   print_classes(info.table);
 }
 
+std::string text_of_builds(const std::set<std::string>& builds) {
+  std::string text;
+  for (const std::string& build : builds)
+    text += build.empty() ? ", a build that did not tell" : ", build " + shown(build);
+  return text;
+}
+
+/// What `mapscore tolerance` alone has filled, or a sweep that was killed at once.
+void print_studyless(const ResultStore& store, const fs::path& file) {
+  std::set<std::string> builds;
+  const auto of_trials = store.builds();
+  for (const auto& [key, build] : of_trials) builds.insert(build);
+  std::cout << fmt::format("{}: {} trials of `mapscore tolerance`, no study swept{}\n", shown(file),
+                           of_trials.size(), text_of_builds(builds));
+}
+
 void print_store(const fs::path& results) {
   const fs::path file = store_file(results);
   const ResultStore store = ResultStore::open_existing(file);
+  if (store.text("study").empty()) return print_studyless(store, file);
   const StudyRecord record = read_study(store, file.parent_path());
   const Plan plan = plan_of(record.study, record.recording_hash);
   const HeldTasks held = held_tasks(store, plan.tasks);
   std::cout << fmt::format("{}: results of study {}, {} of {} trials and ceilings, by mapscore {}",
                            shown(file), record.study.name, held.all, plan.tasks.size(),
                            shown(store.text("mapscore_version")));
-  for (const std::string& build : held.builds)
-    std::cout << (build.empty() ? ", a build that did not tell" : ", build " + shown(build));
-  std::cout << '\n';
+  std::cout << text_of_builds(held.builds) << '\n';
   std::cout << store.text("study");
 }
 
@@ -129,7 +147,9 @@ struct InfoFlags : SceneInfoFlags {
 
 void info(const InfoFlags& flags) {
   const fs::path file = flags.file;
-  if (!fs::exists(file)) throw Error(file.string() + ": there is no such file or folder");
+  if (!fs::exists(file))
+    throw Error(file.string() + ": there is no such file or folder; " +
+                path_suggestion(file, "give the path of one"));
   if (file.extension() == ".xml") return info_of_scene(file, flags);
   if (flags.any()) throw Error(file.string() + ": not a scene (.xml), so no flag applies");
   if (has_ending_of_a_map(file)) return print_map(file);

@@ -40,7 +40,7 @@ std::vector<ShardFolder> shard_folders(const fs::path& results) {
     ShardFolder shard;
     int read = 0;
     const std::string name = entry.path().filename();
-    if (std::sscanf(name.c_str(), "%d-of-%d@%n", &shard.shard, &shard.shards, &read) != 2 ||
+    if (std::sscanf(name.c_str(), "%9d-of-%9d@%n", &shard.shard, &shard.shards, &read) != 2 ||
         read == 0 || shard.shard < 1 || shard.shard > shard.shards)
       continue;
     shard.host = name.substr(static_cast<std::size_t>(read));

@@ -90,6 +90,14 @@ ClassTable with_detected_set(const Study& study, ClassTable table) {
   return table;
 }
 
+/// `mapscore tolerance` adds trials, but binds the folder to no study.
+std::string holds_no_study(const ResultStore& store) {
+  const std::size_t trials = store.keys().size();
+  return fmt::format(
+      "result store: holds no study{}; run `mapscore sweep` first",
+      trials > 0 ? fmt::format(", but {} trials of `mapscore tolerance`", trials) : "");
+}
+
 }  // namespace
 
 void write_study(ResultStore& store, const StudyRecord& record,
@@ -108,7 +116,7 @@ void write_study(ResultStore& store, const StudyRecord& record,
 
 StudyRecord read_study(const ResultStore& store, const std::filesystem::path& folder) try {
   const std::string study = store.text("study");
-  if (study.empty()) throw Error("result store: holds no study; run `mapscore sweep` first");
+  if (study.empty()) throw Error(holds_no_study(store));
   const std::filesystem::path base = folder / store.text("study_folder");
   return {parse_study(study, (base / "stored study").lexically_normal()),
           table_from_json(store.text("classes")), store.text("recording_hash"),

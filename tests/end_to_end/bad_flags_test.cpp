@@ -58,6 +58,24 @@ TEST_F(BadFlags, FilesThatAreNotThere) {
                  {"no.csv", "check that the file is there"});
 }
 
+TEST_F(BadFlags, ANearNameIsSuggested) {
+  const std::string meant = "did you mean '" + path("tiny") + "'?";
+  expect_refused(mapscore({"info", path("tinny")}), {"no such file or folder", meant});
+  expect_refused(mapscore({"map", path("tin"), "-o", path("m.ot")}), {"no such folder", meant});
+  expect_refused(mapscore({"table", path("tinny/results")}), {"no result store there", meant});
+  expect_refused(mapscore({"sweep", study().substr(0, study().size() - 1), "-o", results()}),
+                 {"cannot be read", "did you mean '" + study() + "'?"});
+  expect_refused(mapscore({"score", path("tiny/color.tx"), "--truth", path("tinny")}), {meant});
+}
+
+TEST_F(BadFlags, TenMillionTrialsAskForYes) {
+  std::string values = "[0.01";
+  for (int n = 11; n < 60; ++n) values += ", 0.0" + std::to_string(n);
+  expect_refused(mapscore({"sweep", study(), "-o", results(), "--set", "seeds=100000", "--set",
+                           "sweep={voxel_m: " + values + "]}"}),
+                 {"50 cells x 2 methods x 100000 seeds = 10000000 trials", "time: ", "--yes"});
+}
+
 /// Voxels of 0.1 mm: hundreds of millions even here.
 TEST_F(BadFlags, WithoutYesNoTruthThatFillsTheMachine) {
   const std::vector<std::string> parts{"truth at 0.0001 m: about", "GB", "add --yes", "larger"};

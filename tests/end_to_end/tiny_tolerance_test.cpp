@@ -35,6 +35,10 @@ TEST_F(TinyTolerance, SearchesEachMethodAndRepeatsForNothing) {
 
 TEST_F(TinyTolerance, MakesTheTrialsOfTheStudyAndNoCeilings) {
   expect_done(mapscore({"tolerance", study(), "-o", results(), "-q"}));
+  const Outcome info = mapscore({"info", results()});
+  expect_done(info);
+  EXPECT_THAT(info.out, HasSubstr("trials of `mapscore tolerance`, no study swept, build "));
+  expect_refused(mapscore({"table", results()}), {"holds no study, but ", "mapscore sweep"});
   const Outcome sweep = mapscore({"sweep", study(), "-o", results(), "--set", "seeds=1"});
   expect_done(sweep);
   // Dose zero of both methods is there; the greatest dose had another seed, and there was no
@@ -69,6 +73,7 @@ TEST_F(TinyTolerance, RefusesWhatCannotBeSearched) {
   refused({"--reference", "guess"}, {"--reference guess"});
   refused({"--against", "faults.mount.magnitude_m"}, {"--against faults.mount", "misregistration"});
   refused({"--trials", "5"}, {"--trials", "24"});
+  refused({"--target", "1.5"}, {"--target 1.5", "lattice ceiling of f1", "pooled"});
   refused({"--set", "sweep={}"}, {"sweep", "--set"});
   refused({"--set", "sweep={faults.misregistration.magnitude_m: [0.01]}"}, {"no range", "least"});
   refused({"--set", "sweep={faults.pose.kind: [white, walk]}"}, {"white is no number"});

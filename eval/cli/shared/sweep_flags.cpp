@@ -37,7 +37,7 @@ void SweepFlags::add_to(CLI::App& verb) {
 
 std::pair<int, int> SweepFlags::shard_of() const {
   int i = 0, n = 0, read = 0;
-  if (std::sscanf(shard.c_str(), "%d/%d%n", &i, &n, &read) != 2 ||
+  if (std::sscanf(shard.c_str(), "%9d/%9d%n", &i, &n, &read) != 2 ||
       read != static_cast<int>(shard.size()) || i < 1 || i > n)
     throw Error("--shard " + shard + ": must be i/n with 1 <= i <= n, e.g. 2/4");
   return {i, n};

@@ -151,6 +151,24 @@ class Stage {
   std::vector<Wanted> wanted_;
 };
 
+/// Throws Error where not even true labels at the true pose reach the target in any group, by the
+/// lattice ceiling of the first seed, or where there is no such metric.
+void refuse_unreachable(const ToleranceAim& aim, const std::vector<ToleranceRow>& rows,
+                        const Counts& ceiling, const ClassTable& table) {
+  std::string reached;
+  for (const ToleranceRow& row : rows) {
+    const auto metrics = metrics_of_group(ceiling, table, row.group);
+    const auto value = metrics.empty() ? std::nullopt : value_of(metrics, aim.metric);
+    if (!aim.target || !value || *value >= *aim.target) return;
+    if (reached.find(row.group + ' ') == std::string::npos)
+      reached += fmt::format("{}{} {:.3g}", reached.empty() ? "" : ", ", row.group, *value);
+  }
+  throw Error(
+      fmt::format("--target {}: beyond the lattice ceiling of {}, which true labels at the "
+                  "true pose reach: {}; give a lower one",
+                  *aim.target, aim.metric, reached));
+}
+
 }  // namespace
 
 std::vector<ToleranceRow> tolerance_searches(const Study& study, const ClassTable& table,
@@ -195,24 +213,38 @@ SearchCost search_tolerances(const Study& of, const Recording& recording, const 
   study.sweep.clear();
   SearchCost cost;
   std::size_t asked = 0;
-  const auto counts_of = [&](const std::vector<TrialSpec>& trials, const std::string& what) {
-    const TrialTasks plan = tasks_of_trials(study, trials, recording.content_hash());
+  const auto run = [&](const TaskList& tasks, const std::string& what) {
     Progress progress(what, "frame evaluations", work.quiet);
     RunnerOptions options{work.jobs, work.memory_bytes};
     options.progress = [&](std::int64_t done, std::int64_t total) { progress.show(done, total); };
-    const RunnerOutcome outcome = run_plan({plan.tasks, {}}, recording, table, store, options);
+    const RunnerOutcome outcome = run_plan({tasks, {}}, recording, table, store, options);
     if (!outcome.failures.empty()) throw Error(outcome.failures.front().reason);
     cost.computed += outcome.computed;
-    asked += plan.tasks.size();
+    asked += tasks.size();
+  };
+  const auto counts_at = [&](const TaskList& tasks, std::size_t position) {
+    return store.find(tasks.key(position)).value().counts;
+  };
+  const auto counts_of = [&](const std::vector<TrialSpec>& trials, const std::string& what) {
+    const TrialTasks plan = tasks_of_trials(study, trials, recording.content_hash());
+    run(plan.tasks, what);
     std::vector<Counts> counts;
     for (const std::size_t position : plan.positions)
-      counts.push_back(store.find(plan.tasks.key(position)).value().counts);
+      counts.push_back(counts_at(plan.tasks, position));
     return counts;
   };
-  // A metric that is not there is refused after the first trial, not after the first stage.
+  // What has no answer is refused after the first trial, not after the first stage.
+  if (aim.target) {
+    Study alone = with_method(study, rows.front().method);
+    alone.seeds = 1;
+    const Plan plan = plan_of(alone, recording.content_hash());
+    run(plan.tasks, "tolerance ceiling");
+    refuse_unreachable(aim, rows, counts_at(plan.tasks, plan.trials[0].lattice_ceiling), table);
+  }
+  const std::size_t asked_before = asked;
   const Counts first = counts_of({Stage(study, aim, rows).trials().front()}, "tolerance").front();
   static_cast<void>(value_of(metrics_of_group(first, table, kPooled), aim.metric));
-  asked = 0;
+  asked = asked_before;
   for (int number = 1;; ++number) {
     const Stage stage(study, aim, rows);
     if (stage.trials().empty()) break;
