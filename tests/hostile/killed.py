@@ -166,6 +166,8 @@ def in_a_read_only_folder(sweep):
         process = sweep.start(powerless)
         sweep.some_time()
         with read_only(sweep.place):
+            if sweep.chance.random() < 0.5:
+                process.wait(120)  # ends by itself, and says why
             time.sleep(sweep.chance.uniform(0.0, 0.02))
             killed = kill(sweep, process)
             there = sweep.judge_rest(powerless)

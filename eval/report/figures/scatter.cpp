@@ -23,7 +23,7 @@ constexpr std::array<ShownScore, 3> kShownScores{
     {{"precision", "precision"}, {"recall", "recall"}, {"f1", "F1"}}};
 constexpr std::array<int, 6> kMarks{7, 5, 9, 13, 11, 15};
 constexpr double kLeastOfThree_in = 1.7;  ///< so that a path's title stands on one line
-constexpr double kShareOfMean = 0.125;  ///< of all points
+constexpr double kShareOfMean = 0.125;    ///< of all points
 constexpr std::size_t kLeastOfMean = 5;
 
 std::size_t window_of(std::size_t points) {
