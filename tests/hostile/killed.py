@@ -136,7 +136,7 @@ def on_a_full_disk(sweep):
     share = sweep.chance.uniform(0.1, 0.95)
     with Disk(sweep.place, int(sweep.bytes * share)) as disk:
         process = sweep.start()
-        sweep.some_time(share)
+        sweep.some_time(0.5 * share)  # before it is full
         killed = kill(sweep, process)
         there = sweep.judge_rest()
         disk.grow()
