@@ -14,7 +14,7 @@ cd "$(dirname "$0")/.."
 packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev libopencv-dev liboctomap-dev libnanoflann-dev libyaml-cpp-dev libcli11-dev
-  libfmt-dev libsqlite3-dev nlohmann-json3-dev libxxhash-dev libdeflate-dev liblzf-dev
+  libfmt-dev libsqlite3-dev nlohmann-json3-dev libsimdjson-dev libxxhash-dev libdeflate-dev liblzf-dev
   libosmesa6-dev libboost-dev libgtest-dev libgmock-dev libbenchmark-dev
   gnuplot-nox fonts-dejavu-core
   python3 python3-pip python3-numpy python3-scipy python3-yaml python3-pil sqlite3

@@ -24,35 +24,68 @@ std::optional<double> unpacked(double value) {
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
+/// What the best threshold is read from: of each class the curve, and whether it is seen.
+TrialResult curves_of(TrialResult&& result) {
+  TrialResult curves;
+  for (ClassCounts& counts : result.counts) {
+    ClassCounts& kept = curves.counts.emplace_back();
+    kept.visible = counts.visible;
+    kept.curve = std::move(counts.curve);
+  }
+  return curves;
+}
+
 }  // namespace
 
-LineDigest::LineDigest(const ResultLine& line, const ClassTable& table,
+LineDigest::LineDigest(ResultLine& line, const ClassTable& table,
                        const std::vector<std::string>& groups)
-    : seeds_(line.results.size()) {
+    : seeds_(line.seeds.size()) {
+  std::vector<std::vector<std::vector<double>>> by_group(groups.size());  // by seed, by metric
+  ResultLine curves{line.role, line.method, line.cell, line.seeds, {}, {}};
+  for (std::size_t seed = 0; seed < seeds_; ++seed) {
+    TrialResult result = line.in_store(seed);
+    pool_into(line.pooled, result.counts);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      std::vector<double>& values = by_group[g].emplace_back();
+      for (const Metric& metric : metrics_of_group(result.counts, table, groups[g]))
+        values.push_back(packed(metric.value));
+    }
+    curves.results.push_back(curves_of(std::move(result)));
+  }
+  curves.pooled = line.pooled;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    groups_.push_back(formed(groups[g], metrics_of_group(line.pooled, table, groups[g]),
+                             by_group[g], best_threshold(curves, table, groups[g])));
   const ClassCounts all = pool_detected(line.pooled, table);
   add_counts(pooled_, all);
-  for (const std::string& name : groups) {
-    Group group{name, {}, {}};
-    const std::vector<Metric> pooled = metrics_of_group(line.pooled, table, name);
-    const BestThreshold best = best_threshold(line, table, name);
-    group.values.resize((pooled.size() + kBestMetrics) * (1 + seeds_),
-                        std::numeric_limits<double>::quiet_NaN());
-    const auto put = [&](std::size_t column, const std::vector<Metric>& metrics,
-                         const ChosenScore& chosen) {
-      const auto value = [&](std::size_t m) -> double& {
-        return group.values[m * (1 + seeds_) + column];
-      };
-      for (std::size_t m = 0; m < metrics.size(); ++m) value(m) = packed(metrics[m].value);
-      value(pooled.size()) = packed(chosen.f1);
-      value(pooled.size() + 1) = packed(chosen.threshold);
-    };
-    for (const Metric& metric : pooled) group.metrics.push_back(metric.name);
-    group.metrics.insert(group.metrics.end(), {kBestF1, kBestThreshold});
-    put(0, pooled, best.pooled);
-    for (std::size_t s = 0; s < seeds_; ++s)
-      put(1 + s, metrics_of_group(line.results[s].counts, table, name), best.by_seed[s]);
-    groups_.push_back(std::move(group));
+  pooled_.curve = all.curve;
+}
+
+LineDigest::Group LineDigest::formed(const std::string& name, const std::vector<Metric>& pooled,
+                                     const std::vector<std::vector<double>>& by_seed,
+                                     const BestThreshold& best) {
+  const std::size_t columns = 1 + by_seed.size();
+  Group group{name, {}, {}};
+  group.values.resize((pooled.size() + kBestMetrics) * columns,
+                      std::numeric_limits<double>::quiet_NaN());
+  const auto value = [&](std::size_t metric, std::size_t column) -> double& {
+    return group.values[metric * columns + column];
+  };
+  const auto put_best = [&](std::size_t column, const ChosenScore& chosen) {
+    value(pooled.size(), column) = packed(chosen.f1);
+    value(pooled.size() + 1, column) = packed(chosen.threshold);
+  };
+  for (std::size_t m = 0; m < pooled.size(); ++m) {
+    group.metrics.push_back(pooled[m].name);
+    value(m, 0) = packed(pooled[m].value);
   }
+  group.metrics.insert(group.metrics.end(), {kBestF1, kBestThreshold});
+  put_best(0, best.pooled);
+  for (std::size_t s = 0; s < by_seed.size(); ++s) {
+    for (std::size_t m = 0; m < by_seed[s].size(); ++m) value(m, 1 + s) = by_seed[s][m];
+    put_best(1 + s, best.by_seed[s]);
+  }
+  return group;
 }
 
 const LineDigest::Group* LineDigest::find(std::string_view group) const {

@@ -25,15 +25,11 @@ struct Source {
   Plan plan;
 };
 
-std::vector<TrialResult> read_results(const Source& source, const std::vector<std::size_t>& tasks) {
-  std::vector<TrialResult> results;
-  for (const std::size_t task : tasks) {
-    const std::string key = source.plan.tasks.key(task);
-    auto result = source.store.find(key);
-    if (!result) throw Error("trial " + key + ": gone from the store; sweep again");
-    results.push_back(std::move(*result));
-  }
-  return results;
+TrialResult read_result(const Source& source, std::size_t task) {
+  const std::string key = source.plan.tasks.key(task);
+  auto result = source.store.find(key);
+  if (!result) throw Error("trial " + key + ": gone from the store; sweep again");
+  return std::move(*result);
 }
 
 /// The seeds of a line, and the tasks of each and of its ceilings.
@@ -78,15 +74,16 @@ class LineReader {
   [[nodiscard]] ResultLine line(Role role, const LineTasks& of,
                                 const std::vector<std::size_t>& tasks) {
     ResultLine line{role, of.spec.method, of.spec.cell, of.seeds, {}, {}};
-    line.in_store = [source = source_, tasks] { return read_results(*source, tasks); };
+    line.in_store = [source = source_, tasks](std::size_t seed) {
+      return read_result(*source, tasks.at(seed));
+    };
     std::shared_ptr<const LineDigest>& digest = digests_[tasks];
     if (!digest) {
-      ResultLine full = loaded(line);
       std::vector<std::string> groups = groups_;
       if (role == Role::lattice_ceiling && std::ranges::count(groups, kPooled) == 0)
         groups.emplace_back(kPooled);  // which lattice_note reads
-      digest = std::make_shared<const LineDigest>(full, table_, groups);
-      if (digests_.size() == 1) line.pooled = std::move(full.pooled);  // of the first line
+      digest = std::make_shared<const LineDigest>(line, table_, groups);
+      if (digests_.size() > 1) line.pooled.clear();  // the first line's are kept
     }
     line.digest = digest;
     return line;
@@ -234,9 +231,9 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
 ResultLine loaded(const ResultLine& line) {
   ResultLine full = line;
   if (!line.in_store) return full;
-  full.results = line.in_store();
   full.pooled.clear();
-  for (const TrialResult& result : full.results) pool_into(full.pooled, result.counts);
+  for (std::size_t seed = 0; seed < line.seeds.size(); ++seed)
+    pool_into(full.pooled, full.results.emplace_back(line.in_store(seed)).counts);
   full.digest.reset();
   full.in_store = nullptr;
   return full;

@@ -46,17 +46,18 @@ struct ResultLine {
   Role role = Role::trial;
   std::string method;
   Cell cell;
-  std::vector<int> seeds;                                   ///< indices, in the order of `results`
-  std::vector<TrialResult> results;                         ///< one a seed
-  Counts pooled;                                            ///< counts summed over the seeds
-  std::shared_ptr<const LineDigest> digest = {};            ///< of a line from a store
-  std::function<std::vector<TrialResult>()> in_store = {};  ///< reads the results of such a line
+  std::vector<int> seeds;                         ///< indices, in the order of `results`
+  std::vector<TrialResult> results;               ///< one a seed
+  Counts pooled;                                  ///< counts summed over the seeds
+  std::shared_ptr<const LineDigest> digest = {};  ///< of a line from a store
+  /// Of such a line: reads the result of the n-th seed.
+  std::function<TrialResult(std::size_t)> in_store = {};
 };
 
 /// The line with its results and pooled counts. Throws Error when they cannot be read.
 [[nodiscard]] ResultLine loaded(const ResultLine& line);
 
-/// Plain counts of the detected classes together, over all seeds of a line.
+/// Plain counts and curve of the detected classes together, over all seeds of a line.
 [[nodiscard]] ClassCounts pooled_counts(const ResultLine& line, const ClassTable& table);
 
 /// A figure of a line: formed from the pooled counts, and its spread over the seeds.

@@ -37,11 +37,11 @@ void write_result(const ResultLine& line, std::size_t seed, const StudySummary& 
                   const std::vector<BestThreshold>& best, std::ostream& out) {
   std::vector<std::string> head{name_of(line.role), line.method, std::to_string(line.seeds[seed])};
   for (const auto& [path, value] : line.cell.doses) head.push_back(value);
+  std::string first_cells = csv_line(head);
+  first_cells.back() = ',';
   const auto write = [&](const std::string& group, const std::string& metric,
                          const std::string& value) {
-    std::vector<std::string> cells = head;
-    cells.insert(cells.end(), {group, metric, value});
-    out << csv_line(cells);
+    out << first_cells << csv_line({group, metric, value});
   };
   const TrialResult& result = line.results[seed];
   const std::vector<std::string> groups = summary.groups();

@@ -94,7 +94,7 @@ void figures(const FigureFlags& flags) {
           ? fs::path(flags.folder)
           : file.parent_path() / (summary.interim.empty() ? "figures" : "interim_figures");
   const FolderLock lock(folder);
-  print(write_tables(summary, folder));
+  print({write_table(summary, folder)});
   print(draw_figures(summary, folder, style));
   if (!flags.no_pictures) draw_from_recording(flags, choice, style, folder);
 }
@@ -130,11 +130,12 @@ void add_figures(CLI::App& program) {
   verb->add_flag("--grey", flags->style.grey, "No colours; line styles, marks and patterns instead")
       ->group("Figures");
   verb->footer(
-      "Writes trials.csv, table.txt, figures (PNG, PDF, SVG, and the gnuplot script and numbers "
+      "Writes table.txt, figures (PNG, PDF, SVG, and the gnuplot script and numbers "
       "they are made of),\n"
       "a contact sheet of the recording, the robot's way as its localisation believes it, and "
       "pictures of maps and of their errors. Prints where "
       "each is.\n"
+      "All numbers of all trials: `mapscore table RESULTS --tidy`.\n"
       "Examples:\n"
       "  mapscore figures results/demo\n"
       "  mapscore figures results/demo -o paper --trial faults.misregistration.magnitude_m=0.04\n"

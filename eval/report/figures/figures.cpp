@@ -7,17 +7,11 @@
 #include "eval/report/figures/curves.hpp"
 #include "eval/report/figures/scatter.hpp"
 #include "eval/report/table.hpp"
-#include "eval/report/tidy_csv.hpp"
 
 namespace mapscore::eval {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path written(const fs::path& file, const std::string& text) {
-  write_whole_file(file, text);
-  return file;
-}
 
 /// Of the pooled classes, with the same title above a panel and left of a row.
 CurveScore pooled_score(const std::string& metric, const std::string& title) {
@@ -56,14 +50,12 @@ std::vector<fs::path> draw_figures(const StudySummary& summary, const fs::path& 
   return pictures;
 }
 
-std::vector<fs::path> write_tables(const StudySummary& summary, const fs::path& folder) {
+fs::path write_table(const StudySummary& summary, const fs::path& folder) {
   make_folder(folder);
-  WholeFile tidy(folder / "trials.csv");  // of a large study more than fits into memory
-  write_tidy_csv(summary, tidy.stream());
-  tidy.finish();
-  const std::string table = to_text(score_table(summary, std::string(kPooled))) + '\n' +
-                            to_text(score_table(summary, std::string(kMacro)));
-  return {folder / "trials.csv", written(folder / "table.txt", table)};
+  const fs::path file = folder / "table.txt";
+  write_whole_file(file, to_text(score_table(summary, std::string(kPooled))) + '\n' +
+                             to_text(score_table(summary, std::string(kMacro))));
+  return file;
 }
 
 }  // namespace mapscore::eval

@@ -26,10 +26,9 @@ namespace mapscore::eval {
                                                               const std::filesystem::path& folder,
                                                               const FigureStyle& style = {});
 
-/// Writes trials.csv (tidy, everything) and table.txt (pooled and macro scores) into the folder.
-/// Returns both paths. Throws Error.
-[[nodiscard]] std::vector<std::filesystem::path> write_tables(const StudySummary& summary,
-                                                              const std::filesystem::path& folder);
+/// Writes table.txt (pooled and macro scores) into the folder. Returns its path. Throws Error.
+[[nodiscard]] std::filesystem::path write_table(const StudySummary& summary,
+                                                const std::filesystem::path& folder);
 
 /// Precision, recall and F1 at tolerance 0, and by distance, pooled over the detected classes.
 [[nodiscard]] FigureSheet accuracy_figure(const StudySummary& summary, const StudyLayout& layout);

@@ -82,8 +82,7 @@ class ThresholdFigure {
         const auto trial = trial_of(curve, value, layout_);
         if (!trial) continue;
         head_ = layout_.bars() ? curve.name : curve.name + "; " + layout_.x().text(value);
-        fill(pool_detected(loaded(summary_.trials[*trial]).pooled, summary_.table), curve, c,
-             panel);
+        fill(pooled_counts(summary_.trials[*trial], summary_.table), curve, c, panel);
       }
       sheet_.panels.push_back(std::move(panel));
     }
