@@ -4,6 +4,7 @@
 #include "core/segmentation/registered_cloud.hpp"
 
 #include "core/error.hpp"
+#include "core/segmentation/depth_spans.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,30 +31,6 @@ struct Span {
 
   [[nodiscard]] std::int32_t size() const { return std::max(0, last - first + 1); }
 };
-
-/// Columns and rows of the colour image that matter.
-struct Window {
-  Span columns, rows;
-};
-
-/// Least window that holds every wanted pixel; all of the image when `wanted` is empty.
-Window window_of(const cv::Mat1b& wanted, const CameraModel& color) {
-  if (wanted.empty()) return {{0, color.width_px - 1}, {0, color.height_px - 1}};
-  Window window{{color.width_px, -1}, {color.height_px, -1}};
-  for (int v = 0; v < wanted.rows; ++v) {
-    const std::uint8_t* row = wanted[v];
-    const std::uint8_t* end = row + wanted.cols;
-    const std::uint8_t* first = std::find_if(row, end, [](std::uint8_t p) { return p != 0; });
-    if (first == end) continue;
-    int last = wanted.cols - 1;
-    while (row[last] == 0) --last;
-    window.columns.first = std::min(window.columns.first, static_cast<std::int32_t>(first - row));
-    window.columns.last = std::max(window.columns.last, last);
-    window.rows.first = std::min(window.rows.first, v);
-    window.rows.last = v;
-  }
-  return window;
-}
 
 /// The colour camera's view of depth pixels. Between parallel cameras R * p = p exactly, which
 /// saves the product.
@@ -95,7 +72,7 @@ struct Projection {
 };
 
 // What a depth pixel covers, in place of the index of the one colour pixel.
-constexpr std::int32_t kNothing = -1;    ///< no usable depth, or outside the window
+constexpr std::int32_t kNothing = -1;    ///< no usable depth, or outside the image
 constexpr std::int32_t kUndecided = -2;  ///< perhaps several pixels, or an edge between two
 
 /// Least and greatest stored depth within the camera's range, limits included; none if first >
@@ -108,16 +85,16 @@ Span values_in_range(const Calibration& believed) {
   return span;
 }
 
-/// The pixels of `window` whose centres lie within `reach` of `at` on one axis, |pixel - at| <=
+/// The pixels of `image` whose centres lie within `reach` of `at` on one axis, |pixel - at| <=
 /// reach as docs/methods.md says it: at - reach and at + reach are rounded, so the pixels at either
 /// end are asked again.
-Span covered(double at, double reach, const Span& window) {
-  if (!(at + reach >= window.first - 1 && at - reach <= window.last + 1)) return {};
+Span covered(double at, double reach, const Span& image) {
+  if (!(at + reach >= image.first - 1 && at - reach <= image.last + 1)) return {};
   const auto within = [&](int pixel) { return std::abs(pixel - at) <= reach; };
-  Span span{at - reach <= window.first ? window.first : ceil_int(at - reach),
-            at + reach >= window.last ? window.last : floor_int(at + reach)};
-  if (span.first > window.first && within(span.first - 1)) --span.first;
-  if (span.last < window.last && within(span.last + 1)) ++span.last;
+  Span span{at - reach <= image.first ? image.first : ceil_int(at - reach),
+            at + reach >= image.last ? image.last : floor_int(at + reach)};
+  if (span.first > image.first && within(span.first - 1)) --span.first;
+  if (span.last < image.last && within(span.last + 1)) ++span.last;
   if (!within(span.first)) ++span.first;
   if (!within(span.last)) --span.last;
   return span;
@@ -128,10 +105,10 @@ Span covered(double at, double reach, const Span& window) {
 /// may cover more than one pixel, stays undecided. Without branches, so that the loop becomes wide
 /// vectors.
 struct Sieve {
-  Sieve(const Calibration& believed, const Window& window)
+  explicit Sieve(const Calibration& believed)
       : values(values_in_range(believed)),
-        columns(window.columns),
-        rows(window.rows),
+        columns{0, believed.color.width_px - 1},
+        rows{0, believed.color.height_px - 1},
         width_px(believed.color.width_px),
         ratio_max(std::max(believed.color.fx_px / believed.depth.fx_px,
                            believed.color.fy_px / believed.depth.fy_px)),
@@ -203,24 +180,27 @@ class ZBuffer {
       : depth_(depth),
         rays_(believed.depth),
         projection_(believed),
-        window_(window_of(wanted, believed.color)),
-        sieve_(believed, window_),
+        sieve_(believed),
         ratio_u_(believed.color.fx_px / believed.depth.fx_px),
         ratio_v_(believed.color.fy_px / believed.depth.fy_px),
         wanted_(wanted.isContinuous() ? wanted : wanted.clone()),
+        spans_(spans_that_may_cover(wanted, believed)),
         source_(believed.color.height_px, believed.color.width_px) {
     std::fill_n(source_.ptr<int>(), source_.total(), RegisteredCloud::kNone);
   }
 
   void cover() {
     const bool all = wanted_.empty();
-    const auto width = static_cast<std::size_t>(depth_.cols);
-    std::vector<std::int32_t> targets(width);
+    std::vector<std::int32_t> targets(static_cast<std::size_t>(depth_.cols));
     for (int v = 0; v < depth_.rows; ++v) {
+      const auto [first, last] = spans_[static_cast<std::size_t>(v)];
+      if (first > last) continue;
       const double ray_y = rays_.y()[static_cast<std::size_t>(v)];
-      sort_row(sieve_, projection_, depth_[v], rays_.x().data(), ray_y, width, targets.data());
+      const auto width = static_cast<std::size_t>(last - first + 1);
+      sort_row(sieve_, projection_, depth_[v] + first, rays_.x().data() + first, ray_y, width,
+               targets.data());
       for (std::size_t i = 0; i < width; ++i) {
-        const int depth_pixel = v * depth_.cols + static_cast<int>(i);
+        const int depth_pixel = v * depth_.cols + first + static_cast<int>(i);
         if (targets[i] >= 0) {
           if (all || wanted_.data[targets[i]] != 0) offer(targets[i], depth_pixel);
         } else if (targets[i] == kUndecided)
@@ -238,8 +218,8 @@ class ZBuffer {
     const double u = projection_.fx * p.x() / p.z() + projection_.cx;
     const double v = projection_.fy * p.y() / p.z() + projection_.cy;
     const double s = p_depth.z() / p.z();
-    const Span columns = covered(u, 0.5 * std::max(1.0, ratio_u_ * s), window_.columns);
-    const Span rows = covered(v, 0.5 * std::max(1.0, ratio_v_ * s), window_.rows);
+    const Span columns = covered(u, 0.5 * std::max(1.0, ratio_u_ * s), sieve_.columns);
+    const Span rows = covered(v, 0.5 * std::max(1.0, ratio_v_ * s), sieve_.rows);
     for (int row = rows.first; row <= rows.last; ++row)
       for (int column = columns.first; column <= columns.last; ++column)
         if (wanted_.empty() || wanted_(row, column) != 0)
@@ -263,10 +243,10 @@ class ZBuffer {
   const cv::Mat1w depth_;
   DepthRays rays_;
   Projection projection_;
-  Window window_;
   Sieve sieve_;
   double ratio_u_, ratio_v_;
   cv::Mat1b wanted_;
+  std::vector<ColumnSpan> spans_;
   cv::Mat1i source_;
 };
 

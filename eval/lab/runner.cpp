@@ -65,7 +65,8 @@ class Sweep {
   void run(const std::vector<std::size_t>& missing) {
     const int block = block_of_frames(missing);
     const bool all_fit = block == recording_.frame_count();
-    std::vector<Strand> strands = strands_of(tasks_, missing, trials_of_a_strand(missing.size()));
+    std::vector<Strand> strands = strands_of(tasks_, missing, trials_of_a_strand(missing.size()),
+                                             static_cast<std::size_t>(std::max(1, options_.jobs)));
     total_ = static_cast<std::int64_t>(missing.size()) * recording_.frame_count();
     for (std::span rest(strands); !rest.empty();) {
       std::size_t count = 0, trials = 0;

@@ -96,10 +96,11 @@ class Strand {
   bool started_ = false;
 };
 
-/// Strands of at most `most` trials, fewer where they carve, in the order of the first of each.
-/// `missing`: positions of tasks.
+/// Strands of at most `most` trials, fewer where they carve. `missing`: positions of tasks, those
+/// of one lattice together. So many `lattices` at a time take turns, each with its strands in the
+/// order of the first trial of each, so that threads do not wait for the truth of the same one.
 [[nodiscard]] std::vector<Strand> strands_of(const TaskList& tasks,
                                              const std::vector<std::size_t>& missing,
-                                             std::size_t most);
+                                             std::size_t most, std::size_t lattices = 1);
 
 }  // namespace mapscore::eval

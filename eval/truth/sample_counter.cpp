@@ -46,6 +46,11 @@ struct RawRange {
   int low = 1, high = 65535;
 };
 
+// Compiled for several widths, of which the processor's is chosen when the program starts; no
+// result depends on the width: there are neither sums over pixels nor fused products.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+[[gnu::target_clones("default", "avx2", "avx512f")]]
+#endif
 void place_row(const std::uint16_t* depth, const DepthRays& rays, int v, const Pose& T_map_depth,
                double edge_m, VoxelRow& row) {
   const Eigen::Matrix3d R = T_map_depth.linear();

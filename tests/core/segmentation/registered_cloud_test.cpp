@@ -169,6 +169,22 @@ TEST_P(RandomRegistration, MaskChangesNothingWherePixelsMatter) {
   EXPECT_TRUE(equal_sources(masked, expected));
 }
 
+/// Wanted pixels that lie together, so that most depth pixels can be left out.
+TEST_P(RandomRegistration, SmallMasksChangeNothingWherePixelsMatter) {
+  const cv::Mat1i full = register_depth(depth_, pair_).sources();
+  for (int n = 0; n < 50; ++n) {
+    cv::Mat1b wanted(40, 50, std::uint8_t{0});
+    for (int blob = 0; blob < 1 + n % 3; ++blob) {
+      const auto below = [&](double size) { return static_cast<int>(size * stream_.uniform()); };
+      const int u = below(50), v = below(40);
+      wanted(cv::Rect(u, v, 1 + below(std::min(8, 49 - u)), 1 + below(std::min(12, 39 - v)))) = 1;
+    }
+    cv::Mat1i expected(40, 50, kNone);
+    full.copyTo(expected, wanted);
+    EXPECT_TRUE(equal_sources(register_depth(depth_, pair_, wanted).sources(), expected)) << n;
+  }
+}
+
 TEST_P(RandomRegistration, NothingWantedGivesNothing) {
   const cv::Mat1b wanted(40, 50, std::uint8_t{0});
   EXPECT_EQ(cv::countNonZero(register_depth(depth_, pair_, wanted).sources() != kNone), 0);
