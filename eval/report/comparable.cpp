@@ -45,8 +45,8 @@ std::vector<std::string> differing_settings(const Study& before, const Study& af
            });
   };
   std::map<std::string, std::array<std::string, 2>> settings;
-  for (const auto& [path, value] : leaf_texts(before)) settings[path][0] = value;
-  for (const auto& [path, value] : leaf_texts(after)) settings[path][1] = value;
+  for (const auto& [path, value] : leaf_texts(without_titles(before))) settings[path][0] = value;
+  for (const auto& [path, value] : leaf_texts(without_titles(after))) settings[path][1] = value;
   std::vector<std::string> differing;
   for (const auto& [path, values] : settings)
     if (!is_free(path) && values[0] != values[1])

@@ -83,6 +83,7 @@ Study determining(Study config, const std::string& pose_file, const std::string&
   config.sweep.clear();
   config.sampling = {};
   config.picture_view.reset();
+  config = without_titles(std::move(config));
   config.faults = with_canonical_doses(config.faults);
   resolve_localization(config.localization, config.faults, pose_file);
   if (auto* simulated = std::get_if<SimulatedPerception>(&config.perception);

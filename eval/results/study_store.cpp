@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "files/text.hpp"
+#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -74,6 +75,17 @@ void refuse_reserved_names(const ClassTable& table) {
                   "': the name stands for all classes in tables; rename it in the class file");
 }
 
+/// Of classes that there are.
+void check_titles(const Study& study, const ClassTable& table) {
+  std::vector<std::string> names;
+  for (const SemanticClass& c : table.classes)
+    if (c.id != kBackground) names.push_back(c.name);
+  for (const auto& [name, title] : study.class_titles)
+    if (std::ranges::count(names, name) == 0)
+      throw Error(
+          fmt::format("class_titles: there is no class '{}'; {}", name, suggestion(name, names)));
+}
+
 ClassTable with_detected_set(const Study& study, ClassTable table) {
   if (!study.detect) return table;
   std::string names;
@@ -128,6 +140,7 @@ StudyRecord read_study(const ResultStore& store, const std::filesystem::path& fo
 
 ClassTable detected_table(const Study& study, ClassTable table) {
   refuse_reserved_names(table);
+  check_titles(study, table);
   table = with_detected_set(study, std::move(table));
   if (std::ranges::none_of(table.classes, &SemanticClass::detect))
     throw Error(

@@ -86,4 +86,18 @@ std::string Leaf<DetectedSet>::text(const DetectedSet& detected) {
   return detected.all ? "all" : list_text(detected.classes);
 }
 
+ClassTitles Leaf<ClassTitles>::read(const YamlValue& at, const Range&) {
+  ClassTitles titles;
+  for (const auto& [name, title] : at.entries()) titles[name] = title.name();
+  if (titles.empty()) at.fail("names no class; write {CLASS: TITLE, ...}, or leave the key out");
+  return titles;
+}
+
+std::string Leaf<ClassTitles>::text(const ClassTitles& titles) {
+  std::string text;
+  for (const auto& [name, title] : titles)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", yaml_text(name), yaml_text(title));
+  return text.empty() ? "-" : '{' + text + '}';
+}
+
 }  // namespace mapscore::eval

@@ -89,6 +89,14 @@ struct Leaf<DetectedSet> {
   [[nodiscard]] static std::string type() { return "list of text, or all"; }
 };
 
+/// Texts by name; none is absent.
+template <>
+struct Leaf<ClassTitles> {
+  [[nodiscard]] static ClassTitles read(const YamlValue& at, const Range&);
+  [[nodiscard]] static std::string text(const ClassTitles& titles);
+  [[nodiscard]] static std::string type() { return "{name: text}"; }
+};
+
 template <class Enum>
 requires std::is_enum_v<Enum>
 struct Leaf<Enum> {

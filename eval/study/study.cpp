@@ -83,6 +83,22 @@ DrawnFusion fusion_of(const DrawnFusion& of_study, const MethodFusion& of_method
       of_method);
 }
 
+std::string method_title(const Study& study, const std::string& name) {
+  const auto method = std::ranges::find(study.methods, name, &MethodSettings::name);
+  return method == study.methods.end() ? name : method->title.value_or(name);
+}
+
+std::string class_title(const Study& study, const std::string& name) {
+  const auto title = study.class_titles.find(name);
+  return title == study.class_titles.end() ? name : title->second;
+}
+
+Study without_titles(Study study) {
+  study.class_titles.clear();
+  for (MethodSettings& method : study.methods) method.title.reset();
+  return study;
+}
+
 Study with_method(Study config, const std::string& name) {
   std::erase_if(config.methods, [&](const MethodSettings& method) { return method.name != name; });
   config.sweep.clear();

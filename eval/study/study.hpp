@@ -70,6 +70,9 @@ struct DetectedSet {
   bool operator==(const DetectedSet&) const = default;
 };
 
+/// Names of classes in figures, and in tables for papers.
+using ClassTitles = std::map<std::string, std::string>;
+
 /// One swept leaf. Values are canonical texts (0.010 is 0.01), in the order of the file.
 struct SweepAxis {
   std::string path;
@@ -102,6 +105,7 @@ struct Study {
   std::vector<SweepAxis> sweep;
   Sampling sampling;
   std::optional<std::vector<double>> picture_view;  ///< see view_of_numbers; changes no result
+  ClassTitles class_titles;                         ///< changes no result
 
   std::filesystem::path base_folder;
 
@@ -158,6 +162,10 @@ struct Study {
                 .meaning = "view of the pictures: [ex, ey, ez, tx, ty, tz, vfov_deg], eye and "
                            "target in the world in metres, the angle may be left out; default: an "
                            "overview, and where most errors are",
+                .swept = false});
+    visit(s.class_titles,
+          Field{.key = "class_titles",
+                .meaning = "names of classes in figures, and in tables for papers, as {tv: TV set}",
                 .swept = false});
   }
   bool operator==(const Study&) const = default;
@@ -230,6 +238,14 @@ void check(const Study& study);
 
 /// A method's own fusion, or the study's.
 [[nodiscard]] DrawnFusion fusion_of(const DrawnFusion& of_study, const MethodFusion& of_method);
+
+/// What a method or a class is called in figures, and in tables for papers: its title or else its
+/// name.
+[[nodiscard]] std::string method_title(const Study& study, const std::string& name);
+[[nodiscard]] std::string class_title(const Study& study, const std::string& name);
+
+/// The study without titles, which decide nothing.
+[[nodiscard]] Study without_titles(Study study);
 
 /// The study with one of its methods alone, whose fusion becomes the study's, and no sweep.
 [[nodiscard]] Study with_method(Study study, const std::string& method);

@@ -26,6 +26,20 @@ void check_name(const std::string& name, const Blame& blame) {
                       name));
 }
 
+/// Each stands for one method or class in a figure's legend.
+void check_titles(const Study& study, const Blame& blame) {
+  std::set<std::string> seen;
+  const auto check_title = [&](const std::string& path, const std::string& title) {
+    if (const auto unfit = unfit_as_name(title)) blame(path, *unfit);
+    if (!seen.insert(title).second)
+      blame(path, fmt::format("'{}' stands for another too; write one of its own", title));
+  };
+  for (const MethodSettings& method : study.methods)
+    check_title(fmt::format("methods.{}.title", method.name), method.title.value_or(method.name));
+  seen.clear();
+  for (const auto& [name, title] : study.class_titles) check_title("class_titles", title);
+}
+
 void check_input(const Study& study, const Blame& blame) {
   const auto needs_scene = [&](const auto& of_scene, const char* path, const char* why) {
     if (of_scene && !study.scene)
@@ -262,6 +276,7 @@ void check_cell(const Study& study, const Cell& cell, const Blame& blame) {
 
 void check(const Study& study, const Blame& blame) {
   check_name(study.name, blame);
+  check_titles(study, blame);
   check_view(study, blame);
   check_sampling(study, blame);
   check_size(study, blame);

@@ -81,6 +81,7 @@ struct MethodSettings {
   std::optional<Place> place{};  ///< empty: the study's
   MethodFusion fusion{};
   Refinement refinement{};
+  std::optional<std::string> title{};  ///< for people; changes no result
 
   static void fields(auto& s, auto&& visit) {
     visit(s.segmentation, Field{.key = "segmentation",
@@ -90,6 +91,9 @@ struct MethodSettings {
     visit(s.fusion, later({"fusion", "how this method's observations change the map"}));
     visit(s.refinement,
           later({"refinement", "what happens to this method's map before it is scored"}));
+    visit(s.title, Field{.key = "title",
+                         .meaning = "its name in figures, and in tables for papers",
+                         .swept = false});
   }
   bool operator==(const MethodSettings&) const = default;
 };

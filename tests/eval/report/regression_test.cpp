@@ -226,6 +226,8 @@ TEST(Regression, OtherSettingsDoNotCompare) {
   elsewhere = before;
   elsewhere.recording_hash = "other";
   elsewhere.study.name = "renamed";
+  elsewhere.study.methods.at(1).title = "Erosion";
+  elsewhere.study.class_titles["cup"] = "mug";
   elsewhere.study.seeds = 5;
   EXPECT_FALSE(judge(before, elsewhere, kMetrics, {}, true).same_recording);
 }

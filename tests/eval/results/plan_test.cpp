@@ -110,6 +110,8 @@ TEST(Plan, KeysDoNotDependOnNamesOrOnWhatElseTheStudyHolds) {
   EXPECT_EQ(key_of(study_of("sweep: {faults.misregistration.magnitude_m: [0, 0.01]}\n")), key);
   Study renamed = study_of("");
   renamed.methods[0].name = "plain";
+  renamed.methods[0].title = "Plain segmentation";
+  renamed.class_titles["crate"] = "box";
   renamed.recording = "/moved/elsewhere";
   EXPECT_EQ(key_of(renamed), key);
 }

@@ -70,6 +70,9 @@ TEST(StudyStore, DetectedSetIsTheClassFilesOrTheStudys) {
   EXPECT_EQ(detected("detect: [wall]\n"), (std::vector<bool>{false, false, true}));
   EXPECT_EQ(detected("detect: all\n"), (std::vector<bool>{false, true, true}));
   expect_error("no class 'cup'", [&] { (void)detected("detect: [cup]\n"); });
+  EXPECT_EQ(detected("class_titles: {crate: box}\n"), detected(""));
+  expect_error("class_titles: there is no class 'crat'; did you mean 'crate'?",
+               [&] { (void)detected("class_titles: {crat: box}\n"); });
 }
 
 }  // namespace

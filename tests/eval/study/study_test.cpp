@@ -123,6 +123,21 @@ TEST(Study, ReadsLeavesOfEveryTypeFromALongFile) {
   EXPECT_THAT(s.score.tolerances, ElementsAre(0, 2));
 }
 
+TEST(Study, TitlesAreKeptAndStandForNames) {
+  const std::string text =
+      "recording: r\nmethods: {a: {segmentation: {direct: {}}, title: \"A, plain\"}, b: "
+      "{segmentation: {direct: {}}}}\nclass_titles: {tv: TV set, \"wine glass\": \"glass: 'x'\"}\n";
+  const Study study = parse(text);
+  EXPECT_EQ(method_title(study, "a"), "A, plain");
+  EXPECT_EQ(method_title(study, "b"), "b");
+  EXPECT_EQ(class_title(study, "tv"), "TV set");
+  EXPECT_EQ(class_title(study, "wine glass"), "glass: 'x'");
+  EXPECT_EQ(class_title(study, "cup"), "cup");
+  EXPECT_EQ(parse(to_yaml(study)), study) << to_yaml(study);
+  EXPECT_EQ(without_titles(study),
+            parse(text.substr(0, text.find(", title")) + "}, b: {segmentation: {direct: {}}}}\n"));
+}
+
 TEST(Study, MethodsAndSweepKeepTheOrderOfTheFile) {
   const Study study = parse(kFull);
   EXPECT_EQ(study.methods[0].name, "direct");
