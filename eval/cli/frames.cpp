@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
+#include "eval/cli/shared/figure_flags.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/shared/truth_source.hpp"
@@ -10,6 +11,7 @@
 #include "eval/lab/bench.hpp"
 #include "eval/render/study_recording.hpp"
 #include "eval/report/figures/frames_figure.hpp"
+#include "eval/report/table_formats.hpp"
 #include "eval/results/plan.hpp"
 #include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"
@@ -34,6 +36,7 @@ struct FramesFlags {
   int seed = 0;
   bool yes = false;
   std::string format = "text";
+  FigureFlags style;
 };
 
 /// The trials of one seed at the first cell of the sweep, a method each.
@@ -70,6 +73,7 @@ std::vector<MethodFrames> walk(const Study& study, const std::vector<Task>& task
 }
 
 void compare_frames(const FramesFlags& flags) {
+  const FigureStyle style = flags.style.style();
   const Study study = flags.study.load();
   if (study.score.unit != ScoreUnit::frame)
     throw Error("score.unit: each frame is scored by itself here; --set score.unit=frame");
@@ -88,7 +92,7 @@ void compare_frames(const FramesFlags& flags) {
   const Table times = frames_table(methods);
   write_whole_file(folder / "by_method.csv", to_csv(times));
   std::cout << formatted(times, flags.format);
-  for (const fs::path& file : draw(frames_figure(study, table, methods), folder))
+  for (const fs::path& file : draw(frames_figure(study, table, methods, style), folder))
     if (flags.format == "text") std::cout << shown(file) << '\n';
 }
 
@@ -102,6 +106,7 @@ void add_frames(CLI::App& program) {
   add_yes_flag(*verb, flags->yes);
   verb->add_option("--seed", flags->seed, "Index of the seed [0]");
   add_format_flag(*verb, flags->format);
+  flags->style.add_to(*verb);
   verb->footer(
       "Walks the recording once, all methods side by side on one thread, at the first cell of the "
       "sweep; --set changes doses.\n"

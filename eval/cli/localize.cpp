@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/whole_file.hpp"
+#include "eval/cli/shared/figure_flags.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/pose_sources.hpp"
@@ -37,6 +38,7 @@ struct LocalizeFlags {
   std::uint64_t seed = 1;
   std::vector<std::string> overrides;
   bool quiet = false;
+  FigureFlags style;
 };
 
 /// A study of nothing but the localisation, with a lidar as one buys it.
@@ -101,6 +103,7 @@ std::vector<LocalizationScore> localised(const Study& study, const Recording& re
 }
 
 void localize(const LocalizeFlags& flags) {
+  const FigureStyle style = flags.style.style();
   Study study = study_of(flags);
   const Recording recording = Recording::open(flags.recording);
   const OccupancyGrid grid = grid_of(recording, study);
@@ -115,7 +118,7 @@ void localize(const LocalizeFlags& flags) {
   write_whole_file(folder / "localization.csv", csv);
   if (flags.source != "odometry")
     study.sweep = {{"localization.source", {flags.source, "odometry"}}};
-  for (const fs::path& file : draw_believed(study, recording, {}, folder))
+  for (const fs::path& file : draw_believed(study, recording, {}, folder, style))
     std::cout << shown(file) << '\n';
   std::cout << fmt::format("{:<16} {:>5} {:>11} {:>9} {:>9} {:>10} {:>10} {:>10}\n", "source",
                            "seed", "converged_s", "mean_m", "p95_m", "mean_deg", "p95_deg",
@@ -151,6 +154,7 @@ void add_localize(CLI::App& program) {
                    "A key localization.* or faults.lidar.* of a study; may be repeated")
       ->allow_extra_args(false);
   verb->add_flag("-q,--quiet", flags->quiet, "No progress");
+  flags->style.add_to(*verb);
   verb->footer(
       "Writes grid.yaml and .pgm, localization.txt and trajectory_on_grid.png, .pdf and .svg "
       "(first seed), and\n"

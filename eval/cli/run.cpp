@@ -14,7 +14,7 @@
 #include "eval/render/study_recording.hpp"
 #include "eval/report/pictures/pictures.hpp"
 #include "eval/report/summary.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/table_formats.hpp"
 #include "eval/report/tidy_csv.hpp"
 #include "eval/report/trial_list.hpp"
 #include "eval/results/plan.hpp"

@@ -9,7 +9,7 @@
 #include "eval/report/pictures/judgement.hpp"
 #include "eval/report/pictures/map_pictures.hpp"
 #include "eval/report/pictures/view.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/table_formats.hpp"
 #include "eval/score/label_images.hpp"
 
 #include <fmt/format.h>

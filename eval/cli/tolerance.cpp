@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "eval/cli/shared/figure_flags.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/shared/tolerance_search.hpp"
@@ -29,6 +30,7 @@ struct ToleranceFlags {
   ToleranceAim aim;
   ToleranceChoice choice;
   std::string reference, format = "text", figure;
+  FigureFlags style;
   bool yes = false;
 };
 
@@ -41,6 +43,7 @@ std::string reference_method(const std::string& named, const std::vector<Toleran
 }
 
 void tolerance(const ToleranceFlags& flags) {
+  const FigureStyle style = flags.style.style();
   const Study study = flags.study.load();
   const std::filesystem::path results = flags.study.results_folder(study);
   ShownRecording display(flags.work.quiet);
@@ -62,16 +65,15 @@ void tolerance(const ToleranceFlags& flags) {
   if (!flags.figure.empty()) {
     const FolderLock lock(flags.figure);
     const FigureSheet sheet = flags.choice.against.empty()
-                                  ? tolerance_figure(study, flags.aim, rows)
-                                  : frontier_figure(study, flags.aim, rows);
+                                  ? tolerance_figure(study, flags.aim, rows, style)
+                                  : frontier_figure(study, flags.aim, rows, style);
     for (const auto& file : draw(sheet, flags.figure))
       std::cerr << "tolerance: " << shown(file) << '\n';
   }
-  const bool for_people = flags.format == "text";
-  const bool for_papers = flags.format == "markdown" || flags.format == "tex";
-  std::cout << formatted(for_papers
+  const Reader reader = reader_of(flags.format);
+  std::cout << formatted(reader == Reader::paper
                              ? tolerance_matrix(study, flags.aim, rows)
-                             : tolerance_table(study, flags.aim, reference, rows, for_people),
+                             : tolerance_table(study, flags.aim, reference, rows, reader),
                          flags.format);
 }
 
@@ -116,6 +118,7 @@ void add_tolerance(CLI::App& program) {
   verb->add_option("--figure", flags->figure,
                    "Folder for tolerance.png and .pdf (frontier.png with --against), with script "
                    "and numbers");
+  flags->style.add_to(*verb);
   verb->footer(
       "Each swept path of the study is searched by itself, between its least and its greatest\n"
       "value, the others as the study has them. Trials go into the results folder and are never\n"

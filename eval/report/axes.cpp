@@ -29,13 +29,12 @@ double scale_of(std::string_view key, std::string_view unit) {
   return unit == "mm" && key.ends_with("_m") ? 1000.0 : 1.0;
 }
 
-/// "particle_filter" as people write it.
+}  // namespace
+
 std::string spaced(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
-
-}  // namespace
 
 std::string FigureAxis::title() const {
   return unit.empty() ? name : fmt::format("{} ({})", name, unit);

@@ -27,6 +27,9 @@ struct FigureAxis {
   [[nodiscard]] std::string value_text(std::size_t value) const;
 };
 
+/// "particle_filter" as people write it: "particle filter".
+[[nodiscard]] std::string spaced(std::string name);
+
 /// The axis of these values of a field, as a study file writes them.
 [[nodiscard]] FigureAxis figure_axis(const Field& field, const std::vector<std::string>& values);
 /// The same for a swept leaf of a study.

@@ -27,18 +27,6 @@ std::vector<std::string> methods_of(const StudySummary& summary) {
   return names;
 }
 
-/// Those of the group; pooled has them where no class of a macro mean is visible.
-std::vector<std::string> metric_names(const StudySummary& summary, const std::string& group) {
-  std::vector<std::string> names;
-  if (summary.trials.empty()) return names;
-  const Counts& counts = summary.trials.front().pooled;
-  std::vector<Metric> metrics = metrics_of_group(counts, summary.table, group);
-  if (metrics.empty()) metrics = metrics_of_group(counts, summary.table, kPooled);
-  for (const Metric& metric : metrics) names.push_back(metric.name);
-  names.insert(names.end(), {kBestF1, kBestThreshold});
-  return names;
-}
-
 void check_methods(const StudySummary& summary, const ComparisonQuestion& question) {
   for (const std::string& method : {question.a, question.b})
     require("method", method, methods_of(summary));
@@ -51,7 +39,7 @@ void check_figures(const StudySummary& summary, const ComparisonQuestion& questi
   require("group", question.group, summary.groups());
   if (question.metrics.empty()) throw Error("compare: no metric; f1 is one");
   for (const std::string& metric : question.metrics) {
-    require("metric", metric, metric_names(summary, question.group));
+    check_metric(summary, question.group, metric);
     if (std::ranges::count(question.metrics, metric) > 1)
       throw Error(fmt::format("compare: metric '{}' is given twice; once is enough", metric));
   }

@@ -42,18 +42,15 @@ struct ComparisonRow {
                                                          const StudySummary& after,
                                                          const ComparisonQuestion& question);
 
-/// Figures of a table: four decimals for people, or nine significant digits for programs.
-enum class Figures { rounded, nine_digits };
-
 /// The same as a table: both means, the difference a - b, its interval (or range), p, p (Holm) and
 /// pairs. The caption ends, for each metric, with the row that differs most in a sentence that can
 /// be quoted. Errors as above.
 [[nodiscard]] Table comparison_table(const StudySummary& summary,
                                      const ComparisonQuestion& question,
-                                     Figures figures = Figures::rounded);
+                                     Reader reader = Reader::terminal);
 /// The rows of compare_results; the caption tells which settings differ, too.
 [[nodiscard]] Table before_after_table(const StudySummary& before, const StudySummary& after,
                                        const ComparisonQuestion& question,
-                                       Figures figures = Figures::rounded);
+                                       Reader reader = Reader::terminal);
 
 }  // namespace mapscore::eval

@@ -64,29 +64,34 @@ std::vector<std::string> caption_of(const StudySummary& summary, const Compariso
 }
 
 Table table_of_rows(const std::vector<ComparisonRow>& rows, const StudySummary& summary,
-                    const ComparisonQuestion& question, Figures figures) {
+                    const ComparisonQuestion& question, Reader reader) {
   Table table;
   const auto with_p = std::ranges::count_if(
       rows, [](const ComparisonRow& row) { return row.paired.p.has_value(); });
   table.caption = caption_of(summary, question, static_cast<std::size_t>(with_p));
   const bool by_method = !rows.empty() && !rows.front().method.empty();
   if (by_method) table.columns.emplace_back("method");
-  for (const SweepAxis& axis : summary.study.sweep)
-    table.columns.push_back(column_of(axis, summary.study.sweep));
+  for (std::string& column : dose_columns(summary.study, reader))
+    table.columns.push_back(std::move(column));
+  const auto mean_of = [&](const std::string& method) {
+    return "mean " + method_text(summary.study, method, reader);
+  };
   table.columns.insert(table.columns.end(),
-                       {"metric", "mean " + question.a, "mean " + question.b, "difference", "low",
+                       {"metric", mean_of(question.a), mean_of(question.b), "difference", "low",
                         "high", "spread", "p", "p (Holm)", "pairs"});
+  table.keys = table.columns.size() - 9;  // up to the metric
   const auto text = [&](std::string (*rounded)(const std::optional<double>&)) {
-    return figures == Figures::rounded ? rounded : nine_digits;
+    return reader == Reader::program ? nine_digits : rounded;
   };
   const auto mean = text(figure), difference = text(signed_figure), p = text(probability);
   for (const ComparisonRow& row : rows) {
     const PairedComparison& paired = row.paired;
     std::vector<std::string> cells;
-    if (by_method) cells.push_back(row.method);
-    for (const auto& [path, value] : row.cell.doses) cells.push_back(value);
+    if (by_method) cells.push_back(method_text(summary.study, row.method, reader));
+    for (std::string& dose : dose_texts(summary.study, row.cell, reader))
+      cells.push_back(std::move(dose));
     cells.insert(cells.end(),
-                 {row.metric, mean(paired.mean_a), mean(paired.mean_b),
+                 {metric_text(row.metric, reader), mean(paired.mean_a), mean(paired.mean_b),
                   difference(paired.difference.mean), difference(paired.difference.low),
                   difference(paired.difference.high), name_of(paired.difference.kind), p(paired.p),
                   p(row.p_holm), std::to_string(paired.difference.seeds)});
@@ -134,20 +139,20 @@ void add_sentences(const std::vector<ComparisonRow>& rows, const ComparisonQuest
 }  // namespace
 
 Table comparison_table(const StudySummary& summary, const ComparisonQuestion& question,
-                       Figures figures) {
+                       Reader reader) {
   const std::vector<ComparisonRow> rows = compare_methods(summary, question);
-  Table table = table_of_rows(rows, summary, question, figures);
+  Table table = table_of_rows(rows, summary, question, reader);
   add_sentences(rows, question, table);
   return table;
 }
 
 Table before_after_table(const StudySummary& before, const StudySummary& after,
-                         const ComparisonQuestion& question, Figures figures) {
+                         const ComparisonQuestion& question, Reader reader) {
   ComparisonQuestion asked = question;
   asked.a = "after";
   asked.b = "before";
   const std::vector<ComparisonRow> rows = compare_results(before, after, asked);
-  Table table = table_of_rows(rows, after, asked, figures);
+  Table table = table_of_rows(rows, after, asked, reader);
   table.caption.push_back(
       fmt::format("build {} -> {}", *before.builds.begin(), *after.builds.begin()));
   if (const auto differing = differing_settings(before.study, after.study); !differing.empty())

@@ -4,6 +4,7 @@
 #include "eval/report/regression_report.hpp"
 
 #include "core/error.hpp"
+#include "eval/report/table_formats.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>

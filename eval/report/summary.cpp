@@ -7,6 +7,7 @@
 #include "eval/report/best_threshold.hpp"
 #include "eval/results/build_identity.hpp"
 #include "eval/results/study_store.hpp"
+#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -110,8 +111,8 @@ void check_all_there(const HeldTasks& held, const TaskList& tasks,
 void check_groups(const std::vector<std::string>& wanted, const std::vector<std::string>& known) {
   for (const std::string& group : wanted)
     if (std::ranges::count(known, group) == 0)
-      throw Error(fmt::format("class '{}': not scored in this study; there are: {}", group,
-                              fmt::join(known, ", ")));
+      throw Error(
+          fmt::format("class '{}': not scored in this study; {}", group, suggestion(group, known)));
 }
 
 /// How much of an unfinished sweep is there.
@@ -175,6 +176,12 @@ std::vector<std::string> detected_names(const ClassTable& table) {
   for (const SemanticClass& c : table.classes)
     if (c.detect) names.push_back(c.name);
   return names;
+}
+
+std::vector<std::string> detected_titles(const Study& study, const ClassTable& table) {
+  std::vector<std::string> titles = detected_names(table);
+  for (std::string& name : titles) name = class_title(study, name);
+  return titles;
 }
 
 std::filesystem::path store_file(const std::filesystem::path& results) {

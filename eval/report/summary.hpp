@@ -112,6 +112,9 @@ class LatticeCheck {
 /// Names of the detected classes, in the table's order.
 [[nodiscard]] std::vector<std::string> detected_names(const ClassTable& table);
 
+/// Their titles (class_title).
+[[nodiscard]] std::vector<std::string> detected_titles(const Study& study, const ClassTable& table);
+
 /// Which tasks of a plan a store holds.
 struct HeldTasks {
   std::size_t all = 0;

@@ -3,23 +3,17 @@
 
 #include "eval/report/table.hpp"
 
-#include "files/csv.hpp"
-#include "files/text.hpp"
-#include "files/text_rows.hpp"
+#include "core/error.hpp"
+#include "eval/report/axes.hpp"
+#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace mapscore::eval {
 namespace {
-
-std::string spread(const SeedSummary& seeds) {
-  return seeds.low && seeds.high ? fmt::format("{:.3f}..{:.3f}", *seeds.low, *seeds.high) : "-";
-}
 
 std::vector<std::string> caption_of(const StudySummary& summary, const std::string& group) {
   const Study& study = summary.study;
@@ -30,9 +24,9 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
                   study.voxel_m, study.seeds, study.seeds == 1 ? "" : "s",
                   study.score.unit == ScoreUnit::map ? "map" : "frame"),
       study.seeds < kSeedsForInterval
-          ? fmt::format("F1 spread: least and greatest of the seeds (fewer than {})",
+          ? fmt::format("F1 low, high: least and greatest of the seeds (fewer than {})",
                         kSeedsForInterval)
-          : fmt::format("F1 spread: 95 % interval of the mean over seeds ({})", kIntervalMethod),
+          : fmt::format("F1 low, high: 95 % interval of the mean over seeds ({})", kIntervalMethod),
       "AP: over all thresholds; F1 best: each seed at the threshold that is best on the others; "
       "threshold: best on all seeds",
       "ceilings: lattice = true labels on the depth pixels, true pose; registration = the method "
@@ -66,27 +60,6 @@ std::vector<std::string> row_of(const std::string& name, const ObjectCounts& c) 
   return row;
 }
 
-/// A whole number or a number as such, `-` and nothing as null, anything else as text.
-nlohmann::ordered_json json_of(const std::string& cell) {
-  if (cell == "-" || cell.empty()) return nullptr;
-  if (const auto whole = parse_whole(cell)) return *whole;
-  const auto number = parse_real(cell);
-  if (number && std::isfinite(*number)) return *number;
-  return shown(cell);
-}
-
-nlohmann::ordered_json json_of(const Table& table) {
-  nlohmann::ordered_json object{{"caption", nlohmann::ordered_json::array()},
-                                {"rows", nlohmann::ordered_json::array()}};
-  for (const std::string& line : table.caption) object["caption"].push_back(shown(line));
-  for (const auto& row : table.rows) {
-    nlohmann::ordered_json entry;
-    for (std::size_t i = 0; i < row.size(); ++i) entry[shown(table.columns[i])] = json_of(row[i]);
-    object["rows"].push_back(std::move(entry));
-  }
-  return object;
-}
-
 }  // namespace
 
 std::string cell_text(const std::optional<double>& value, std::string_view format) {
@@ -97,6 +70,18 @@ std::string nine_digits(const std::optional<double>& value) {
   return cell_text(value, "{:.9g}");
 }
 
+void check_metric(const StudySummary& summary, const std::string& group,
+                  const std::string& metric) {
+  const Counts& counts = summary.trials.front().pooled;
+  std::vector<Metric> metrics = metrics_of_group(counts, summary.table, group);
+  // Those of pooled are there too where no class of a macro mean is visible.
+  if (metrics.empty()) metrics = metrics_of_group(counts, summary.table, kPooled);
+  std::vector<std::string> names{kBestF1, kBestThreshold};
+  for (const Metric& known : metrics) names.push_back(known.name);
+  if (std::ranges::count(names, metric) == 0)
+    throw Error(fmt::format("no metric '{}' in this study; {}", metric, suggestion(metric, names)));
+}
+
 std::string column_of(const SweepAxis& axis, const std::vector<SweepAxis>& sweep) {
   const auto last_part = [](const SweepAxis& of) { return of.path.substr(of.path.rfind('.') + 1); };
   const auto alike = std::count_if(sweep.begin(), sweep.end(), [&](const SweepAxis& other) {
@@ -105,7 +90,41 @@ std::string column_of(const SweepAxis& axis, const std::vector<SweepAxis>& sweep
   return alike == 1 ? last_part(axis) : axis.path;
 }
 
-Table score_table(const StudySummary& summary, const std::string& group) {
+std::vector<std::string> dose_columns(const Study& study, Reader reader) {
+  std::vector<std::string> columns;
+  for (const SweepAxis& axis : study.sweep)
+    columns.push_back(reader == Reader::paper ? figure_axis(study, axis).title()
+                                              : column_of(axis, study.sweep));
+  return columns;
+}
+
+std::vector<std::string> dose_texts(const Study& study, const Cell& cell, Reader reader) {
+  std::vector<std::string> texts;
+  for (const auto& [path, value] : cell.doses)
+    texts.push_back(reader == Reader::paper ? figure_axis(study, {path, {value}}).values.front()
+                                            : value);
+  return texts;
+}
+
+std::string method_text(const Study& study, const std::string& name, Reader reader) {
+  return reader == Reader::paper ? method_title(study, name) : name;
+}
+
+std::string metric_text(const std::string& name, Reader reader) {
+  if (reader != Reader::paper) return name;
+  for (const auto& [metric, text] :
+       {std::pair{"f1", "F1"}, {"iou", "IoU"}, {"ap", "AP"}, {"pq", "PQ"}, {"f1_best", "F1 best"}})
+    if (name == metric) return text;
+  const std::size_t last = name.rfind('_');
+  if (last == name.npos || !name.ends_with("cm")) return spaced(name);
+  const std::string distance = name.substr(last + 1, name.size() - last - 3);
+  return fmt::format("{} at {} cm", name.starts_with("f_") ? "F" : name.substr(0, last), distance);
+}
+
+Table score_table(const StudySummary& summary, const std::string& group, Reader reader) {
+  const auto text = [&](const std::optional<double>& value) {
+    return reader == Reader::program ? nine_digits(value) : cell_text(value);
+  };
   Table table;
   table.caption = caption_of(summary, group);
   std::vector<std::pair<std::string, std::string>> metrics{
@@ -116,28 +135,30 @@ Table score_table(const StudySummary& summary, const std::string& group) {
   metrics.insert(metrics.end(),
                  {{"AP", "ap"}, {"F1 best", kBestF1}, {"threshold", kBestThreshold}});
 
-  for (const SweepAxis& axis : summary.study.sweep)
-    table.columns.push_back(column_of(axis, summary.study.sweep));
-  table.columns.push_back("method");
+  table.columns = dose_columns(summary.study, reader);
+  table.columns.emplace_back("method");
+  table.keys = table.columns.size();
   if (!summary.interim.empty()) table.columns.push_back("seeds there");
   for (const auto& [title, name] : metrics) table.columns.push_back(title);
-  table.columns.insert(table.columns.end(),
-                       {"F1 spread", "registration F1", "lattice precision", "lattice recall"});
+  table.columns.insert(table.columns.end(), {"F1 low", "F1 high", "registration F1",
+                                             "lattice precision", "lattice recall"});
+  if (reader == Reader::program) table.columns.emplace_back("F1 spread");
 
   for (std::size_t i = 0; i < summary.trials.size(); ++i) {
     const ResultLine& line = summary.trials[i];
     const auto pooled = [&](const ResultLine& of, const std::string& metric) {
-      return cell_text(estimate(of, summary.table, group, metric).pooled);
+      return text(estimate(of, summary.table, group, metric).pooled);
     };
-    std::vector<std::string> row;
-    for (const auto& [path, value] : line.cell.doses) row.push_back(value);
-    row.push_back(line.method);
+    std::vector<std::string> row = dose_texts(summary.study, line.cell, reader);
+    row.push_back(method_text(summary.study, line.method, reader));
     if (!summary.interim.empty()) row.push_back(std::to_string(line.seeds.size()));
     for (const auto& [title, name] : metrics) row.push_back(pooled(line, name));
-    row.push_back(spread(estimate(line, summary.table, group, "f1").over_seeds));
+    const SeedSummary spread = estimate(line, summary.table, group, "f1").over_seeds;
+    row.insert(row.end(), {text(spread.low), text(spread.high)});
     row.push_back(pooled(summary.registration_ceilings[i], "f1"));
     row.push_back(pooled(summary.lattice_ceilings[i], "precision"));
     row.push_back(pooled(summary.lattice_ceilings[i], "recall"));
+    if (reader == Reader::program) row.emplace_back(name_of(spread.kind));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -158,90 +179,6 @@ Table object_table(const std::vector<ObjectCounts>& counts, const ClassTable& ta
   }
   scores.rows.push_back(row_of("all", all));
   return scores;
-}
-
-std::string to_text(const Table& table) {
-  std::vector<std::size_t> widths;
-  for (const std::string& column : table.columns) widths.push_back(shown(column).size());
-  for (const auto& row : table.rows)
-    for (std::size_t i = 0; i < row.size(); ++i)
-      widths[i] = std::max(widths[i], shown(row[i]).size());
-  const auto line = [&](const std::vector<std::string>& cells) {
-    std::string text;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const std::string cell = shown(cells[i]);
-      text += (i ? "  " : "") + cell + std::string(widths[i] - cell.size(), ' ');
-    }
-    return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
-  };
-  std::string text;
-  for (const std::string& caption : table.caption) text += "# " + shown(caption) + '\n';
-  text += line(table.columns);
-  for (const auto& row : table.rows) text += line(row);
-  return text;
-}
-
-std::string to_csv(const Table& table) {
-  std::string text = csv_line(table.columns);
-  for (const auto& row : table.rows) text += csv_line(row);
-  return text;
-}
-
-std::string to_markdown(const Table& table) {
-  const auto line = [](const std::vector<std::string>& cells) {
-    std::string text = "|";
-    for (const std::string& cell : cells) {
-      text += ' ';
-      for (const char letter : shown(cell))
-        text += std::string_view("\\|*_`<>[]").find(letter) == std::string_view::npos
-                    ? std::string(1, letter)
-                    : std::string{'\\', letter};
-      text += " |";
-    }
-    return text + '\n';
-  };
-  std::string text;
-  for (const std::string& caption : table.caption) text += shown(caption) + "  \n";
-  if (!text.empty()) text += '\n';
-  text += line(table.columns) + '|';
-  for (std::size_t n = 0; n < table.columns.size(); ++n) text += " --- |";
-  text += '\n';
-  for (const auto& row : table.rows) text += line(row);
-  return text;
-}
-
-std::string to_tex(const Table& table) {
-  const auto line = [](const std::vector<std::string>& cells) {
-    std::string text;
-    for (std::size_t n = 0; n < cells.size(); ++n) {
-      if (n > 0) text += " & ";
-      for (const char letter : shown(cells[n])) {
-        if (letter == '\\' || letter == '~' || letter == '^')
-          text += fmt::format("\\char{} ", static_cast<int>(letter));
-        else
-          text += std::string_view("&%$#_{}").find(letter) == std::string_view::npos
-                      ? std::string(1, letter)
-                      : std::string{'\\', letter};
-      }
-    }
-    return text + " \\\\\n";
-  };
-  std::string text;
-  for (const std::string& caption : table.caption) text += "% " + shown(caption) + '\n';
-  text += "\\begin{tabular}{" + std::string(table.columns.size(), 'l') + "}\n\\toprule\n" +
-          line(table.columns) + "\\midrule\n";
-  for (const auto& row : table.rows) text += line(row);
-  return text + "\\bottomrule\n\\end{tabular}\n";
-}
-
-std::string to_json(const Table& table) {
-  return json_of(table).dump(2) + '\n';
-}
-
-std::string to_json(const std::vector<Table>& tables) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Table& table : tables) list.push_back(json_of(table));
-  return list.dump(2) + '\n';
 }
 
 }  // namespace mapscore::eval

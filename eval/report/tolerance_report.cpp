@@ -69,7 +69,7 @@ std::string difference_text(const ToleranceRow& row, const ToleranceRow& from) {
 }
 
 Table tolerance_table(const Study& study, const ToleranceAim& aim, const std::string& reference,
-                      const std::vector<ToleranceRow>& rows, bool for_people) {
+                      const std::vector<ToleranceRow>& rows, Reader reader) {
   const auto from = [&](const ToleranceRow& row) { return reference_of(row, reference, rows); };
   const auto number = [](const ToleranceRow& row, const std::optional<double>& dose) {
     return nine_digits(in_unit(row, dose));
@@ -85,7 +85,7 @@ Table tolerance_table(const Study& study, const ToleranceAim& aim, const std::st
   if (has_second) columns.emplace_back("at", [](Row row) { return row.second->axis.text(0); });
   columns.emplace_back("method", [](Row row) { return row.method; });
   columns.emplace_back("group", [](Row row) { return row.group; });
-  if (for_people) {
+  if (reader != Reader::program) {
     columns.emplace_back("tolerance", [](Row row) { return text_of(row); });
     if (has_difference)
       columns.emplace_back("less " + reference, [&](Row row) {
@@ -115,6 +115,7 @@ Table tolerance_table(const Study& study, const ToleranceAim& aim, const std::st
       caption_of(study, aim),
       "found: crosses within the range; above, below: keeps it, misses it over the whole range; "
       "open: the trials do not tell where; not monotone: crosses it more than once"};
+  table.keys = has_second ? 4 : 3;
   for (const auto& [name, text] : columns) table.columns.push_back(name);
   for (Row row : rows) {
     auto& cells = table.rows.emplace_back();
@@ -143,9 +144,9 @@ Table tolerance_matrix(const Study& study, const ToleranceAim& aim,
   for (const ToleranceRow& row : rows) {
     std::vector<std::string> cells{row.axis.name};
     if (seconds) cells.push_back(second_of(row));
-    if (groups) cells.push_back(row.group);
+    if (groups) cells.push_back(class_title(study, row.group));
     if (cells != std::exchange(last, cells)) table.rows.push_back(cells);
-    if (table.rows.size() == 1) table.columns.push_back(row.method);
+    if (table.rows.size() == 1) table.columns.push_back(method_title(study, row.method));
     table.rows.back().push_back(text_of(row));
   }
   return table;

@@ -51,11 +51,11 @@ struct ToleranceRow {
 [[nodiscard]] std::string difference_text(const ToleranceRow& row, const ToleranceRow& from);
 
 /// A row an answer, with its difference from that of the method `reference` for the same fault and
-/// group: for people with text_of and difference_text, for programs with path, doses and ends of
-/// the intervals in the unit of figures by themselves.
+/// group: at the terminal with text_of and difference_text, for a program with path, doses and ends
+/// of the intervals in the unit of figures by themselves.
 [[nodiscard]] Table tolerance_table(const Study& study, const ToleranceAim& aim,
                                     const std::string& reference,
-                                    const std::vector<ToleranceRow>& rows, bool for_people);
+                                    const std::vector<ToleranceRow>& rows, Reader reader);
 
 /// The same for a paper: a row a fault and group, a column a method, text_of in the cells.
 [[nodiscard]] Table tolerance_matrix(const Study& study, const ToleranceAim& aim,

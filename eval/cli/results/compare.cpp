@@ -17,8 +17,7 @@ struct CompareFlags {
 };
 
 void print_comparison(const CompareFlags& flags) {
-  const bool programs = flags.format == "csv" || flags.format == "json";
-  const Figures figures = programs ? Figures::nine_digits : Figures::rounded;
+  const Reader reader = reader_of(flags.format);
   const bool of_results = !flags.before.empty() && !flags.after.empty() && flags.results.empty();
   const bool of_methods = flags.before.empty() && flags.after.empty() && !flags.question.b.empty();
   if (!of_results && !of_methods)
@@ -26,10 +25,9 @@ void print_comparison(const CompareFlags& flags) {
   const auto summary = [&](const std::string& results) {
     return summarise_store(results, {{flags.question.group}, false});
   };
-  const Table table =
-      of_results
-          ? before_after_table(summary(flags.before), summary(flags.after), flags.question, figures)
-          : comparison_table(summary(flags.results), flags.question, figures);
+  const Table table = of_results ? before_after_table(summary(flags.before), summary(flags.after),
+                                                      flags.question, reader)
+                                 : comparison_table(summary(flags.results), flags.question, reader);
   std::cout << formatted(table, flags.format);
 }
 

@@ -4,6 +4,7 @@
 #include "eval/report/figures/figures.hpp"
 
 #include "core/error.hpp"
+#include "eval/cli/shared/figure_flags.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/trial_maps.hpp"
 #include "eval/cli/verbs.hpp"
@@ -26,23 +27,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct FigureFlags {
+struct FiguresFlags {
   std::string results, folder;
   std::vector<std::string> trial;
   PictureChoice choice;  ///< but for what trial and view say
-  bool no_pictures = false, interim = false, no_caption = false;
-  FigureStyle style;  ///< but for the caption
+  bool no_pictures = false, interim = false;
+  FigureFlags style;
   ViewFlag view;
 };
 
-FigureStyle style_of(const FigureFlags& flags) {
-  FigureStyle style = flags.style;
-  style.caption = !flags.no_caption;
-  style.check();
-  return style;
-}
-
-PictureChoice choice_of(const FigureFlags& flags) {
+PictureChoice choice_of(const FiguresFlags& flags) {
   PictureChoice choice = flags.choice;
   for (const std::string& dose : flags.trial) {
     const std::size_t equals = dose.find('=');
@@ -59,7 +53,7 @@ void print(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) std::cout << shown(file) << std::endl;
 }
 
-void draw_from_recording(const FigureFlags& flags, const PictureChoice& choice,
+void draw_from_recording(const FiguresFlags& flags, const PictureChoice& choice,
                          const FigureStyle& style, const fs::path& folder) {
   const fs::path file = store_file(flags.results);
   const StudyRecord record = read_study(ResultStore::open_existing(file), file.parent_path());
@@ -83,9 +77,9 @@ void draw_from_recording(const FigureFlags& flags, const PictureChoice& choice,
     std::cerr << "mapscore: no pictures of the map: " << shown(pictures.skipped) << '\n';
 }
 
-void figures(const FigureFlags& flags) {
+void figures(const FiguresFlags& flags) {
   const PictureChoice choice = choice_of(flags);
-  const FigureStyle style = style_of(flags);
+  const FigureStyle style = flags.style.style();
   const fs::path file = store_file(flags.results);
   check_choice(read_study(ResultStore::open_existing(file), file.parent_path()).study, choice);
   const StudySummary summary = summarise_store(flags.results, {{}, flags.interim});
@@ -102,7 +96,7 @@ void figures(const FigureFlags& flags) {
 }  // namespace
 
 void add_figures(CLI::App& program) {
-  const auto [verb, flags] = add_verb<FigureFlags>(
+  const auto [verb, flags] = add_verb<FiguresFlags>(
       program, "figures", "Draw figures and pictures of a swept study", figures);
   verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
   verb->add_option("-o,--output", flags->folder,
@@ -118,17 +112,7 @@ void add_figures(CLI::App& program) {
   add_memory_flag(*verb, flags->choice.memory_bytes);
   add_interim_flag(*verb, flags->interim);
   verb->add_flag("--no-pictures", flags->no_pictures, "Figures and tables alone");
-  verb->add_option("--width_mm", flags->style.width_mm,
-                   "Width of every figure in print, 60 to 400 [as its panels need]")
-      ->group("Figures");
-  verb->add_option("--font", flags->style.font, "Font of the figures")
-      ->capture_default_str()
-      ->group("Figures");
-  verb->add_flag("--no_caption", flags->no_caption, "Nothing below the legend")
-      ->group("Figures")
-      ->excludes("--interim");  // which the caption tells
-  verb->add_flag("--grey", flags->style.grey, "No colours; line styles, marks and patterns instead")
-      ->group("Figures");
+  flags->style.add_to(*verb);
   verb->footer(
       "Writes table.txt, figures (PNG, PDF, SVG, and the gnuplot script and numbers "
       "they are made of),\n"

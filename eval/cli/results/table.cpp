@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/table.hpp"
-
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/report/summary.hpp"
+#include "eval/report/pivot_table.hpp"
 #include "eval/report/tidy_csv.hpp"
 
 #include <iostream>
@@ -14,15 +12,53 @@ namespace mapscore::eval {
 namespace {
 
 struct TableFlags {
-  std::string results, group{kPooled}, format = "text";
+  std::string results, format = "text";
+  Selection selection;
+  PivotQuestion question;
   bool tidy = false, interim = false;
+
+  /// Neither figures nor places are asked for: the table of all scores.
+  [[nodiscard]] bool is_plain() const {
+    return question.rows.empty() && question.columns.empty() && question.metrics.empty() &&
+           question.groups.size() < 2 && !question.spread;
+  }
 };
 
 void print_table(const TableFlags& flags) {
-  const StudySummary summary = summarise_store(
-      flags.results, {{flags.tidy ? std::string(kPooled) : flags.group}, flags.interim});
+  std::vector<std::string> groups = flags.question.groups;  // none: all
+  if (groups.empty() && !places(flags.question, "class")) groups.emplace_back(kPooled);
+  const StudySummary summary =
+      selected(summarise_store(flags.results, {groups, flags.interim}), flags.selection);
   if (flags.tidy) return write_tidy_csv(summary, std::cout);
-  std::cout << formatted(score_table(summary, flags.group), flags.format);
+  const Reader reader = reader_of(flags.format);
+  std::cout << formatted(flags.is_plain() ? score_table(summary, groups.front(), reader)
+                                          : pivot_table(summary, flags.question, reader),
+                         flags.format);
+}
+
+void add_pivot(CLI::App& verb, TableFlags& flags) {
+  const auto names = [&](const char* flag, std::vector<std::string>& list, const char* help) {
+    return verb.add_option(flag, list, help)->delimiter(',')->allow_extra_args(false);
+  };
+  verb.add_option("--where", flags.selection.where,
+                  "Only at path=value of a swept path; may be repeated")
+      ->allow_extra_args(false);
+  names("--method", flags.selection.methods, "Only these methods, by commas [all]");
+  auto* metric = names("--metric", flags.question.metrics, "Figures, by commas [f1]");
+  auto* rows = names("--rows", flags.question.rows,
+                     "What varies over the rows: swept paths, method, class, metric, by commas "
+                     "[what is not in the columns]");
+  auto* columns = names("--columns", flags.question.columns,
+                        "What varies over the columns [what is not in the rows, or metric]");
+  auto* spread = verb.add_flag("--spread", flags.question.spread,
+                               "Low and high beside each figure (csv and json always have them)");
+  verb.add_flag("--tidy", flags.tidy, "Everything as tidy CSV: a row a trial, class and metric")
+      ->excludes(metric)
+      ->excludes(rows)
+      ->excludes(columns)
+      ->excludes(spread)
+      ->excludes("--class")
+      ->excludes("--format");
 }
 
 }  // namespace
@@ -31,16 +67,23 @@ void add_table(CLI::App& program) {
   const auto [verb, flags] =
       add_verb<TableFlags>(program, "table", "Print the scores of a swept study", print_table);
   verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
-  verb->add_option("--class", flags->group,
-                   "pooled, macro, or the name of a detected class [pooled]");
-  add_format_flag(*verb, flags->format);
-  verb->add_flag("--tidy", flags->tidy, "Everything as tidy CSV: a row a trial, class and metric");
+  verb->add_option("--class", flags->question.groups,
+                   "pooled, macro, or the name of a detected class; may be repeated [pooled]")
+      ->allow_extra_args(false);
+  add_format_flag(*verb, flags->format, {"text", "csv", "json", "markdown", "tex"});
+  add_pivot(*verb, *flags);
   add_interim_flag(*verb, flags->interim);
   verb->footer(
+      "Text is as wide as the terminal: columns that do not fit follow below. In a file or a pipe\n"
+      "it is as wide as it is. csv and json have nine significant digits; markdown and tex have\n"
+      "the study's titles, and units.\n"
       "Examples:\n"
       "  mapscore table results/demo\n"
       "  mapscore table results/demo --interim          while the sweep runs\n"
       "  mapscore table results/demo --class chair --format csv\n"
+      "  mapscore table results/demo --columns method --metric f1 --format tex > f1.tex\n"
+      "  mapscore table results/demo --where faults.misregistration.magnitude_m=0.01 \\\n"
+      "      --rows class --columns method,metric --metric precision,recall --format markdown\n"
       "  mapscore table results/demo --tidy > demo.csv");
 }
 

@@ -4,14 +4,36 @@
 #include "eval/cli/shared/options.hpp"
 
 #include "core/error.hpp"
+#include "eval/report/table_formats.hpp"
 #include "eval/study/picture_view.hpp"
+#include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <set>
 
 namespace mapscore::eval {
+namespace {
+
+/// Letters in a line of the terminal that standard output is: COLUMNS, or else what the terminal
+/// says; 0: it is none.
+std::size_t terminal_width() {
+  constexpr std::size_t kNarrowest = 20;
+  if (isatty(STDOUT_FILENO) == 0) return 0;
+  winsize size{};
+  std::size_t width = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+  if (const char* columns = std::getenv("COLUMNS"))
+    if (const auto told = parse_whole(columns); told && *told > 0)
+      width = static_cast<std::size_t>(*told);
+  return width == 0 ? 0 : std::max(width, kNarrowest);
+}
+
+}  // namespace
 
 void StudyFlags::add_to(CLI::App& verb) {
   verb.add_option("STUDY", file, "Study file (YAML); docs/study_reference.md lists its keys")
@@ -76,11 +98,16 @@ void add_interim_flag(CLI::App& verb, bool& interim) {
                 "Take an unfinished sweep: of each line the seeds that are there, marked INTERIM");
 }
 
+Reader reader_of(const std::string& format) {
+  if (format == "csv" || format == "json") return Reader::program;
+  return format == "text" ? Reader::terminal : Reader::paper;
+}
+
 std::string formatted(const Table& table, const std::string& format) {
   if (format == "csv") return to_csv(table);
   if (format == "markdown") return to_markdown(table);
   if (format == "tex") return to_tex(table);
-  return format == "json" ? to_json(table) : to_text(table);
+  return format == "json" ? to_json(table) : to_text(table, terminal_width());
 }
 
 void check_outputs(const std::vector<OutputFile>& outputs) {

@@ -62,8 +62,10 @@ struct ViewFlag {
 /// `--format`: one of `formats`, of those that `formatted` knows.
 void add_format_flag(CLI::App& verb, std::string& format,
                      const std::vector<std::string>& formats = {"text", "csv", "json"});
-/// text, csv, json, markdown or tex.
+/// text (as wide as the terminal that it goes to), csv, json, markdown or tex.
 [[nodiscard]] std::string formatted(const Table& table, const std::string& format);
+/// A program for csv and json, a paper for markdown and tex.
+[[nodiscard]] Reader reader_of(const std::string& format);
 
 /// `--interim`: an unfinished sweep is taken as far as it is.
 void add_interim_flag(CLI::App& verb, bool& interim);

@@ -82,7 +82,7 @@ class CauseFigure {
     for (const Side& side : kSides)
       for (const Cause& cause : side.causes)
         sheet_.add_legend(fmt::format("boxes {} {}", fill(), ink(side, cause)), cause.name);
-    sheet_.caption = study_caption(summary_) +
+    sheet_.caption = study_caption(summary_) + layout_.columns_caption() +
                      " Counts pooled over classes and seeds. near: within a voxel of the own "
                      "surface; leak: on another surface; floating: elsewhere. mislabelled: another "
                      "class is predicted there; unlabelled: in the map below the threshold; "
@@ -202,6 +202,10 @@ class CauseFigure {
 }  // namespace
 
 FigureSheet causes_figure(const StudySummary& summary, const StudyLayout& layout) {
+  const auto curves = static_cast<int>(layout.curves().size());
+  const std::size_t most = layout.style().columns(curves, kLeastInRow_in) < curves ? 1 : 2;
+  if (layout.style().width_mm && layout.columns().size() > most)  // or a page does not hold it
+    return causes_figure(summary, layout.with_columns(most));
   CauseFigure figure(summary, layout);
   const std::size_t columns = layout.columns().size();
   for (std::size_t column = 0; column < columns; ++column)

@@ -78,7 +78,8 @@ class ClassBars {
   void add_row(const std::string& method, bool first_row) {
     for (const Score& score : kScores) {
       const bool first = &score == &kScores.front();
-      const std::string row_title = summary_.study.methods.size() > 1 ? method : "score";
+      const std::string row_title =
+          summary_.study.methods.size() > 1 ? method_title(summary_.study, method) : "score";
       Panel panel{first_row ? score.title : "", "", first ? row_title : "", first, settings()};
       add_bars(method, score, panel.elements);
       sheet_.panels.push_back(std::move(panel));
@@ -91,11 +92,12 @@ class ClassBars {
     sheet_.add_legend("lines lw 1.2 lc rgb '#000000'", "lattice ceiling");
     sheet_.add_legend("lines lw 1.2 dt (1,2) lc rgb '#444444'", "registration ceiling");
     const Study& study = summary_.study;
-    sheet_.caption = study_caption(summary_) + " Bars by " + named_.name + other_doses() +
-                     (study.methods.size() > 1 ? "" : "; " + study.methods.front().name) +
-                     ". Tolerance 0, counts pooled over seeds; no bar: undefined." +
-                     spread_caption(study, "Whiskers") + cut_caption(summary_, classes_.size()) +
-                     ' ' + kCeilingsCaption;
+    sheet_.caption =
+        study_caption(summary_) + " Bars by " + named_.name + other_doses() +
+        (study.methods.size() > 1 ? "" : "; " + method_title(study, study.methods.front().name)) +
+        ". Tolerance 0, counts pooled over seeds; no bar: undefined." +
+        spread_caption(study, "Whiskers") + cut_caption(summary_, classes_.size()) + ' ' +
+        kCeilingsCaption;
     return std::move(sheet_);
   }
 
@@ -125,7 +127,7 @@ class ClassBars {
 
   [[nodiscard]] std::vector<std::string> settings() {
     std::vector<std::string> names;
-    for (const SemanticClass* c : classes_) names.push_back(c->name);
+    for (const SemanticClass* c : classes_) names.push_back(class_title(summary_.study, c->name));
     const NameTics tics =
         name_tics(names, sheet_.panel_width_in / static_cast<double>(names.size()), sheet_.style);
     sheet_.x_tics_in = tics.height_in;
@@ -208,9 +210,13 @@ std::optional<FigureSheet> class_bars_figure(const StudySummary& summary,
 std::optional<FigureSheet> class_figure(const StudySummary& summary, const StudyLayout& layout) {
   const std::vector<const SemanticClass*> classes = classes_shown(summary);
   if (classes.size() < 2 || layout.named()) return std::nullopt;
+  if (layout.style().width_mm && layout.columns().size() > 1)
+    return class_figure(summary, layout.with_columns(1));
   std::vector<CurveScore> scores;
-  for (const SemanticClass* c : classes)
-    scores.push_back({c->name, "f1", c->name, "F1, " + c->name});
+  for (const SemanticClass* c : classes) {
+    const std::string title = class_title(summary.study, c->name);
+    scores.push_back({c->name, "f1", title, "F1, " + title});
+  }
   return curve_figure(summary, layout, "by_class", scores, "F1",
                       study_caption(summary) + spread_caption(summary.study) +
                           " F1 at tolerance 0, counts pooled over seeds." +

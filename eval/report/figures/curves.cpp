@@ -23,15 +23,6 @@ constexpr double kXPadding = 0.05;
 constexpr double kNamePlace = 0.7;
 constexpr const char* kLatticeStyle = "lw 1.2 dt (6,4) lc rgb '#000000'";
 
-/// 1, 2 or 5 times a power of ten that makes at most `steps` steps of the range.
-double tic_step(double range, double steps) {
-  if (!(range > 0.0)) return 1.0;
-  const double decade = std::pow(10.0, std::floor(std::log10(range / steps)));
-  for (const double step : {1.0, 2.0, 5.0})
-    if (range <= steps * step * decade * (1.0 + 1e-9)) return step * decade;
-  return 10.0 * decade;
-}
-
 std::string source_of(const Study& study) {
   if (study.scene) return std::filesystem::path(*study.scene).filename().string();
   return study.recording ? std::filesystem::path(*study.recording).filename().string() : study.name;
@@ -86,7 +77,7 @@ std::string empty_maps_caption(const StudySummary& summary) {
       empty += pooled_counts(line, summary.table).predicted == 0 ? 1 : 0;
     }
     if (empty > 0)
-      text += fmt::format(" {} maps nothing{}.", method.name,
+      text += fmt::format(" {} maps nothing{}.", method_title(summary.study, method.name),
                           empty == points ? "" : fmt::format(" at {} of {} points", empty, points));
   }
   return text;
@@ -101,6 +92,7 @@ class CurveFigure {
     sheet_.name = layout.figure_name(stem);
     sheet_.columns = static_cast<int>(columns);
     sheet_.style = layout.style();
+    if (layout.columns().size() > 1) sheet_.least_panel_in = kLeastInRow_in;
     sheet_.panel_width_in = sheet_.style.panel_width_in(sheet_.columns, sheet_.least_panel_in);
   }
 
@@ -143,7 +135,7 @@ class CurveFigure {
       panel.settings.push_back(fmt::format("set yrange [{:.2f}:{:.3f}]; set ytics {}", low,
                                            1.0 + 0.03 * (1.0 - low), low < 0.45 ? 0.2 : 0.1));
     add_legend();
-    sheet_.caption = caption;
+    sheet_.caption = caption + layout_.columns_caption();
     return std::move(sheet_);
   }
 
@@ -231,9 +223,8 @@ FigureSheet curve_figure(const StudySummary& summary, const StudyLayout& layout,
 std::vector<std::string> number_settings(const FigureAxis& x, double width_in) {
   const auto [low, high] = std::minmax_element(x.at.begin(), x.at.end());
   const double padding = *high > *low ? kXPadding * (*high - *low) : 0.5;
-  return {
-      fmt::format("set xrange [{:.9g}:{:.9g}]", *low - padding, *high + padding),
-      fmt::format("set xtics {:.9g}", tic_step(*high - *low, width_in < kNarrow_in ? 3.0 : 5.0))};
+  return {fmt::format("set xrange [{:.9g}:{:.9g}]", *low - padding, *high + padding),
+          fmt::format("set xtics {:.9g}", tic_step(*high - *low, width_in))};
 }
 
 std::string figure_number(const std::optional<double>& value) {
@@ -247,7 +238,7 @@ std::string study_caption(const StudySummary& summary) {
   return fmt::format("{}{}: {}; voxels of {:.6g} cm; detected: {}; each {} scored; {} seed{}.{}{}",
                      summary.interim.empty() ? "" : summary.interim + ". ", study.name,
                      source_of(study), 100.0 * study.voxel_m,
-                     fmt::join(detected_names(summary.table), ", "),
+                     fmt::join(detected_titles(study, summary.table), ", "),
                      study.score.unit == ScoreUnit::map ? "fused map" : "frame", study.seeds,
                      study.seeds == 1 ? "" : "s", empty_maps_caption(summary),
                      note.empty() ? "" : " Note: " + note + '.');

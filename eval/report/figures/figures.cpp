@@ -6,7 +6,7 @@
 #include "core/whole_file.hpp"
 #include "eval/report/figures/curves.hpp"
 #include "eval/report/figures/scatter.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/table_formats.hpp"
 
 namespace mapscore::eval {
 namespace {
@@ -40,6 +40,7 @@ std::vector<fs::path> draw_figures(const StudySummary& summary, const fs::path& 
   if (points_of(summary.study.sampling) > 0) return draw(scatter_figure(summary, style), folder);
   const StudyLayout layout(summary, style);
   std::vector<FigureSheet> sheets{accuracy_figure(summary, layout), causes_figure(summary, layout)};
+  if (auto heat_map = heat_map_figure(summary, layout)) sheets.push_back(std::move(*heat_map));
   if (auto by_class = class_bars_figure(summary, style)) sheets.push_back(std::move(*by_class));
   if (auto by_class = class_figure(summary, layout)) sheets.push_back(std::move(*by_class));
   sheets.push_back(precision_recall_figure(summary, layout));

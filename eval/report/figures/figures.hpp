@@ -33,6 +33,13 @@ namespace mapscore::eval {
 /// Precision, recall and F1 at tolerance 0, and by distance, pooled over the detected classes.
 [[nodiscard]] FigureSheet accuracy_figure(const StudySummary& summary, const StudyLayout& layout);
 
+/// f1_by_two_doses: F1 over the first two swept axes, pooled over the detected classes, in tones
+/// with lines of equal F1; a panel a curve. Nothing where one of them has names or a single number.
+/// Blocks of the data file for each panel: `x y f1` as measured, `x y f1` on a raster, linear in
+/// between, the lines in pieces (`x y dx dy f1`), and their labels.
+[[nodiscard]] std::optional<FigureSheet> heat_map_figure(const StudySummary& summary,
+                                                         const StudyLayout& layout);
+
 /// Stacked bars: false voxels by cause over the predicted ones, missed voxels by cause over the
 /// visible ones, pooled over the detected classes and seeds. A column a curve, two rows a value of
 /// the second axis.

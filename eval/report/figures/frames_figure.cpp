@@ -46,7 +46,7 @@ std::string caption_of(const Study& study, const ClassTable& table) {
       "{}: voxels of {:.6g} cm; detected: {}; each frame by itself against the surfaces of its own "
       "instant, tolerance 0. Time of one thread for registration, segmentation and mapping "
       "together.",
-      study.name, 100.0 * study.voxel_m, fmt::join(detected_names(table), ", "));
+      study.name, 100.0 * study.voxel_m, fmt::join(detected_titles(study, table), ", "));
 }
 
 /// Ranges of a panel without a point, which gnuplot finds none for.
@@ -60,13 +60,13 @@ std::string empty_ranges(std::span<const MethodFrames> methods) {
 }
 
 /// Which methods leave gaps in the panel of precision.
-std::string empty_caption(std::span<const MethodFrames> methods) {
+std::string empty_caption(const Study& study, std::span<const MethodFrames> methods) {
   std::string text;
   for (const MethodFrames& method : methods) {
     const auto empty = std::ranges::count(method.frames, 0, &FrameFigures::predicted);
     if (empty > 0)
-      text += fmt::format(" {} maps nothing in {} of {} frames.", method.method, empty,
-                          method.frames.size());
+      text += fmt::format(" {} maps nothing in {} of {} frames.",
+                          method_title(study, method.method), empty, method.frames.size());
   }
   return text;
 }
@@ -121,10 +121,14 @@ FrameFigures figures_of(const FrameResult& frame, const ClassTable& table) {
 }
 
 FigureSheet frames_figure(const Study& study, const ClassTable& table,
-                          std::span<const MethodFrames> methods) {
+                          std::span<const MethodFrames> methods, const FigureStyle& style) {
   const std::array<FramePanel, 4> panels = frame_panels();
   FigureSheet sheet;
   sheet.name = "by_frame";
+  sheet.style = style;
+  std::vector<Curve> curves;
+  for (const MethodFrames& method : methods)
+    curves.push_back(curve_of(study, method.method, curves.size(), style));
   sheet.panel_width_in = kFrameWidth_in;
   sheet.panel_height_in = kFrameHeight_in;
   for (std::size_t p = 0; p < panels.size(); ++p) {
@@ -138,12 +142,13 @@ FigureSheet frames_figure(const Study& study, const ClassTable& table,
                                                             : empty_ranges(methods)};
     for (std::size_t m = 0; m < methods.size(); ++m)
       panel.elements.push_back(
-          fmt::format("data index {} using 2:{} with lines lw 1 lc rgb '{}' notitle", m, p + 3,
-                      palette_colour(m)));
+          fmt::format("data index {} using 2:{} with lines lw 1 dt {} lc rgb '{}' notitle", m,
+                      p + 3, curves[m].dash, curves[m].colour));
     sheet.panels.push_back(std::move(panel));
   }
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    sheet.add_legend("lines lw 2 lc rgb '" + palette_colour(m) + "'", methods[m].method);
+    sheet.add_legend(fmt::format("lines lw 2 dt {} lc rgb '{}'", curves[m].dash, curves[m].colour),
+                     curves[m].name);
     std::string columns = "frame stamp_s";
     for (const FramePanel& panel : panels) columns += std::string(" ") + panel.name;
     sheet.start_block(methods[m].method, columns);
@@ -153,7 +158,7 @@ FigureSheet frames_figure(const Study& study, const ClassTable& table,
       sheet.data += '\n';
     }
   }
-  sheet.caption = caption_of(study, table) + empty_caption(methods);
+  sheet.caption = caption_of(study, table) + empty_caption(study, methods);
   return sheet;
 }
 

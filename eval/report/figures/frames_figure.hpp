@@ -34,7 +34,8 @@ struct MethodFrames {
 /// recording, one curve for each method: figures 8 to 10 of [M], with accuracy added. Pooled over
 /// the detected classes; tolerance 0.
 [[nodiscard]] FigureSheet frames_figure(const Study& study, const ClassTable& table,
-                                        std::span<const MethodFrames> methods);
+                                        std::span<const MethodFrames> methods,
+                                        const FigureStyle& style = {});
 
 /// Greatest, mean, least and standard deviation of the processor time of a frame (milliseconds), as
 /// in table 1 of [M], voxels of a frame, and precision, recall and F1 of all frames together.

@@ -4,6 +4,7 @@
 #include "eval/report/figures/frontier_figure.hpp"
 
 #include "eval/report/figures/curves.hpp"
+#include "eval/report/figures/layout.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ constexpr double kSideMargin = 0.05;  ///< beside the doses, in parts of their r
 using Rows = std::vector<const ToleranceRow*>;
 
 /// One method's line in one panel, beside those of the others by `aside` on the x axis.
-void add_line(FigureSheet& sheet, Panel& panel, const Rows& rows, std::size_t number,
+void add_line(FigureSheet& sheet, Panel& panel, const Rows& rows, const Curve& curve,
               double aside) {
   const ToleranceRow& any = *rows.front();
   const double unit = any.axis.at.front();
@@ -47,14 +48,14 @@ void add_line(FigureSheet& sheet, Panel& panel, const Rows& rows, std::size_t nu
                               end(ToleranceVerdict::above, row->search.high),
                               end(ToleranceVerdict::below, row->search.low));
   }
-  const std::string ink = fmt::format("lc rgb '{}'", palette_colour(number));
+  const std::string ink = fmt::format("lc rgb '{}'", curve.colour);
   const auto plot = [&](const std::string& of, const char* columns, const std::string& with) {
     panel.elements.push_back(
         fmt::format("{} using ($1{:+.6g}):{} with {} {} notitle", of, aside, columns, with, ink));
   };
   plot(line, "(valid(2) ? $3 : NaN):(0):($4-$3)", "vectors nohead lw 1");
-  plot(line, "2", "lines lw 1.4 dt " + grey_dash(number));
-  plot(line, "2", fmt::format("points pt {} ps 0.8", point_type(number)));
+  plot(line, "2", "lines lw 1.4 dt " + curve.dash);
+  plot(line, "2", fmt::format("points pt {} ps 0.8", curve.point));
   plot(beyond, "2", "points pt 8 ps 1");
   plot(beyond, "3", "points pt 10 ps 1");
 }
@@ -62,13 +63,15 @@ void add_line(FigureSheet& sheet, Panel& panel, const Rows& rows, std::size_t nu
 }  // namespace
 
 FigureSheet frontier_figure(const Study& study, const ToleranceAim& aim,
-                            const std::vector<ToleranceRow>& rows) {
+                            const std::vector<ToleranceRow>& rows, const FigureStyle& style) {
   FigureSheet sheet;
   sheet.name = "frontier";
-  std::vector<std::string> methods;
+  sheet.style = style;
+  std::vector<Curve> curves;
   std::vector<std::pair<std::string, std::string>> panels;  // fault and group
   for (const ToleranceRow& row : rows) {
-    if (std::ranges::find(methods, row.method) == methods.end()) methods.push_back(row.method);
+    if (std::ranges::find(curves, row.method, &Curve::method) == curves.end())
+      curves.push_back(curve_of(study, row.method, curves.size(), style));
     const std::pair key{row.path, row.group};
     if (std::ranges::find(panels, key) == panels.end()) panels.push_back(key);
   }
@@ -78,8 +81,8 @@ FigureSheet frontier_figure(const Study& study, const ToleranceAim& aim,
       if (row.path == path && row.group == group) lines[row.method].push_back(&row);
     const ToleranceRow& first = *lines.begin()->second.front();
     const double unit = first.axis.at.front();
-    Panel& panel =
-        sheet.panels.emplace_back(Panel{group, first.second->axis.title(), first.axis.title()});
+    Panel& panel = sheet.panels.emplace_back(
+        Panel{class_title(study, group), first.second->axis.title(), first.axis.title()});
     const double left = first.second->axis.at.front();
     const double right = lines.begin()->second.back()->second->axis.at.front();
     panel.settings = {"set xtics autofreq; set ytics autofreq",
@@ -87,15 +90,15 @@ FigureSheet frontier_figure(const Study& study, const ToleranceAim& aim,
                                   right + kSideMargin * (right - left)),
                       fmt::format("set yrange [{:.9g}:{:.9g}]", first.search.low * unit,
                                   first.search.high * unit)};
-    for (std::size_t n = 0; n < methods.size(); ++n)
-      add_line(sheet, panel, lines.at(methods[n]), n,
+    for (std::size_t n = 0; n < curves.size(); ++n)
+      add_line(sheet, panel, lines.at(curves[n].method), curves[n],
                kSideMargin * (right - left) *
-                   ((static_cast<double>(n) + 0.5) / static_cast<double>(methods.size()) - 0.5));
+                   ((static_cast<double>(n) + 0.5) / static_cast<double>(curves.size()) - 0.5));
   }
-  for (std::size_t n = 0; n < methods.size(); ++n)
-    sheet.add_legend(fmt::format("linespoints pt {} ps 0.8 lw 1.4 dt {} lc rgb '{}'", point_type(n),
-                                 grey_dash(n), palette_colour(n)),
-                     methods[n]);
+  for (const Curve& curve : curves)
+    sheet.add_legend(fmt::format("linespoints pt {} ps 0.8 lw 1.4 dt {} lc rgb '{}'", curve.point,
+                                 curve.dash, curve.colour),
+                     curve.name);
   sheet.columns = static_cast<int>(std::min<std::size_t>(3, sheet.panels.size()));
   sheet.panel_width_in = sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in);
   sheet.caption = fmt::format(

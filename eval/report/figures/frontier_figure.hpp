@@ -16,6 +16,7 @@ namespace mapscore::eval {
 /// beyond it. Every row has a second fault. A block of the data file is one line
 /// (`second tolerance low high`) or its triangles (`second above below`), in the units of the axes.
 [[nodiscard]] FigureSheet frontier_figure(const Study& study, const ToleranceAim& aim,
-                                          const std::vector<ToleranceRow>& rows);
+                                          const std::vector<ToleranceRow>& rows,
+                                          const FigureStyle& style = {});
 
 }  // namespace mapscore::eval

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -19,7 +20,7 @@ namespace {
 /// Mean width of a letter of DejaVu Sans over its size.
 constexpr double kLetterWidth = 0.53;
 constexpr double kTop_in = 0.3, kXLabel_in = 0.29, kXLabelMiddle_in = 0.12;
-constexpr double kGapWithLabels_in = 0.42, kTitleGap_in = 0.24, kTextRow_in = 0.125;
+constexpr double kTitleGap_in = 0.24, kTextRow_in = 0.125;
 constexpr double kLegendRow_in = 0.17, kCaptionRow_in = 0.125, kLegendEntry_in = 0.8;
 /// A panel in print: its greatest height over its width, and its least height.
 constexpr double kTallest = 0.8, kLowest_in = 0.85;
@@ -29,6 +30,14 @@ std::size_t title_length(const std::string& element) {
   constexpr std::string_view kTitle = "title '";
   const std::size_t at = element.find(kTitle);
   return at == std::string::npos ? 0 : element.rfind('\'') - at - kTitle.size();
+}
+
+/// Whether a panel that is not the first of its row has numbers at its left.
+bool has_numbers_inside(const FigureSheet& sheet) {
+  for (std::size_t i = 0; i < sheet.panels.size(); ++i)
+    if (i % static_cast<std::size_t>(sheet.columns) != 0 && sheet.panels[i].y_tic_labels)
+      return true;
+  return false;
 }
 
 /// Height of all lines but the first of the longest of these texts.
@@ -44,6 +53,8 @@ class Arrangement {
  public:
   Arrangement(const FigureSheet& sheet, std::size_t columns)
       : from_(sheet.panels), asked_(static_cast<std::size_t>(sheet.columns)), columns_(columns) {
+    for (const Panel& panel : from_)
+      if (!panel.x_label.empty()) axes_.insert(panel.x_label);
     const auto untitled = [](const Panel& panel) { return panel.title.empty(); };
     if (std::ranges::none_of(from_, untitled))
       one_after_the_other();
@@ -83,14 +94,13 @@ class Arrangement {
     const bool followed = i + columns_ < panels_.size() && !panels_[i + columns_].elements.empty();
     panel.y_label = left ? y_labels_[i] : "";
     panel.y_tic_labels = left || own_tics_[i];
-    const auto labelled =
-        std::ranges::find_if(from_, [](const Panel& other) { return !other.x_label.empty(); });
-    panel.x_label =
-        followed || panel.elements.empty() || labelled == from_.end() ? "" : labelled->x_label;
+    if (axes_.size() > 1) return;  // each has its own
+    panel.x_label = followed || panel.elements.empty() || axes_.empty() ? "" : *axes_.begin();
   }
 
   const std::vector<Panel>& from_;
   std::size_t asked_, columns_;
+  std::set<std::string> axes_;  ///< labels of x
   std::vector<Panel> panels_;
   std::vector<bool> own_tics_;  ///< of a panel that was not the first of its row
   std::vector<std::string> y_labels_;
@@ -124,8 +134,9 @@ std::vector<std::string> wrapped(const std::string& text, double width_in, doubl
 FigureSheet arranged(const FigureSheet& sheet) {
   if (!sheet.style.width_mm) return sheet;
   FigureSheet fitted = sheet;
-  fitted.columns = sheet.style.columns(sheet.columns, sheet.least_panel_in);
-  fitted.panel_width_in = sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in);
+  const double gap_in = has_numbers_inside(sheet) ? kGapWithNumbers_in : kGap_in;
+  fitted.columns = sheet.style.columns(sheet.columns, sheet.least_panel_in, gap_in);
+  fitted.panel_width_in = sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in, gap_in);
   const double width = fitted.panel_width_in;
   fitted.panel_height_in =
       sheet.to_scale ? sheet.panel_height_in * width / sheet.panel_width_in
@@ -149,7 +160,7 @@ Geometry::Geometry(const FigureSheet& sheet)
       title_rows_in_(further_rows_in(sheet, &Panel::title)),
       x_label_rows_in_(further_rows_in(sheet, &Panel::x_label)),
       title_gap_in_(has_titles_inside() ? kTitleGap_in + title_rows_in_ : 0.0),
-      x_gap_in_(has_tics_inside() ? kGapWithLabels_in : kGap_in),
+      x_gap_in_(has_numbers_inside(sheet) ? kGapWithNumbers_in : kGap_in),
       width_in_(kLeft_in + sheet.columns * (sheet.panel_width_in + x_gap_in_) - x_gap_in_ +
                 kRight_in) {
   if (sheet.style.caption)
@@ -205,20 +216,21 @@ double Geometry::x_label_in() const {
 }
 
 double Geometry::row_gap_in() const {
-  return kGap_in + title_gap_in_ + sheet_.x_tics_in;
+  return (has_x_labels_inside() ? x_label_in() : kGap_in) + title_gap_in_ + sheet_.x_tics_in;
+}
+
+bool Geometry::has_x_labels_inside() const {
+  const auto columns = static_cast<std::size_t>(sheet_.columns);
+  for (std::size_t i = 0; i + columns < sheet_.panels.size(); ++i)
+    if (!sheet_.panels[i].x_label.empty() && !sheet_.panels[i + columns].elements.empty())
+      return true;
+  return false;
 }
 
 bool Geometry::has_titles_inside() const {
   const auto below = std::min<std::ptrdiff_t>(sheet_.columns, std::ssize(sheet_.panels));
   return std::any_of(sheet_.panels.begin() + below, sheet_.panels.end(),
                      [](const Panel& panel) { return !panel.title.empty(); });
-}
-
-bool Geometry::has_tics_inside() const {
-  for (std::size_t i = 0; i < sheet_.panels.size(); ++i)
-    if (i % static_cast<std::size_t>(sheet_.columns) != 0 && sheet_.panels[i].y_tic_labels)
-      return true;
-  return false;
 }
 
 std::string Geometry::margins(double left, double right, double bottom, double top) const {

@@ -49,7 +49,7 @@ class Geometry {
   [[nodiscard]] double x_label_in() const;
   [[nodiscard]] double row_gap_in() const;
   [[nodiscard]] bool has_titles_inside() const;
-  [[nodiscard]] bool has_tics_inside() const;
+  [[nodiscard]] bool has_x_labels_inside() const;
   [[nodiscard]] std::string margins(double left, double right, double bottom, double top) const;
 
   const FigureSheet& sheet_;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 namespace mapscore::eval {
@@ -42,9 +43,26 @@ FigureAxis axis_of_methods(const Study& study) {
   FigureAxis axis{"method", "", false, {}, {}, "method"};
   for (const MethodSettings& method : study.methods) {
     axis.at.push_back(static_cast<double>(axis.at.size()));
-    axis.values.push_back(method.name);
+    axis.values.push_back(method_title(study, method.name));
   }
   return axis;
+}
+
+/// At most so many positions of `all`, from the first to the last; one: the middle.
+std::vector<std::size_t> spread(std::size_t all, std::size_t most) {
+  if (most == 1) return {all / 2};
+  std::vector<std::size_t> positions;
+  for (std::size_t n = 0; n < std::min(all, most); ++n)
+    positions.push_back(most >= all ? n : (n * (all - 1) + (most - 1) / 2) / (most - 1));
+  return positions;
+}
+
+/// In print as many numbers as have panels side by side; all names.
+std::vector<std::size_t> values_shown(const FigureAxis& axis, const FigureStyle& style) {
+  const std::size_t all = axis.values.size();
+  if (!style.width_mm || !axis.numeric) return spread(all, std::max<std::size_t>(all, 2));
+  const double room = (style.page_in() + kGap_in) / (kLeastInRow_in + kGap_in);
+  return spread(all, std::max<std::size_t>(2, static_cast<std::size_t>(room)));
 }
 
 constexpr double kLine_in = 0.11, kOneLine_in = 0.16;
@@ -88,8 +106,14 @@ std::string palette_colour(std::size_t n) {
   return std::string(kColours[n % kColours.size()]);
 }
 
-int point_type(std::size_t n) {
-  return kPoints[n % kPoints.size()];
+Curve curve_of(const Study& study, const std::string& method, std::size_t n,
+               const FigureStyle& style) {
+  return {method_title(study, method),
+          method,
+          0,
+          style.grey ? grey_tone(n) : palette_colour(n),
+          kPoints[n % kPoints.size()],
+          style.grey ? grey_dash(n) : "1"};
 }
 
 StudyLayout::StudyLayout(const StudySummary& summary, const FigureStyle& style)
@@ -99,9 +123,10 @@ StudyLayout::StudyLayout(const StudySummary& summary, const FigureStyle& style)
     axes.push_back(figure_axis(summary.study, axis));
   x_ = bars_ ? axis_of_methods(summary.study) : axes.front();
   if (axes.size() > 1) {
+    second_ = axes[1];
+    shown_ = values_shown(axes[1], style);
     columns_.clear();
-    for (std::size_t value = 0; value < axes[1].values.size(); ++value)
-      columns_.push_back(axes[1].text(value));
+    for (const std::size_t value : shown_) columns_.push_back(axes[1].text(value));
   }
   const std::vector<std::string> tails = tail_texts(axes);
   tails_ = tails.size();
@@ -111,9 +136,10 @@ StudyLayout::StudyLayout(const StudySummary& summary, const FigureStyle& style)
     for (std::size_t tail = 0; tail < tails.size(); ++tail) {
       const std::size_t n = curves_.size();
       const int dash = several ? kDashes[tail % kDashes.size()] : 1;
-      curves_.push_back({methods[m].name + tails[tail], methods[m].name, tail,
-                         style.grey ? grey_tone(n) : palette_colour(several ? m : tail),
-                         point_type(n), style.grey ? grey_dash(n) : std::to_string(dash)});
+      curves_.push_back(
+          {method_title(summary.study, methods[m].name) + tails[tail], methods[m].name, tail,
+           style.grey ? grey_tone(n) : palette_colour(several ? m : tail),
+           kPoints[n % kPoints.size()], style.grey ? grey_dash(n) : std::to_string(dash)});
     }
   for (std::size_t i = 0; i < summary.trials.size(); ++i) {
     const ResultLine& line = summary.trials[i];
@@ -127,10 +153,43 @@ std::string StudyLayout::figure_name(const std::string& stem) const {
 
 std::optional<std::size_t> StudyLayout::trial(const Curve& curve, std::size_t column,
                                               std::size_t x) const {
-  if (bars_ && x_.values.at(x) != curve.method) return std::nullopt;
-  const std::size_t cell = bars_ ? 0 : (x * columns_.size() + column) * tails_ + curve.tail;
+  return trial_at(curve, shown_.at(column), x);
+}
+
+std::optional<std::size_t> StudyLayout::trial_at(const Curve& curve, std::size_t value,
+                                                 std::size_t x) const {
+  if (bars_ && curves_.at(x).method != curve.method) return std::nullopt;
+  const std::size_t values = second_ ? second_->values.size() : 1;
+  const std::size_t cell = bars_ ? 0 : (x * values + value) * tails_ + curve.tail;
   const auto found = trials_.find({curve.method, cell});
   return found == trials_.end() ? std::nullopt : std::optional(found->second);
+}
+
+StudyLayout StudyLayout::with_columns(std::size_t most) const {
+  StudyLayout fewer = *this;
+  fewer.shown_.clear();
+  fewer.columns_.clear();
+  for (const std::size_t column : spread(columns_.size(), most)) {
+    fewer.shown_.push_back(shown_[column]);
+    fewer.columns_.push_back(columns_[column]);
+  }
+  return fewer;
+}
+
+std::string StudyLayout::columns_caption() const {
+  if (!second_ || shown_.size() == second_->values.size()) return "";
+  if (shown_.size() == 1) return fmt::format(" At {}.", columns_.front());
+  return fmt::format(" {} of {} values of {}.", shown_.size(), second_->values.size(),
+                     second_->name);
+}
+
+double tic_step(double range, double length_in) {
+  const double steps = length_in < kNarrow_in ? 3.0 : 5.0;
+  if (!(range > 0.0)) return 1.0;
+  const double decade = std::pow(10.0, std::floor(std::log10(range / steps)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (range <= steps * step * decade * (1.0 + 1e-9)) return step * decade;
+  return 10.0 * decade;
 }
 
 NameTics name_tics(const std::vector<std::string>& names, double place_in,

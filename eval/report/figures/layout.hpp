@@ -28,8 +28,10 @@ struct Curve {
 
 /// The n-th colour of the figures: #rrggbb of Okabe and Ito's palette, over again after seven.
 [[nodiscard]] std::string palette_colour(std::size_t n);
-/// gnuplot's type of the n-th curve's points, over again after twelve.
-[[nodiscard]] int point_type(std::size_t n);
+
+/// The n-th curve of a figure that has one for each method, by its title.
+[[nodiscard]] Curve curve_of(const Study& study, const std::string& method, std::size_t n,
+                             const FigureStyle& style);
 
 /// Which trial stands where in the figures of a study: x, column of panels, curve.
 class StudyLayout {
@@ -40,7 +42,10 @@ class StudyLayout {
 
   /// The first swept axis; the methods when nothing is swept.
   [[nodiscard]] const FigureAxis& x() const { return x_; }
-  /// Heads of the columns of panels: values of the second axis, or one empty text.
+  /// The second swept axis, whole; nothing where there is none.
+  [[nodiscard]] const std::optional<FigureAxis>& second() const { return second_; }
+  /// Heads of the columns of panels: values of the second axis, or one empty text. In print, of
+  /// numbers that have no room side by side, as many from the least to the greatest as have.
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
   [[nodiscard]] const std::vector<Curve>& curves() const { return curves_; }
   /// Nothing is swept: a bar a method.
@@ -53,16 +58,30 @@ class StudyLayout {
   /// Position in StudySummary::trials (and in its ceilings), if that curve has a point there.
   [[nodiscard]] std::optional<std::size_t> trial(const Curve& curve, std::size_t column,
                                                  std::size_t x) const;
+  /// The same at a value of the second axis.
+  [[nodiscard]] std::optional<std::size_t> trial_at(const Curve& curve, std::size_t value,
+                                                    std::size_t x) const;
+  /// The same with that many columns of panels at most, from the least to the greatest; one: the
+  /// middle.
+  [[nodiscard]] StudyLayout with_columns(std::size_t most) const;
+  /// What a caption says of values that have no column; else empty.
+  [[nodiscard]] std::string columns_caption() const;
 
  private:
   FigureStyle style_;
   FigureAxis x_;
+  std::optional<FigureAxis> second_;
   std::vector<std::string> columns_{""};
+  std::vector<std::size_t> shown_{0};  ///< value of the second axis of each column
   std::vector<Curve> curves_;
   bool bars_ = false;
   std::size_t tails_ = 1;
   std::map<std::pair<std::string, std::size_t>, std::size_t> trials_;  ///< by method and cell
 };
+
+/// Between two numbers at an axis of that length: 1, 2 or 5 times a power of ten, so that there are
+/// at most five of them, or three along a narrow panel.
+[[nodiscard]] double tic_step(double range, double length_in);
 
 /// Names along the x axis of a panel.
 struct NameTics {

@@ -26,11 +26,6 @@ constexpr std::array<std::string_view, 8> kGreyDashes{
 /// gnuplot's patterns: solid, none, hatched, hatched the other way, crossed, and denser ones.
 constexpr std::array<int, 8> kPatterns{3, 0, 4, 5, 1, 2, 6, 7};
 
-/// For the panels and the gaps between them.
-double room_in(double width_mm) {
-  return width_mm / kMillimetresPerInch - kLeft_in - kRight_in;
-}
-
 }  // namespace
 
 void FigureStyle::check() const {
@@ -43,17 +38,21 @@ void FigureStyle::check() const {
                 "\"DejaVu Serif\"");
 }
 
-int FigureStyle::columns(int asked, double least_in) const {
+double FigureStyle::page_in() const {
+  return *width_mm / kMillimetresPerInch - kLeft_in - kRight_in;
+}
+
+int FigureStyle::columns(int asked, double least_in, double gap_in) const {
   if (!width_mm) return asked;
-  const int fitting = static_cast<int>((room_in(*width_mm) + kGap_in) / (least_in + kGap_in));
+  const int fitting = static_cast<int>((page_in() + gap_in) / (least_in + gap_in));
   const int rows = (asked + std::max(1, fitting) - 1) / std::max(1, fitting);
   return (asked + rows - 1) / rows;
 }
 
-double FigureStyle::panel_width_in(int asked, double least_in) const {
+double FigureStyle::panel_width_in(int asked, double least_in, double gap_in) const {
   if (!width_mm) return std::clamp(kPanels_in / asked, 1.5, 3.3);
-  const int fitting = columns(asked, least_in);
-  return (room_in(*width_mm) - (fitting - 1) * kGap_in) / fitting;
+  const int fitting = columns(asked, least_in, gap_in);
+  return (page_in() - (fitting - 1) * gap_in) / fitting;
 }
 
 std::string grey_tone(std::size_t n) {

@@ -9,6 +9,11 @@
 
 namespace mapscore::eval {
 
+/// Left of the first column of panels, right of the last and between two, in inches.
+inline constexpr double kLeft_in = 0.62, kRight_in = 0.12, kGap_in = 0.14;
+/// The same where each panel has numbers of its own at its left.
+inline constexpr double kGapWithNumbers_in = 0.42;
+
 /// How the figures are set: as it stands here for the screen, with a width for print.
 struct FigureStyle {
   std::optional<double> width_mm = {};  ///< of every figure; else as its panels need
@@ -27,13 +32,13 @@ struct FigureStyle {
 
   /// How many of `asked` columns of panels stand side by side in the width, where none may be
   /// narrower than `least_in`, evenly over the rows; all of them without a width.
-  [[nodiscard]] int columns(int asked, double least_in) const;
+  [[nodiscard]] int columns(int asked, double least_in, double gap_in = kGap_in) const;
+  /// In print, for the panels of a row and the gaps between them.
+  [[nodiscard]] double page_in() const;
   /// Width of each of those panels' plotted area.
-  [[nodiscard]] double panel_width_in(int asked, double least_in) const;
+  [[nodiscard]] double panel_width_in(int asked, double least_in, double gap_in = kGap_in) const;
 };
 
-/// Left of the first column of panels, right of the last and between two, in inches.
-inline constexpr double kLeft_in = 0.62, kRight_in = 0.12, kGap_in = 0.14;
 /// Panels of curves are no narrower in print; those that are read as a row may be.
 inline constexpr double kLeastPanel_in = 1.1, kLeastInRow_in = 0.7;
 /// A narrower panel has no room for five numbers below it.

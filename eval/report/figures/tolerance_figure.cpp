@@ -4,6 +4,7 @@
 #include "eval/report/figures/tolerance_figure.hpp"
 
 #include "eval/report/figures/curves.hpp"
+#include "eval/report/figures/layout.hpp"
 
 #include <fmt/format.h>
 
@@ -15,12 +16,13 @@ namespace mapscore::eval {
 namespace {
 
 constexpr int kPointsOfCurve = 60;
+constexpr double kLeastTolerance_in = 1.0;  ///< two have room in a column, with their numbers
 
 /// Trials and curve of one search, and the marks of its answer.
 class SearchMarks {
  public:
-  SearchMarks(FigureSheet& sheet, Panel& panel, const ToleranceRow& row, std::string colour)
-      : sheet_(sheet), panel_(panel), row_(row), colour_(std::move(colour)) {}
+  SearchMarks(FigureSheet& sheet, Panel& panel, const ToleranceRow& row, Curve curve)
+      : sheet_(sheet), panel_(panel), row_(row), look_(std::move(curve)) {}
 
   void add() {
     add_answer();
@@ -33,7 +35,7 @@ class SearchMarks {
   [[nodiscard]] double in_unit(double dose) const { return dose * row_.axis.at.front(); }
   [[nodiscard]] std::string start(const char* what, const char* columns) {
     return sheet_.start_block(
-        fmt::format("{}; {}; {}; {}", row_.axis.title(), row_.group, row_.method, what), columns);
+        fmt::format("{}; {}; {}; {}", row_.axis.title(), row_.group, look_.name, what), columns);
   }
 
   /// A band open at one side reaches to the end of the range.
@@ -43,12 +45,12 @@ class SearchMarks {
       panel_.settings.push_back(fmt::format(
           "set object rectangle from first {:.9g}, graph 0 to first {:.9g}, graph 1 behind fc rgb "
           "'{}' fs transparent solid 0.2 noborder",
-          in_unit(*of.low), in_unit(*of.high), colour_));
+          in_unit(*of.low), in_unit(*of.high), look_.colour));
     if (of.dose)
       panel_.settings.push_back(fmt::format(
-          "set arrow from first {0:.9g}, graph 0 to first {0:.9g}, graph 1 nohead back lw 1 lc rgb "
-          "'{1}'",
-          in_unit(*of.dose), colour_));
+          "set arrow from first {0:.9g}, graph 0 to first {0:.9g}, graph 1 nohead back lw 1 dt {2} "
+          "lc rgb '{1}'",
+          in_unit(*of.dose), look_.colour, look_.dash));
   }
 
   void add_trials() {
@@ -57,7 +59,8 @@ class SearchMarks {
       sheet_.data += fmt::format("{:.9g} {} {}\n", in_unit(row_.trials[seed].dose),
                                  figure_number(row_.trials[seed].score), seed);
     panel_.elements.push_back(
-        fmt::format("{} using 1:2 with points pt 7 ps 0.35 lc rgb '{}' notitle", block, colour_));
+        fmt::format("{} using 1:2 with points pt {} ps 0.35 lc rgb '{}' notitle", block,
+                    look_.point, look_.colour));
   }
 
   void add_curve(const DoseCurve& curve) {
@@ -70,7 +73,8 @@ class SearchMarks {
                                  score - curve.half_width(dose), score + curve.half_width(dose));
     }
     panel_.elements.push_back(
-        fmt::format("{} using 1:2 with lines lw 1.4 lc rgb '{}' notitle", block, colour_));
+        fmt::format("{} using 1:2 with lines lw 1.4 dt {} lc rgb '{}' notitle", block, look_.dash,
+                    look_.colour));
   }
 
   void add_step(const DoseStep& step) {
@@ -81,43 +85,49 @@ class SearchMarks {
                     in_unit(row_.tolerance.points.front().dose), step.above, at, step.above, at,
                     step.below, in_unit(row_.tolerance.points.back().dose), step.below);
     panel_.elements.push_back(
-        fmt::format("{} using 1:2 with lines lw 1.4 lc rgb '{}' notitle", block, colour_));
+        fmt::format("{} using 1:2 with lines lw 1.4 dt {} lc rgb '{}' notitle", block, look_.dash,
+                    look_.colour));
   }
 
   FigureSheet& sheet_;
   Panel& panel_;
   const ToleranceRow& row_;
-  std::string colour_;
+  Curve look_;
 };
+
+Panel panel_of(const Study& study, const ToleranceAim& aim, const ToleranceRow& row) {
+  return {class_title(study, row.group),
+          row.axis.title(),
+          aim.target ? aim.metric : "change of " + aim.metric,
+          true,
+          {"unset object; unset arrow; set xtics autofreq; set ytics autofreq",
+           fmt::format("set xrange [{:.9g}:{:.9g}]", row.search.low * row.axis.at.front(),
+                       row.search.high * row.axis.at.front()),
+           "set yrange [*:*]"},
+          {fmt::format("{:.9g} with lines lw 0.8 dt (4,3) lc rgb '#444444' notitle",
+                       row.search.target)}};
+}
 
 }  // namespace
 
 FigureSheet tolerance_figure(const Study& study, const ToleranceAim& aim,
-                             const std::vector<ToleranceRow>& rows) {
+                             const std::vector<ToleranceRow>& rows, const FigureStyle& style) {
   FigureSheet sheet;
   sheet.name = "tolerance";
+  sheet.style = style;
+  sheet.least_panel_in = kLeastTolerance_in;
   std::map<std::pair<std::string, std::string>, std::size_t> panels;  // by fault and group
-  std::map<std::string, std::string> colours;                         // by method
+  std::map<std::string, Curve> curves;                                // by method
   for (const ToleranceRow& row : rows) {
     const auto [panel, is_new] = panels.try_emplace({row.path, row.group}, sheet.panels.size());
-    if (is_new)
-      sheet.panels.push_back(
-          {row.group,
-           row.axis.title(),
-           aim.target ? aim.metric : "change of " + aim.metric,
-           true,
-           {"unset object; unset arrow; set xtics autofreq; set ytics autofreq",
-            fmt::format("set xrange [{:.9g}:{:.9g}]", row.search.low * row.axis.at.front(),
-                        row.search.high * row.axis.at.front()),
-            "set yrange [*:*]"},
-           {fmt::format("{:.9g} with lines lw 0.8 dt (4,3) lc rgb '#444444' notitle",
-                        row.search.target)}});
-    const auto [colour, is_new_method] =
-        colours.try_emplace(row.method, palette_colour(colours.size()));
+    if (is_new) sheet.panels.push_back(panel_of(study, aim, row));
+    const auto [curve, is_new_method] =
+        curves.try_emplace(row.method, curve_of(study, row.method, curves.size(), style));
     if (is_new_method)
-      sheet.add_legend("linespoints pt 7 ps 0.6 lw 1.4 lc rgb '" + colour->second + "'",
-                       row.method);
-    SearchMarks(sheet, sheet.panels[panel->second], row, colour->second).add();
+      sheet.add_legend(fmt::format("linespoints pt {} ps 0.6 lw 1.4 dt {} lc rgb '{}'",
+                                   curve->second.point, curve->second.dash, curve->second.colour),
+                       curve->second.name);
+    SearchMarks(sheet, sheet.panels[panel->second], row, curve->second).add();
   }
   sheet.columns = static_cast<int>(std::min<std::size_t>(3, sheet.panels.size()));
   for (std::size_t n = 0; n < sheet.panels.size(); ++n)

@@ -3,6 +3,7 @@
 
 #include "eval/report/comparison.hpp"
 
+#include "eval/report/table_formats.hpp"
 #include "tests/eval/report/pictures/swept_plate.hpp"
 #include "tests/eval/report/synthetic_summary.hpp"
 #include "tests/support/expect_error.hpp"
@@ -124,7 +125,7 @@ TEST(ComparisonTable, HasNineDigitsForPrograms) {
   last.predicted = 90;
   last.true_predicted = 70;
   const ComparisonQuestion question{"direct", "erosion", "cup", {"precision"}};
-  const Table table = comparison_table(summary, question, Figures::nine_digits);
+  const Table table = comparison_table(summary, question, Reader::program);
   EXPECT_THAT(table.rows[0], ElementsAre("0", "precision", "0.97", "0.882592593", "0.0874074074",
                                          "0.04", "0.182222222", "range", "0.25", "0.5", "3"));
   EXPECT_THAT(to_csv(table), HasSubstr("\n0,precision,0.97,0.882592593,0.0874074074,"));
@@ -142,7 +143,7 @@ TEST(Comparison, ListsWhatThereIs) {
   error("'direct' with itself; give two of: direct, erosion", {"direct", "direct"});
   error("no group 'wall' in this study; there are: pooled, macro, cup, chair",
         {"direct", "erosion", "wall"});
-  error("no metric 'F1' in this study; there are: precision, recall, f1, iou",
+  error("no metric 'F1' in this study; did you mean 'f1'?",
         {"direct", "erosion", "pooled", {"F1"}});
   error("metric 'f1' is given twice", {"direct", "erosion", "pooled", {"f1", "iou", "f1"}});
   error("no metric; f1 is one", {"direct", "erosion", "pooled", {}});

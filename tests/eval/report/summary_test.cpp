@@ -87,7 +87,7 @@ TEST_F(Summary, FiguresOfAGroupThatWasNotAskedForAreFormedLater) {
   EXPECT_EQ(estimate(one.trials[1], one.table, "macro", "f1").pooled,
             estimate(all.trials[1], all.table, "macro", "f1").pooled);
   EXPECT_EQ(one.lattice_note(), all.lattice_note());
-  expect_error("'cup': not scored in this study; there are: pooled, macro, plate", [&] {
+  expect_error("'cup': not scored in this study; write one of pooled, macro, plate", [&] {
     (void)summarise_store(results(), {{"cup"}, false});
   });
 }

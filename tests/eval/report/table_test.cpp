@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/table.hpp"
-
+#include "eval/report/table_formats.hpp"
 #include "tests/eval/report/synthetic_summary.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +18,7 @@ using testing::summary_of;
 TEST(ScoreTable, HasARowForEveryMethodAtEveryCell) {
   const Table table = score_table(summary_of(2), "cup");
   EXPECT_THAT(table.columns, ElementsAre("magnitude_m", "method", "precision", "recall", "F1",
-                                         "IoU", "AP", "F1 best", "threshold", "F1 spread",
+                                         "IoU", "AP", "F1 best", "threshold", "F1 low", "F1 high",
                                          "registration F1", "lattice precision", "lattice recall"));
   ASSERT_THAT(table.rows, SizeIs(4));
   // Cups at cell 1 of direct: 100 predicted a seed, 4 and 5 false; 200 visible a seed, 20 missed.
@@ -27,7 +26,26 @@ TEST(ScoreTable, HasARowForEveryMethodAtEveryCell) {
   // F of the seeds: P = 0.96 and 0.95. At 0.9 all is right: AP = R, F = 2R/(1+R).
   EXPECT_THAT(table.rows[2],
               ElementsAre("0.01", "direct", "0.955", "0.900", "0.927", "0.880", "0.900", "0.947",
-                          "0.900", "0.924..0.929", "0.938", "1.000", "0.900"));
+                          "0.900", "0.924", "0.929", "0.938", "1.000", "0.900"));
+}
+
+TEST(ScoreTable, AProgramGetsNineDigitsAndWhatTheSpreadIs) {
+  const Table table = score_table(summary_of(2), "cup", Reader::program);
+  EXPECT_EQ(table.columns.back(), "F1 spread");
+  EXPECT_EQ(table.rows[2].back(), "range");
+  EXPECT_EQ(table.rows[2][6], "0.9");          // AP
+  EXPECT_EQ(table.rows[2][4], "0.926684636");  // 2 P R / (P + R), P = 0.955, R = 0.9
+  EXPECT_EQ(score_table(summary_of(10), "cup", Reader::program).rows[2].back(), "95% interval");
+}
+
+TEST(ScoreTable, APaperGetsTitlesAndUnits) {
+  StudySummary summary = summary_of(2);
+  summary.study.methods[1].title = "Erosion, 5 px";
+  const Table table = score_table(summary, "cup", Reader::paper);
+  EXPECT_EQ(table.columns.front(), "misregistration (mm)");
+  EXPECT_THAT(table.rows[3], ::testing::Contains("Erosion, 5 px"));
+  EXPECT_EQ(table.rows[3].front(), "10");
+  EXPECT_EQ(score_table(summary, "cup").rows[3][1], "erosion");
 }
 
 TEST(ScoreTable, SaysWhatItStandsOn) {
@@ -77,12 +95,34 @@ TEST(Table, AsJsonNamesEveryCellAndKeepsNumbersNumbers) {
     EXPECT_NE(json.find(cell), std::string::npos) << cell << json;
 }
 
-TEST(Table, MarkdownAndTexEscapeWhatTheyWouldRead) {
+/// No line is longer, every cell is there once, and each part tells which row is which.
+TEST(Table, AsTextFitsTheTerminal) {
+  Table table{{"one two three four five"}, {"dose", "method", "aaaa", "bbbb", "cccc"}, {}};
+  table.keys = 2;
+  table.rows = {{"0", "direct", "1", "2", "3"}, {"0.01", "x", "4", "5", "6"}};
+  EXPECT_EQ(to_text(table, 24),
+            "# one two three four\n#   five\n"
+            "dose  method  aaaa  bbbb\n0     direct  1     2\n0.01  x       4     5\n"
+            "\ndose  method  cccc\n0     direct  3\n0.01  x       6\n");
+  EXPECT_EQ(to_text(table, 30), "# one two three four five\n" + to_text(table).substr(26));
+  EXPECT_EQ(to_text(table, 0), to_text(table));
+  EXPECT_THAT(to_text(table, 5), HasSubstr("\n\ndose  method  bbbb\n"))
+      << "keys and one column in any case";
+}
+
+TEST(Table, MarkdownEscapesWhatItWouldRead) {
   const Table table{{"50 %"}, {"a|b", "c_d"}, {{"1 & 2", "x\\y"}}};
   EXPECT_EQ(to_markdown(table), "50 %  \n\n| a\\|b | c\\_d |\n| --- | --- |\n| 1 & 2 | x\\\\y |\n");
+}
+
+TEST(Table, TexIsPlainLatex) {
+  const Table table{
+      {"50 %"}, {"a|b", "c_d", "\u00d7"}, {{"1 & 2", "x\\y", "-0.5"}, {"<~^>", "-", "-"}}};
   EXPECT_EQ(to_tex(table),
-            "% 50 %\n\\begin{tabular}{ll}\n\\toprule\na|b & c\\_d \\\\\n\\midrule\n"
-            "1 \\& 2 & x\\char92 y \\\\\n\\bottomrule\n\\end{tabular}\n");
+            "% 50 %\n\\begin{tabular}{llr}\n\\toprule\na\\textbar{}b & c\\_d & $\\times$ \\\\\n"
+            "\\midrule\n1 \\& 2 & x\\textbackslash{}y & $-$0.5 \\\\\n"
+            "\\textless{}\\textasciitilde{}\\textasciicircum{}\\textgreater{} & -- & -- \\\\\n"
+            "\\bottomrule\n\\end{tabular}\n");
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include "eval/report/tolerance_report.hpp"
 
+#include "eval/report/table_formats.hpp"
+
 #include <gtest/gtest.h>
 
 namespace mapscore::eval {
@@ -41,7 +43,7 @@ TEST(ToleranceReport, ForProgramsHasPathUnitAndNineDigits) {
   const std::vector<ToleranceRow> rows{
       row_of(ToleranceVerdict::found, 0.0071234, 0.0064, std::nullopt)};
   EXPECT_EQ(
-      to_csv(tolerance_table(study, aim, "direct", rows, false)),
+      to_csv(tolerance_table(study, aim, "direct", rows, Reader::program)),
       "fault,method,group,path,unit,dose,low,high,reference,difference,difference_low,"
       "difference_high,verdict,trials,undefined\n"
       "misregistration,direct,pooled,faults.misregistration.magnitude_m,mm,7.1234,6.4,-,,-,-,-,"
@@ -67,7 +69,8 @@ TEST(ToleranceReport, ComparesWithTheReferenceOfTheSameFaultAndGroup) {
   EXPECT_EQ(difference_text(first, second), "-6 mm [-8.24, -3.17]");
   EXPECT_EQ(difference_text(third, first), "- [34, open]");
   EXPECT_EQ(difference_text(third, third), "-");
-  const Table table = tolerance_table(study, {}, "direct", {first, second, third, other}, true);
+  const Table table =
+      tolerance_table(study, {}, "direct", {first, second, third, other}, Reader::terminal);
   EXPECT_EQ(table.columns[4], "less direct");
   EXPECT_EQ(table.rows[0][4], "");
   EXPECT_EQ(table.rows[1][4], "+6 mm [3.17, 8.24]");
@@ -94,7 +97,7 @@ TEST(ToleranceReport, SaysTheDoseOfTheSecondFault) {
   constexpr const char* kPath = "faults.pose.sigma_xy_m";
   ToleranceRow row = row_of(ToleranceVerdict::above, std::nullopt, 0.04, std::nullopt);
   row.second = SecondFault{kPath, "0.02", figure_axis(field_of(Study{}, kPath), {"0.02"})};
-  const Table table = tolerance_table({}, {}, "direct", {row}, true);
+  const Table table = tolerance_table({}, {}, "direct", {row}, Reader::terminal);
   EXPECT_EQ(table.columns[1], "at");
   EXPECT_EQ(table.rows[0][1], row.second->axis.text(0));
 }

@@ -3,7 +3,9 @@
 
 #include "core/error.hpp"
 #include "eval/report/figures/figures.hpp"
+#include "eval/report/figures/font.hpp"
 #include "eval/report/figures/geometry.hpp"
+#include "eval/report/figures/tolerance_figure.hpp"
 #include "tests/eval/report/figures/figure_files.hpp"
 
 #include <gmock/gmock.h>
@@ -64,8 +66,10 @@ TEST_F(FiguresTest, InPrintEveryFigureIsAsWideAsAskedAndNoTextBelowSevenPoints) 
 
 TEST_F(FiguresTest, InPrintEveryPanelKeepsItsPlaceUnderItsTitleAndBesideItsAxis) {
   const StudySummary summary =
-      synthetic_summary(synthetic_study({"direct", "erosion"}, {kShift, kTurn}, 1));
-  const FigureSheet sheet = accuracy_figure(summary, StudyLayout(summary, column_style()));
+      synthetic_summary(synthetic_study({"direct", "erosion"}, {kShift, testing::kCamera}, 1));
+  FigureStyle narrow;
+  narrow.width_mm = 60.0;
+  const FigureSheet sheet = accuracy_figure(summary, StudyLayout(summary, narrow));
   ASSERT_EQ(sheet.columns, 3);
   ASSERT_EQ(sheet.panels.size(), 9u);  // rows of precision, recall, F1
   const FigureSheet print = arranged(sheet);
@@ -84,9 +88,9 @@ TEST_F(FiguresTest, InPrintEveryPanelKeepsItsPlaceUnderItsTitleAndBesideItsAxis)
     EXPECT_TRUE(print.panels[6 + 2 * row].y_tic_labels);
     EXPECT_FALSE(print.panels[1 + 2 * row].y_tic_labels);
   }
-  EXPECT_EQ(print.panels[6].title, "misregistration angle =\n2 deg");
+  EXPECT_EQ(print.panels[6].title, "depth camera =\nkinect v1");
   for (std::size_t i = 0; i < print.panels.size(); ++i)
-    EXPECT_EQ(print.panels[i].x_label, i == 5 || i == 10 ? "misregistration (mm)" : "") << i;
+    EXPECT_EQ(print.panels[i].x_label, i == 5 || i == 10 ? "misregistratio\nn (mm)" : "") << i;
 }
 
 TEST_F(FiguresTest, WithoutAWidthNothingIsArranged) {
@@ -190,6 +194,41 @@ TEST(FigureStyle, WidthsThatNoFigureFitsAreRefused) {
     style.width_mm = width_mm;
     EXPECT_EQ(refusal(style), "");
   }
+}
+
+TEST(FigureStyle, AFontThatIsNotInstalledIsFoundOut) {
+  EXPECT_EQ(substitute_font("DejaVu Sans"), std::nullopt);
+  EXPECT_EQ(substitute_font("dejavu sans"), std::nullopt);
+  EXPECT_TRUE(substitute_font("No-Such Font 7"));
+}
+
+/// Each fault its own axis, named below its panel in print too.
+TEST_F(FiguresTest, InPrintEachPanelOfATolerancesFigureKeepsItsAxis) {
+  FigureStyle style = column_style();
+  style.grey = true;
+  const auto row = [](const char* path, const char* method) {
+    ToleranceRow made{path, figure_axis(field_of(Study{}, path), {"1"}), method, "pooled", {}, {},
+                      {}};
+    made.search = {0.0, 0.04, 0.8, 42};
+    made.trials = {{0.0, 0.9}, {0.04, 0.5}};
+    return made;
+  };
+  std::vector<ToleranceRow> rows;
+  for (const char* method : {"a", "b"})
+    for (const char* path : {"faults.misregistration.magnitude_m", "faults.mount.magnitude_m",
+                             "faults.time_offset_ms", "faults.misregistration.angle_deg"})
+      rows.push_back(row(path, method));
+  const FigureSheet sheet = tolerance_figure({}, {}, rows, style);
+  const FigureSheet print = arranged(sheet);
+  ASSERT_EQ(print.columns, 2);
+  ASSERT_EQ(print.panels.size(), 4u);
+  EXPECT_EQ(print.panels[1].x_label, "mount error (mm)");
+  EXPECT_EQ(print.panels[2].x_label, "time offset (ms)");
+  const auto files = draw(sheet, folder_);
+  const std::string script = text_of(folder_ / "tolerance.gp");
+  EXPECT_THAT(script, HasSubstr("dt " + grey_dash(1)));
+  EXPECT_THAT(script, Not(HasSubstr(palette_colour(1))));
+  EXPECT_NEAR(cv::imread(files.front().string()).cols, 85.0 / 25.4 * 300.0, 1.0);
 }
 
 TEST(FigureStyle, NoFontRunsAnything) {

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/cli/shared/figure_flags.hpp"
+
+#include "eval/report/figures/font.hpp"
+#include "files/text.hpp"
+
+#include <iostream>
+
+namespace mapscore::eval {
+
+void FigureFlags::add_to(CLI::App& verb) {
+  verb.add_option("--width_mm", style_.width_mm,
+                  "Width of every figure in print, 60 to 400 [as its panels need]")
+      ->group("Figures");
+  verb.add_option("--font", style_.font, "Font of the figures")
+      ->capture_default_str()
+      ->group("Figures");
+  auto* no_caption =
+      verb.add_flag("--no_caption", no_caption_, "Nothing below the legend")->group("Figures");
+  if (auto* interim = verb.get_option_no_throw("--interim"))
+    no_caption->excludes(interim);  // which the caption tells
+  verb.add_flag("--grey", style_.grey, "No colours; line styles, marks and patterns instead")
+      ->group("Figures");
+}
+
+FigureStyle FigureFlags::style() const {
+  FigureStyle style = style_;
+  style.caption = !no_caption_;
+  style.check();
+  if (const auto other = substitute_font(style.font))
+    std::cerr << "mapscore: --font " << style.font << " is not installed: PNG and PDF have "
+              << shown(*other) << ", an SVG what its reader has\n";
+  return style;
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/report/summary.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// Position in the sweep of a path, given as a whole or by its last part where one alone ends so.
+[[nodiscard]] std::optional<std::size_t> swept_axis(const Study& study, const std::string& name);
+/// What swept_axis takes.
+[[nodiscard]] std::vector<std::string> swept_names(const Study& study);
+[[nodiscard]] std::vector<std::string> method_names(const Study& study);
+
+/// What of a study is asked for. A swept path may be given by its last part.
+struct Selection {
+  std::vector<std::string> where = {};    ///< path=value; several of one path: any of them
+  std::vector<std::string> methods = {};  ///< none: all
+};
+
+/// The lines of a summary that a selection names. Throws Error, with what there is, for a path that
+/// is not swept, a value that it does not have, an unknown method, and when no line is left.
+[[nodiscard]] StudySummary selected(StudySummary summary, const Selection& selection);
+
+}  // namespace mapscore::eval
