@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/report/table.hpp"
+#include "files/suggestion.hpp"
 #include "files/yaml_value.hpp"
 
 #include <fmt/format.h>

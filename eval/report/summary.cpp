@@ -7,6 +7,7 @@
 #include "eval/report/best_threshold.hpp"
 #include "eval/results/build_identity.hpp"
 #include "eval/results/study_store.hpp"
+#include "files/suggestion.hpp"
 #include "files/yaml_value.hpp"
 
 #include <fmt/format.h>

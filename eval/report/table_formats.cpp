@@ -47,13 +47,19 @@ nlohmann::ordered_json json_of(const Table& table) {
   return object;
 }
 
+/// Characters of UTF-8, which all continue but for their first byte.
+std::size_t letters_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char byte) { return (byte & 0xC0) != 0x80; }));
+}
+
 /// Letters of each column.
 std::vector<std::size_t> widths_of(const Table& table) {
   std::vector<std::size_t> widths;
-  for (const std::string& column : table.columns) widths.push_back(shown(column).size());
+  for (const std::string& column : table.columns) widths.push_back(letters_of(shown(column)));
   for (const auto& row : table.rows)
     for (std::size_t i = 0; i < row.size(); ++i)
-      widths[i] = std::max(widths[i], shown(row[i]).size());
+      widths[i] = std::max(widths[i], letters_of(shown(row[i])));
   return widths;
 }
 
@@ -186,7 +192,7 @@ std::string to_text(const Table& table, std::size_t width) {
       std::string letters;
       for (const std::size_t i : part) {
         const std::string cell = shown(cells[i]);
-        letters += cell + std::string(widths[i] - cell.size(), ' ') + std::string(kColumnGap);
+        letters += cell + std::string(widths[i] - letters_of(cell), ' ') + std::string(kColumnGap);
       }
       return letters.substr(0, letters.find_last_not_of(' ') + 1) + '\n';
     };

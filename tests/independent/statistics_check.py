@@ -193,8 +193,8 @@ def check_table(findings, tidy, text, group):
         for column, (role, metric) in CEILINGS.items():
             findings.hold(f"{where}: {column}", row[column], tidy.ratios(role, method, dose, group, everything)[metric])
         defined = [value for value in tidy.by_seed(method, dose, group, "f1") if value is not None]
-        for end, told, value in zip(("low", "high"), row["F1 spread"].split(".."), spread(defined), strict=True):
-            findings.hold(f"{where}: F1 spread, {end}", told, value)
+        for end, value in zip(("low", "high"), spread(defined), strict=True):
+            findings.hold(f"{where}: F1 {end}", row[f"F1 {end}"], value, 2 * DIGIT)
 
 
 def check_curves(findings, tidy, folder):

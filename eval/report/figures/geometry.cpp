@@ -52,7 +52,10 @@ double further_rows_in(const FigureSheet& sheet, std::string Panel::*text) {
 class Arrangement {
  public:
   Arrangement(const FigureSheet& sheet, std::size_t columns)
-      : from_(sheet.panels), asked_(static_cast<std::size_t>(sheet.columns)), columns_(columns) {
+      : from_(sheet.panels),
+        asked_(static_cast<std::size_t>(sheet.columns)),
+        columns_(columns),
+        own_numbers_(has_numbers_inside(sheet)) {
     for (const Panel& panel : from_)
       if (!panel.x_label.empty()) axes_.insert(panel.x_label);
     const auto untitled = [](const Panel& panel) { return panel.title.empty(); };
@@ -82,8 +85,7 @@ class Arrangement {
 
   void put(std::size_t source) {
     panels_.push_back(source < from_.size() ? from_[source] : Panel{});
-    own_tics_.push_back(source < from_.size() && source % asked_ != 0 &&
-                        from_[source].y_tic_labels);
+    own_tics_.push_back(own_numbers_ && source < from_.size() && from_[source].y_tic_labels);
     y_labels_.push_back(source < from_.size() ? from_[source / asked_ * asked_].y_label : "");
   }
 
@@ -100,9 +102,10 @@ class Arrangement {
 
   const std::vector<Panel>& from_;
   std::size_t asked_, columns_;
+  bool own_numbers_;            ///< each panel at its left
   std::set<std::string> axes_;  ///< labels of x
   std::vector<Panel> panels_;
-  std::vector<bool> own_tics_;  ///< of a panel that was not the first of its row
+  std::vector<bool> own_tics_;  ///< by panel
   std::vector<std::string> y_labels_;
 };
 

@@ -101,7 +101,8 @@ std::string text_of(const FigureSheet& sheet, const Panel& panel, const std::str
 std::string legend_and_caption(const FigureSheet& sheet, const Geometry& geometry) {
   std::string text = "\n  " + geometry.legend_margins() + '\n';
   text +=
-      "  unset label; unset title; unset xlabel; unset ylabel; unset border; unset tics; unset "
+      "  unset label; unset object; unset arrow; unset title; unset xlabel; unset ylabel; unset "
+      "border; unset tics; unset "
       "grid\n"
       "  set xrange [0:1]; set yrange [0:1]\n";
   text += fmt::format(

@@ -100,12 +100,27 @@ Panel panel_of(const Study& study, const ToleranceAim& aim, const ToleranceRow& 
           row.axis.title(),
           aim.target ? aim.metric : "change of " + aim.metric,
           true,
-          {"unset object; unset arrow; set xtics autofreq; set ytics autofreq",
+          {"unset object; unset arrow",
            fmt::format("set xrange [{:.9g}:{:.9g}]", row.search.low * row.axis.at.front(),
                        row.search.high * row.axis.at.front()),
            "set yrange [*:*]"},
           {fmt::format("{:.9g} with lines lw 0.8 dt (4,3) lc rgb '#444444' notitle",
                        row.search.target)}};
+}
+
+/// `set` lines of a panel: as many numbers as have room beside and below the trials of its rows.
+std::string tics_of(const ToleranceRow& row, const std::vector<ToleranceRow>& rows,
+                    double width_in) {
+  double least = row.search.target, greatest = row.search.target;
+  for (const ToleranceRow& other : rows)
+    if (other.path == row.path && other.group == row.group)
+      for (const DoseTrial& trial : other.trials) {
+        least = std::min(least, trial.score.value_or(least));
+        greatest = std::max(greatest, trial.score.value_or(greatest));
+      }
+  const double doses = (row.search.high - row.search.low) * row.axis.at.front();
+  return fmt::format("set xtics {:.9g}; set ytics {:.9g}", tic_step(doses, width_in),
+                     tic_step(greatest - least, kNarrow_in));
 }
 
 }  // namespace
@@ -117,10 +132,14 @@ FigureSheet tolerance_figure(const Study& study, const ToleranceAim& aim,
   sheet.style = style;
   sheet.least_panel_in = kLeastTolerance_in;
   std::map<std::pair<std::string, std::string>, std::size_t> panels;  // by fault and group
+  std::vector<const ToleranceRow*> firsts;                            // of each panel
   std::map<std::string, Curve> curves;                                // by method
   for (const ToleranceRow& row : rows) {
     const auto [panel, is_new] = panels.try_emplace({row.path, row.group}, sheet.panels.size());
-    if (is_new) sheet.panels.push_back(panel_of(study, aim, row));
+    if (is_new) {
+      sheet.panels.push_back(panel_of(study, aim, row));
+      firsts.push_back(&row);
+    }
     const auto [curve, is_new_method] =
         curves.try_emplace(row.method, curve_of(study, row.method, curves.size(), style));
     if (is_new_method)
@@ -132,7 +151,10 @@ FigureSheet tolerance_figure(const Study& study, const ToleranceAim& aim,
   sheet.columns = static_cast<int>(std::min<std::size_t>(3, sheet.panels.size()));
   for (std::size_t n = 0; n < sheet.panels.size(); ++n)
     if (n % static_cast<std::size_t>(sheet.columns) != 0) sheet.panels[n].y_label.clear();
-  sheet.panel_width_in = sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in);
+  sheet.panel_width_in =
+      sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in, kGapWithNumbers_in);
+  for (std::size_t n = 0; n < sheet.panels.size(); ++n)
+    sheet.panels[n].settings.push_back(tics_of(*firsts[n], rows, sheet.panel_width_in));
   sheet.add_legend("lines lw 0.8 dt (4,3) lc rgb '#444444'", "target");
   sheet.caption = fmt::format(
       "{}: largest dose at which {}, voxels of {:.6g} cm. Points: trials, each of its own seed; "

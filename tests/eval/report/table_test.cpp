@@ -73,6 +73,11 @@ TEST(Table, AsTextIsAlignedWithoutTrailingBlanks) {
             "0.01  x       -\n");
 }
 
+TEST(Table, AsTextCountsLettersNotBytes) {
+  EXPECT_EQ(to_text(Table{{}, {"pose \u03c3", "b"}, {{"123456", "c"}}}),
+            "pose \u03c3  b\n123456  c\n");
+}
+
 TEST(Table, AsCsvHasNoCaption) {
   EXPECT_EQ(to_csv(small_table()), "dose,method,F1\n0,direct,0.500\n0.01,x,-\n");
 }

@@ -207,8 +207,8 @@ TEST_F(FiguresTest, InPrintEachPanelOfATolerancesFigureKeepsItsAxis) {
   FigureStyle style = column_style();
   style.grey = true;
   const auto row = [](const char* path, const char* method) {
-    ToleranceRow made{path, figure_axis(field_of(Study{}, path), {"1"}), method, "pooled", {}, {},
-                      {}};
+    ToleranceRow made{
+        path, figure_axis(field_of(Study{}, path), {"1"}), {}, method, "pooled", {}, {}, {}};
     made.search = {0.0, 0.04, 0.8, 42};
     made.trials = {{0.0, 0.9}, {0.04, 0.5}};
     return made;
@@ -224,8 +224,10 @@ TEST_F(FiguresTest, InPrintEachPanelOfATolerancesFigureKeepsItsAxis) {
   ASSERT_EQ(print.panels.size(), 4u);
   EXPECT_EQ(print.panels[1].x_label, "mount error (mm)");
   EXPECT_EQ(print.panels[2].x_label, "time offset (ms)");
+  for (const Panel& panel : print.panels) EXPECT_TRUE(panel.y_tic_labels) << "each its own scale";
   const auto files = draw(sheet, folder_);
   const std::string script = text_of(folder_ / "tolerance.gp");
+  EXPECT_THAT(script, HasSubstr("unset object; unset arrow; unset title")) << "in the legend";
   EXPECT_THAT(script, HasSubstr("dt " + grey_dash(1)));
   EXPECT_THAT(script, Not(HasSubstr(palette_colour(1))));
   EXPECT_NEAR(cv::imread(files.front().string()).cols, 85.0 / 25.4 * 300.0, 1.0);
