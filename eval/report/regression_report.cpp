@@ -219,18 +219,19 @@ std::string github_text(const std::string& text) {
   return escaped;
 }
 
+std::string github_command(const char* command, const std::string& text) {
+  return fmt::format("::{} title=mapscore check::{}\n", command, github_text(text));
+}
+
 std::string github_report(const Judgement& judgement, const std::string& results) {
   std::string text;
-  const auto say = [&](const char* command, const std::string& what) {
-    text += fmt::format("::{} title=mapscore check::{}\n", command, github_text(what));
-  };
   const std::vector<Group> groups = groups_of(judgement);
   for (const Group& group : groups)
-    if (is_fallen(*group.front())) say("error", sentence_of(group));
-  if (judgement.trace) say("error", frames_text(judgement));
+    if (is_fallen(*group.front())) text += github_command("error", sentence_of(group));
+  if (judgement.trace) text += github_command("error", frames_text(judgement));
   for (const auto& row : group_table(groups, false).rows)
-    say("notice", fmt::format("{} of {}, {}: {} -> {} at {}", row[2], row[1], row[3], row[6],
-                              row[7], row[5]));
+    text += github_command("notice", fmt::format("{} of {}, {}: {} -> {} at {}", row[2], row[1],
+                                                 row[3], row[6], row[7], row[5]));
   return text + conclusion(judgement, results) + '\n';
 }
 
@@ -245,6 +246,17 @@ std::string regression_report(const Judgement& judgement, const std::string& res
   if (format == "junit") return junit_report(judgement, results);
   if (format == "github") return github_report(judgement, results);
   throw Error("no format '" + format + "' of a check");
+}
+
+std::string refusal_report(const std::string& reason, const std::string& results,
+                           const std::string& format) {
+  if (format == "github") return github_command("error", reason);
+  if (format != "junit") return "";
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name={} tests=\"1\" failures=\"0\" "
+      "errors=\"1\" skipped=\"0\" time=\"0\">\n  <testcase classname=\"check\" name=\"comparable\" "
+      "time=\"0\"><error type=\"refused\" message={}/></testcase>\n</testsuite>\n",
+      xml_quoted("mapscore check " + results), xml_quoted(reason));
 }
 
 }  // namespace mapscore::eval

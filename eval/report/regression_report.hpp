@@ -25,4 +25,9 @@ inline const std::vector<std::string> kReportFormats{"text",  "csv",    "json",
 [[nodiscard]] std::string regression_report(const Judgement& judgement, const std::string& results,
                                             const std::string& format);
 
+/// Why nothing was compared, for formats whose readers see standard output alone: an annotation
+/// (github), a test case with an error (junit); empty for others.
+[[nodiscard]] std::string refusal_report(const std::string& reason, const std::string& results,
+                                         const std::string& format);
+
 }  // namespace mapscore::eval

@@ -24,7 +24,8 @@ JUNIT = {
     "testsuite": ({"name", "tests", "failures", "errors", "skipped"}, {"time"}, ["properties", "testcase"]),
     "properties": (set(), set(), ["property"]),
     "property": ({"name", "value"}, set(), []),
-    "testcase": ({"name", "time"}, {"classname"}, ["failure", "skipped"]),
+    "testcase": ({"name", "time"}, {"classname"}, ["error", "failure", "skipped"]),
+    "error": ({"type"}, {"message"}, []),
     "failure": ({"type"}, {"message"}, []),
     "skipped": (set(), {"message"}, []),
 }
@@ -52,10 +53,10 @@ def check_junit(text, classes, verdict):
     check_element(suite)
     cases = suite.findall("testcase")
     for attribute, found in (("tests", cases), ("failures", suite.findall(".//failure")),
-                             ("skipped", suite.findall(".//skipped"))):
+                             ("errors", suite.findall(".//error")), ("skipped", suite.findall(".//skipped"))):
         assert int(suite.attrib[attribute]) == len(found), attribute
     assert len({(case.attrib["classname"], case.attrib["name"]) for case in cases}) == len(cases), "a case stands twice"
-    named = {case.attrib["name"].split(" ", 1)[1] for case in cases}
+    named = {case.attrib["name"].split(" ", 1)[-1] for case in cases}
     assert set(classes) <= named, set(classes) - named
     assert verdict == "held" or suite.find(f".//{verdict}") is not None, verdict
 
@@ -101,6 +102,7 @@ def carry(program, folder, names):
         tiny_files.write(work(name + ".yaml"), tiny_files.STUDY % name.encode())
         run(program, "sweep", work(name + ".yaml"), "-o", work("of_" + name), "-q")
     run(program, "sweep", work("before.yaml"), "-o", work("of_other"), "-q", "--set", "seed=9")
+    run(program, "sweep", work("before.yaml"), "-o", work("of_coarse"), "-q", "--set", "voxel_m=0.1")
     baseline = work("baseline.json")
     run(program, "check", work("of_before"), "--baseline", baseline, "--update", "--frames")
     classes = [name.decode("utf-8") for name in names]
@@ -108,6 +110,10 @@ def carry(program, folder, names):
         check = [program, "check", work("of_" + results), "--baseline", baseline, "--any_recording", "--format"]
         check_junit(run(*check, "junit", code=code), classes, verdict)
         check_github(run(*check, "github", code=code), classes, code == 1)
+    refused = [program, "check", work("of_coarse"), "--baseline", baseline, "--format"]
+    check_junit(run(*refused, "junit", code=2), [], "error")
+    assert workflow_command(run(*refused, "github", code=2)) == (
+        "error", {"title": "mapscore check"}, "not comparable: voxel_m 0.05 -> 0.1\n")
 
 
 def main():

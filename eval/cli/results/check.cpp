@@ -77,10 +77,9 @@ void check_tolerances(const Tolerances& tolerances, const Baseline& baseline) {
 std::optional<FrameTrace> trace_of(const Baseline& baseline, const Judgement& judgement,
                                    const CheckFlags& flags) try {
   const JudgedFigure* worst = judgement.worst();
-  if (!worst || (baseline.yields.empty() && flags.pictures.empty())) return std::nullopt;
-  const TracedTrial trial(flags.results, *worst);
-  std::optional<FrameTrace> trace = trial.trace(baseline);
-  if (!flags.pictures.empty()) trial.draw(flags.pictures, trace);
+  if (!worst) return std::nullopt;
+  std::optional<FrameTrace> trace = trace_frames(flags.results, baseline, *worst);
+  if (!flags.pictures.empty()) draw_fallen(flags.results, *worst, trace, flags.pictures);
   return trace;
 } catch (const Error& error) {
   std::cerr << "check: frames are not traced: " << shown(error.what()) << '\n';
@@ -112,7 +111,7 @@ void update(Baseline now, const Tolerances& allowed, const CheckFlags& flags) {
   std::cerr << fmt::format("check: {} written{}\n", shown(flags.baseline), note);
 }
 
-int check(const CheckFlags& flags) {
+int check(const CheckFlags& flags) try {
   const Tolerances allowed = parse_tolerances(flags.allowed);
   const StudySummary summary = summarise_store(flags.results);
   refuse_other_builds(summary, flags);
@@ -120,6 +119,9 @@ int check(const CheckFlags& flags) {
   if (!flags.update) return report(now, allowed, flags);
   update(now, allowed, flags);
   return 0;
+} catch (const Error& error) {
+  std::cout << refusal_report(error.what(), flags.results, flags.format);
+  throw;
 }
 
 }  // namespace

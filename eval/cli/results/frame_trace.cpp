@@ -7,12 +7,13 @@
 #include "eval/cli/shared/trial_maps.hpp"
 #include "eval/report/pictures/caption.hpp"
 #include "eval/report/pictures/contact_sheet.hpp"
+#include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"
 #include "files/text.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <iostream>
-#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -20,90 +21,97 @@ namespace {
 constexpr std::size_t kDrawnFrames = 4;
 constexpr std::size_t kMemory_bytes = std::size_t{1} << 30;
 
-StudyRecord record_of(const std::filesystem::path& results) {
-  const std::filesystem::path file = store_file(results);
-  return read_study(ResultStore::open_existing(file), file.parent_path());
-}
+/// What a store says of its study, and the recording that it was swept on.
+struct SweptStudy {
+  StudyRecord record;
+  Recording recording;
 
-/// The recording that results were swept on.
-Recording recording_of_store(const std::filesystem::path& results, const StudyRecord& record) {
-  const std::filesystem::path folder =
-      (store_file(results).parent_path() / record.recording).lexically_normal();
+  [[nodiscard]] Bench bench() const {
+    return {recording, record.table, reads_colour(record.study), kMemory_bytes};
+  }
+};
+
+SweptStudy swept_study(const std::filesystem::path& results) {
+  const std::filesystem::path file = store_file(results);
+  StudyRecord record = read_study(ResultStore::open_existing(file), file.parent_path());
+  const auto folder = (file.parent_path() / record.recording).lexically_normal();
   Recording recording = Recording::open(folder);
   if (recording.content_hash() != record.recording_hash)
     throw Error(folder.string() + ": is another recording than that of the trials; sweep again");
-  return recording;
+  return {std::move(record), std::move(recording)};
 }
 
-std::vector<TrialYields> walked(const StudyRecord& record, const Recording& recording,
-                                const std::function<bool(const TrialSpec&)>& is_asked) {
+std::vector<TrialYields> first_seed_yields(const SweptStudy& swept,
+                                           const std::function<bool(const TrialSpec&)>& is_asked) {
   std::vector<TrialSpec> specs;
-  for (const TrialSpec& spec : trials(record.study))
+  for (const TrialSpec& spec : trials(swept.record.study))
     if (spec.seed_index == 0 && is_asked(spec)) specs.push_back(spec);
-  Bench bench(recording, record.table, reads_colour(record.study), kMemory_bytes);
-  return yields_of(record.study, specs, bench);
+  Bench bench = swept.bench();
+  return yields_of(swept.record.study, specs, bench);
+}
+
+std::vector<std::string> classes_of(const JudgedFigure& figure, const ClassTable& table) {
+  return figure.group == kPooled || figure.group == kMacro ? detected_names(table)
+                                                           : std::vector{figure.group};
+}
+
+void keep_classes(const std::vector<std::string>& classes, const ClassTable& table,
+                  JudgedMap& map) {
+  const auto is_other = [&](const auto& voxel) {
+    return std::ranges::count(classes, table.classes.at(voxel.class_id).name) == 0;
+  };
+  std::erase_if(map.voxels, is_other);
+  std::erase_if(map.truth, is_other);
 }
 
 }  // namespace
 
 std::vector<TrialYields> yields_of_store(const std::filesystem::path& results) {
-  const StudyRecord record = record_of(results);
-  return walked(record, recording_of_store(results, record), [](const TrialSpec&) { return true; });
+  return first_seed_yields(swept_study(results), [](const TrialSpec&) { return true; });
 }
 
-TracedTrial::TracedTrial(const std::filesystem::path& results, const JudgedFigure& worst)
-    : record_(record_of(results)),
-      recording_(recording_of_store(results, record_)),
-      worst_(worst),
-      classes_(worst.group == kPooled || worst.group == kMacro ? detected_names(record_.table)
-                                                               : std::vector{worst.group}) {}
-
-std::optional<FrameTrace> TracedTrial::trace(const Baseline& before) const {
+std::optional<FrameTrace> trace_frames(const std::filesystem::path& results, const Baseline& before,
+                                       const JudgedFigure& worst) {
   const auto is_worst = [&](const auto& of) {
-    return of.method == worst_.method && of.cell.doses == worst_.cell.doses;
+    return of.method == worst.method && of.cell.doses == worst.cell.doses;
   };
   const auto then = std::ranges::find_if(before.yields, is_worst);
   if (then == before.yields.end()) return std::nullopt;
-  StudyRecord record = record_;
-  record.study.seed = before.study.seed;  // so that all draws are the same
-  const std::vector<TrialYields> now = walked(record, recording_, is_worst);
+  SweptStudy swept = swept_study(results);
+  swept.record.study.seed = before.study.seed;  // so that all draws are the same
+  const std::vector<TrialYields> now = first_seed_yields(swept, is_worst);
   if (now.front().frames.size() != then->frames.size())
     throw Error("the recording has other frames than the baseline's");
-  return FrameTrace{worst_.method, worst_.cell, worst_.group,
-                    frame_losses(*then, now.front(), classes_)};
+  return FrameTrace{worst.method, worst.cell, worst.group,
+                    frame_losses(*then, now.front(), classes_of(worst, swept.record.table))};
 }
 
-void TracedTrial::draw(const std::filesystem::path& folder,
-                       const std::optional<FrameTrace>& trace) const {
+void draw_fallen(const std::filesystem::path& results, const JudgedFigure& worst,
+                 const std::optional<FrameTrace>& trace, const std::filesystem::path& folder) {
+  const SweptStudy swept = swept_study(results);
+  const auto& [study, table, hash, place] = swept.record;
   const FolderLock lock(folder);
   std::filesystem::create_directories(folder);
-  const PictureChoice choice{worst_.cell.doses, worst_.method, 0, kMemory_bytes, {}};
-  Pictures pictures = draw_pictures(record_.study, record_.table, recording_, choice, folder, [&] {
-    Bench bench(recording_, record_.table, reads_colour(record_.study), kMemory_bytes);
-    std::vector<JudgedMap> maps = map_trials(record_.study, bench, choice);
-    for (JudgedMap& map : maps) keep_classes(map);
+  const PictureChoice choice{worst.cell.doses, worst.method, 0, kMemory_bytes, {}};
+  Pictures pictures = draw_pictures(study, table, swept.recording, choice, folder, [&] {
+    Bench bench = swept.bench();
+    std::vector<JudgedMap> maps = map_trials(swept.record.study, bench, choice);
+    for (JudgedMap& map : maps) {
+      map.title += ", " + shown(worst.group);
+      keep_classes(classes_of(worst, swept.record.table), swept.record.table, map);
+    }
     return maps;
   });
   std::vector<int> frames;
-  if (trace)
-    for (const FrameLoss& loss : trace->losses)
-      if (frames.size() < kDrawnFrames) frames.push_back(loss.frame);
+  for (std::size_t n = 0; trace && n < std::min(trace->losses.size(), kDrawnFrames); ++n)
+    frames.push_back(trace->losses[n].frame);
   if (!frames.empty())
-    pictures.files.push_back(write_picture(
-        folder / "frames.png",
-        contact_sheet(resolve(record_.study, worst_.cell), record_.table, recording_, frames)));
+    pictures.files.push_back(
+        write_picture(folder / "frames.png",
+                      contact_sheet(resolve(study, worst.cell), table, swept.recording, frames)));
   for (const auto& file : pictures.files) std::cerr << "check: " << shown(file) << '\n';
   if (!pictures.skipped.empty())
     std::cerr << "check: no pictures of the map: " << shown(pictures.skipped) << '\n';
-}
-
-void TracedTrial::keep_classes(JudgedMap& map) const {
-  const auto is_other = [&](const auto& voxel) {
-    return std::ranges::count(classes_, record_.table.classes.at(voxel.class_id).name) == 0;
-  };
-  map.title += ", " + shown(worst_.group);
-  std::erase_if(map.voxels, is_other);
-  std::erase_if(map.truth, is_other);
 }
 
 }  // namespace mapscore::eval
