@@ -235,7 +235,7 @@ def in_flags(case, name, _):
     tiny.write(case.at("grid.yaml"), b"image: %s\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
                b"free_thresh: 0.2\n%s: 1\n" % (tiny.in_yaml(text), tiny.in_yaml(text)))
     tiny.write(case.at("motion.csv"), b"stamp_s," + tiny.in_csv(text) + b"\n0,0\n")
-    tiny.write(case.at("baseline.json"), b'{"format": 2, "study": "' + text.replace(b"\\", b"\\\\").replace(b'"', b'\\"') + b'"}')
+    tiny.write(case.at("baseline.json"), b'{"format": 3, "study": "' + text.replace(b"\\", b"\\\\").replace(b'"', b'\\"') + b'"}')
     os.makedirs(case.at("scene"))
     tiny.write_scene(case.at("scene"))
     case.run(b"v" + text)
