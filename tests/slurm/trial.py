@@ -9,8 +9,8 @@ As root, with `apt-get install --no-install-recommends slurm-wlm munge`. The tid
 byte for byte, against --jobs 2, against shards of 1, 3 and 7, and against `sweep --slurm`, in which
   - the program of one task is killed (SIGKILL): its script runs it once more;
   - all of another task is killed: the merge has to name what is missing, and the next `--slurm` submits just that;
-  - a node's slurmd is killed while its tasks go on: Slurm gives the node up and requeues them, so they run twice at once;
-  - a third task is run a second time by hand under another host's name, as if the file system's locks did not reach it.
+  - a node is killed but for the program of one task: Slurm gives the node up and requeues its tasks, so one runs twice;
+  - that task is run a third time by hand under another host's name, as if the file system's locks did not reach it.
 Ends with 1 where anything differs. The cluster's files are below FOLDER/cluster; it is stopped in any case.
 """
 
@@ -66,8 +66,18 @@ def trials_in(results):
         return store.execute("SELECT count(*) FROM trials").fetchone()[0]
 
 
-def tasks_of(results):
-    """Processes of array tasks, by the task's number: [(process, program, node)]."""
+class Task:
+    """The processes of an array task on a node: its script, what that runs, and the slurmstepd above."""
+
+    def __init__(self, node):
+        self.node, self.scripts, self.programs, self.daemons = node, [], [], []
+
+    def all(self):
+        return self.daemons + self.scripts + self.programs
+
+
+def tasks_of(conf):
+    """Those under way on this cluster, by number."""
     found = {}
     for process in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -75,11 +85,18 @@ def tasks_of(results):
                 words = dict(w.split(b"=", 1) for w in file.read().split(b"\0") if b"=" in w)
             with open(f"/proc/{process}/cmdline", "rb") as file:
                 command = file.read()
+            with open(f"/proc/{process}/stat") as file:
+                parent = int(file.read().rsplit(")", 1)[1].split()[1])
         except OSError:
             continue
-        task = words.get(b"SLURM_ARRAY_TASK_ID")
-        if task and results.encode() in command:
-            found.setdefault(int(task), []).append((int(process), command, words[b"SLURMD_NODENAME"].decode()))
+        if words.get(b"SLURM_CONF", b"").decode() != conf or b"SLURM_ARRAY_TASK_ID" not in words:
+            continue
+        task = found.setdefault(int(words[b"SLURM_ARRAY_TASK_ID"]), Task(words[b"SLURMD_NODENAME"].decode()))
+        if b"\0sweep\0" in command:
+            task.programs.append(int(process))
+        elif b"slurm_script" in command:
+            task.scripts.append(int(process))
+            task.daemons.append(parent)
     return found
 
 
@@ -112,38 +129,36 @@ def merge_log(results):
         return file.read().strip()
 
 
-def runs_that_compute(results, on=None):
-    """Tasks of which a store is being filled, by number."""
-    return {task: processes for task, processes in tasks_of(results).items()
-            if any(b"sweep" in command and b"/sh" not in command[:8] for _, command, node in processes)
-            and (on is None or processes[0][2] == on)
-            and any(name.startswith(f"{task}-of-") and os.path.exists(f"{results}/shards/{name}/status.json")
-                    for name in os.listdir(f"{results}/shards"))}
+def computing(results, node):
+    """Tasks of a node whose program and status are there, by number."""
+    begun = {int(name.split("-")[0]) for name in os.listdir(f"{results}/shards")
+             if os.path.exists(f"{results}/shards/{name}/status.json")}
+    return {number: task for number, task in tasks_of(os.environ["SLURM_CONF"]).items()
+            if task.node == node and task.programs and task.scripts and number in begun}
 
 
 def disturb(trial, results):
-    """Kills on the way; see above."""
+    """Kills on the way; see above. The number of the task that is lost."""
     def two_on_each():
-        computing = {node: runs_that_compute(results, node) for node in ("n0", "n1")}
-        return computing if len(computing["n0"]) >= 2 and computing["n1"] else None
+        nodes = [computing(results, node) for node in ("n0", "n1")]
+        return nodes if min(map(len, nodes)) >= 2 else None
     wait_for(lambda: os.path.isdir(f"{results}/shards"))
-    computing = wait_for(two_on_each)
-    once, lost = sorted(computing["n0"])[:2]
-    kill(p for p, command, _ in computing["n0"][once] if b"sh\0" not in command[:16])
-    print(f"      killed the program of task {once} on n0")
-    kill(p for p, _, _ in computing["n0"][lost])
-    print(f"      killed all of task {lost} on n0")
+    n0, n1 = wait_for(two_on_each)
+    (once, lost), (orphan, dead) = sorted(n0)[:2], sorted(n1)[:2]
     with open(trial.at("cluster/pids")) as file:
         slurmd = next(int(line.split()[1]) for line in file if line.startswith("slurmd-n1 "))
-    kill([slurmd])
-    print(f"      killed slurmd of n1 under tasks {sorted(computing['n1'])}")
+    kill([slurmd, *n1[orphan].daemons, *n1[dead].all()])
+    print(f"      killed n1 with task {dead}; the program of its task {orphan} goes on")
+    kill(n0[lost].scripts + n0[lost].programs)
+    print(f"      killed all of task {lost} on n0")
+    kill(n0[once].programs)
+    print(f"      killed the program of task {once} on n0")
     print("      " + trial.run("status", results).strip().replace("\n", "\n      "), flush=True)
-    again = sorted(computing["n1"])[0]
     with open(f"{results}/slurm/array.sh") as file:
         script = file.read()
     subprocess.run(["unshare", "--uts", "sh", "-c", "hostname elsewhere && exec sh -c \"$0\"", script], check=True,
-                   env=dict(os.environ, SLURM_ARRAY_TASK_ID=str(again)), capture_output=True)
-    print(f"      ran task {again} a second time, as host elsewhere")
+                   env=dict(os.environ, SLURM_ARRAY_TASK_ID=str(orphan)), capture_output=True)
+    print(f"      ran task {orphan} a second time, as host elsewhere")
     return lost
 
 
@@ -158,6 +173,12 @@ def on_slurm(trial):
         return not lines
     wait_for(over, 600)
     print(f"      states seen in the queue: {', '.join(sorted(seen))}")
+    show = subprocess.run(["scontrol", "-o", "show", "job"], capture_output=True, text=True).stdout
+    words = [dict(w.split("=", 1) for w in line.split() if "=" in w) for line in show.splitlines()]
+    ended = sorted((int(w["ArrayTaskId"]), f"{w['JobState']}, {w['Restarts']} restarts") for w in words
+                   if w.get("ArrayTaskId", "").isdigit())
+    print("      tasks: " + "; ".join(f"{task} {how}" for task, how in ended))
+    trial.say(sum("1 restarts" in how for _, how in ended) >= 2, "Slurm requeued the tasks of the node")
     said = merge_log(results)
     print("      merge: " + said.replace("\n", "\n             "))
     trial.say(f"of shard {lost}/8" in said and "goes on" in said, "the merge names the lost task")

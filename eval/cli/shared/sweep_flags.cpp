@@ -59,9 +59,9 @@ std::vector<std::string> SweepFlags::words(const std::filesystem::path& results,
     return std::filesystem::absolute(path).lexically_normal().string();
   };
   std::vector<std::string> words{"sweep", absolute(study.file)};
-  for (const std::string& override_ : study.overrides) {
+  for (const std::string& leaf : study.overrides) {
     words.emplace_back("--set");
-    words.push_back(override_);
+    words.push_back(leaf);
   }
   for (const std::string& word :
        {std::string("-o"), absolute(results), std::string("--jobs"), std::to_string(jobs),
