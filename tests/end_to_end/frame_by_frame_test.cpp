@@ -52,15 +52,17 @@ TEST_F(FrameByFrame, FramesAreThoseOfTrialsThatScoreEachFrame) {
   expect_done(outcome);
   expect_done(mapscore({"sweep", study(), "-o", path("swept"), "-q", "--set", "score.unit=frame",
                         "--set", "sweep={}", "--set", "seeds=1"}));
-  const Outcome table = mapscore({"table", path("swept"), "--format", "csv"});
+  const Outcome table = mapscore({"table", path("swept"), "--format", "markdown"});
   expect_done(table);
   // METHOD,precision,recall,F1 begin a row of the one and end a row of the other.
   for (const std::string method : {"direct", "erosion"}) {
     std::smatch row;
-    ASSERT_TRUE(std::regex_search(table.out, row, std::regex(method + "(,[^,]+,[^,]+,[^,]+),")))
+    ASSERT_TRUE(std::regex_search(table.out, row,
+                                  std::regex(method + " \\| (\\S+) \\| (\\S+) \\| (\\S+) \\|")))
         << table.out;
-    EXPECT_TRUE(std::regex_search(outcome.out, std::regex(method + ",[^\n]*" + row.str(1) + "\n")))
-        << row.str(1) << " in " << outcome.out;
+    const std::string scores = row.str(1) + ',' + row.str(2) + ',' + row.str(3);
+    EXPECT_TRUE(std::regex_search(outcome.out, std::regex(method + ",[^\n]*" + scores + "\n")))
+        << scores << " in " << outcome.out;
   }
 }
 

@@ -10,6 +10,7 @@ namespace mapscore::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// The replaying half, which needs no simulator, through every verb.
 class TinySweep : public TinyStudy {
@@ -59,6 +60,46 @@ TEST_F(TinySweep, TakesAStudyInTheWorkingFolder) {
 
 TEST_F(TinySweep, TableKnowsOnlyTheClassesThatWereScored) {
   expect_refused(mapscore({"table", results(), "--class", "wall"}), {"wall", "pooled", "crate"});
+}
+
+TEST_F(TinySweep, TableHasRowsAndColumnsAsAsked) {
+  const Outcome table = mapscore({"table", results(), "--columns", "method", "--format", "csv"});
+  expect_done(table);
+  EXPECT_THAT(table.out,
+              ::testing::StartsWith("magnitude_m,direct,direct low,direct high,erosion"));
+  EXPECT_THAT(mapscore({"table", results(), "--where", "magnitude_m=0.030", "--method", "erosion",
+                        "--rows", "class", "--metric", "precision,recall", "--format", "markdown"})
+                  .out,
+              HasSubstr("| class | precision | recall |\n| --- | --- | --- |\n| crate | "));
+  const Outcome tidy = mapscore({"table", results(), "--tidy", "--method", "direct"});
+  EXPECT_THAT(tidy.out, AllOf(HasSubstr("\ntrial,direct,"), Not(HasSubstr("erosion"))));
+  const auto refused = [&](const std::vector<std::string>& flags,
+                           const std::vector<std::string>& parts) {
+    std::vector<std::string> command{"table", results()};
+    command.insert(command.end(), flags.begin(), flags.end());
+    expect_refused(mapscore(command), parts);
+  };
+  refused({"--where", "magnitud_m=0"}, {"is not swept", "'magnitude_m'"});
+  refused({"--where", "magnitude_m=0.01"}, {"no such value", "0, 0.03"});
+  refused({"--method", "errosion"}, {"'erosion'"});
+  refused({"--metric", "f2"}, {"'f1'"});
+  refused({"--rows", "methods"}, {"'method'"});
+  refused({"--tidy", "--rows", "method"}, {"--tidy", "--rows"});
+}
+
+TEST_F(TinySweep, TitlesStandInPapersAndChangeNoResult) {
+  replace("study.yaml", "erosion: {", "erosion: {title: \"Erosion_2 & more\", ");
+  replace("study.yaml", "methods:", "class_titles: {crate: box}\nmethods:");
+  const Outcome again = mapscore({"sweep", study(), "-o", results()});
+  expect_done(again);
+  EXPECT_THAT(again.err, HasSubstr("0 trials computed, 10 already there"));
+  const Outcome tex = mapscore({"table", results(), "--rows", "method,class", "--columns",
+                                "magnitude_m", "--class", "crate", "--format", "tex"});
+  expect_done(tex);
+  EXPECT_THAT(tex.out, AllOf(HasSubstr("method & class & 0 mm & 30 mm \\\\"),
+                             HasSubstr("\nErosion\\_2 \\& more & box & ")));
+  replace("study.yaml", "crate: box", "crat: box");
+  expect_refused(mapscore({"sweep", study(), "-o", results()}), {"class_titles", "'crate'"});
 }
 
 TEST_F(TinySweep, TwoSweptPathsThatEndAlikeKeepAColumnEach) {

@@ -97,6 +97,20 @@ def as_a_study_name(case, name, full):
     frames_of(case, case.at("study.yaml"))
 
 
+def as_a_title(case, name, full):
+    """Of a class and of a method."""
+    tiny.write_recording(case.at("recording"))
+    title = tiny.in_yaml(name.text)
+    study = case.at("study.yaml")
+    tiny.write(study, (tiny.STUDY % b"recording").replace(b"direct: {", b"direct: {title: " + title + b", ", 1) +
+               b"class_titles: {crate: " + title + b"}\n")
+    sweep_and_show(case, study, (), full)
+    for form in ("markdown", "tex"):
+        case.run("table", case.out("results"), "--rows", "class,method", "--format", form)
+    case.run("figures", case.out("results"), "--no-pictures", "--width_mm", "85", "--grey")
+    frames_of(case, study)
+
+
 def as_a_method(case, name, _):
     tiny.write_recording(case.at("recording"))
     tiny.write(case.at("study.yaml"), b"recording: recording\nmethods:\n  ? " + tiny.in_yaml(name.text) +
@@ -259,9 +273,9 @@ def in_flags(case, name, _):
         case.run("compare", case.out("r"), "direct", "erosion", b"--metric=" + text)
 
 
-SINGLE = {"study name": as_a_study_name, "method": as_a_method, "study file": as_a_study_file,
+SINGLE = {"study name": as_a_study_name, "title": as_a_title, "method": as_a_method, "study file": as_a_study_file,
           "scene file": as_a_scene_file, "recording folder": as_a_recording_folder, "results folder": as_a_results_folder,
           "map file": as_a_map_file, "store": in_a_store, "comments of maps": in_comments, "image": as_an_image,
           "objects": in_objects, "flags": in_flags}
 NEEDS_A_FILE_NAME = {"study file", "scene file", "recording folder", "results folder", "map file", "image"}
-QUICK = {"study name", "recording folder", "store"}
+QUICK = {"study name", "title", "recording folder", "store"}

@@ -6,6 +6,8 @@
 #include "eval/report/figures/font.hpp"
 #include "files/text.hpp"
 
+#include <fmt/format.h>
+
 #include <iostream>
 
 namespace mapscore::eval {
@@ -14,8 +16,7 @@ void FigureFlags::add_to(CLI::App& verb) {
   verb.add_option("--width_mm", style_.width_mm,
                   "Width of every figure in print, 60 to 400 [as its panels need]")
       ->group("Figures");
-  verb.add_option("--font", style_.font, "Font of the figures")
-      ->capture_default_str()
+  verb.add_option("--font", font_, fmt::format("Font of the figures [{}]", style_.font))
       ->group("Figures");
   auto* no_caption =
       verb.add_flag("--no_caption", no_caption_, "Nothing below the legend")->group("Figures");
@@ -27,10 +28,11 @@ void FigureFlags::add_to(CLI::App& verb) {
 
 FigureStyle FigureFlags::style() const {
   FigureStyle style = style_;
+  style.font = font_.value_or(style.font);
   style.caption = !no_caption_;
   style.check();
-  if (const auto other = substitute_font(style.font))
-    std::cerr << "mapscore: --font " << style.font << " is not installed: PNG and PDF have "
+  if (const auto other = font_ ? substitute_font(*font_) : std::nullopt)
+    std::cerr << "mapscore: --font " << *font_ << " is not installed: PNG and PDF have "
               << shown(*other) << ", an SVG what its reader has\n";
   return style;
 }

@@ -7,6 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
+#include <string>
+
 namespace mapscore::eval {
 
 /// Flags of verbs that draw figures: how these are set.
@@ -16,7 +19,8 @@ struct FigureFlags {
   [[nodiscard]] FigureStyle style() const;
 
  private:
-  FigureStyle style_;  ///< but for the caption
+  FigureStyle style_;  ///< but for font and caption
+  std::optional<std::string> font_;
   bool no_caption_ = false;
 };
 

@@ -98,7 +98,7 @@ class SearchMarks {
 Panel panel_of(const Study& study, const ToleranceAim& aim, const ToleranceRow& row) {
   return {class_title(study, row.group),
           row.axis.title(),
-          aim.target ? aim.metric : "change of " + aim.metric,
+          (aim.target ? "" : "change of ") + metric_text(aim.metric, Reader::paper),
           true,
           {"unset object; unset arrow",
            fmt::format("set xrange [{:.9g}:{:.9g}]", row.search.low * row.axis.at.front(),
