@@ -11,13 +11,9 @@ std::vector<Eigen::Vector3d> points_behind(const cv::Mat1b& mask, const PixelBox
                                            const RegisteredCloud& cloud) {
   std::vector<Eigen::Vector3d> points;
   points.reserve(static_cast<std::size_t>(cv::countNonZero(mask)));
-  for (int v = 0; v < mask.rows; ++v) {
-    const std::uint8_t* inside = mask[v];
-    const int* sources = cloud.sources()[v + box.v_min] + box.u_min;
-    for (int u = 0; u < mask.cols; ++u)
-      if (inside[u] && sources[u] != RegisteredCloud::kNone)
-        points.push_back(cloud.point(sources[u]));
-  }
+  for (int v = 0; v < mask.rows; ++v)
+    cloud.append_points(box.u_min, box.v_min + v, {mask[v], static_cast<std::size_t>(mask.cols)},
+                        points);
   return points;
 }
 

@@ -259,6 +259,22 @@ bool has_size(const cv::Mat& image, const CameraModel& camera) {
 RegisteredCloud::RegisteredCloud(cv::Mat1w depth, const CameraModel& depth_camera, cv::Mat1i source)
     : depth_(std::move(depth)), rays_(depth_camera), source_(std::move(source)) {}
 
+void RegisteredCloud::append_points(int u, int v, std::span<const std::uint8_t> inside,
+                                    std::vector<Eigen::Vector3d>& points) const {
+  const int* sources = source_[v] + u;
+  int row = 0, first = 0;  // of the depth image; neighbours mostly see the same one
+  for (std::size_t n = 0; n < inside.size(); ++n) {
+    const int source = sources[n];
+    if (inside[n] == 0 || source == kNone) continue;
+    if (source < first || source - first >= depth_.cols) {
+      row = source / depth_.cols;
+      first = row * depth_.cols;
+    }
+    points.push_back(
+        rays_.point(source - first, row, depth_(row, source - first) / kDepthUnitsPerMetre));
+  }
+}
+
 RegisteredCloud register_depth(const cv::Mat1w& depth, const Calibration& believed,
                                const cv::Mat1b& wanted) {
   check(believed);

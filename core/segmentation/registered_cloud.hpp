@@ -9,6 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace mapscore {
@@ -35,6 +37,9 @@ class RegisteredCloud {
     const int v = depth_pixel / depth_.cols, u = depth_pixel % depth_.cols;
     return rays_.point(u, v, depth_(v, u) / kDepthUnitsPerMetre);
   }
+  /// Appends the points behind the pixels (u, v), (u + 1, v), ... that are `inside` (not 0).
+  void append_points(int u, int v, std::span<const std::uint8_t> inside,
+                     std::vector<Eigen::Vector3d>& points) const;
 
  private:
   cv::Mat1w depth_;

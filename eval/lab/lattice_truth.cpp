@@ -4,6 +4,7 @@
 #include "eval/lab/lattice_truth.hpp"
 
 #include "core/parallel.hpp"
+#include "eval/lab/detected_samples.hpp"
 #include "eval/score/distances/thin_score.hpp"
 #include "eval/score/voxel_score.hpp"
 
@@ -44,16 +45,10 @@ struct Sampler {
 
   /// Samples of the detected classes in the map frame.
   void append(const Frame& frame, const Pose& T_map_depth, SampleCollector& points) const {
-    for (int v = 0; v < frame.depth.rows; ++v) {
-      for (int u = 0; u < frame.depth.cols; ++u) {
-        const ClassId class_id = table.class_of(frame.depth_label(v, u));
-        const double z = frame.depth(v, u) / kDepthUnitsPerMetre;
-        if (!table.detected(class_id) || z == 0.0 || z < calibration.range_min_m ||
-            z > calibration.range_max_m)
-          continue;
-        points.add(class_id, T_map_depth * calibration.depth.back_project(u, v, z));
-      }
-    }
+    for_each_detected_sample(frame, calibration, table,
+                             [&](ClassId class_id, const Eigen::Vector3d& p_depth) {
+                               points.add(class_id, T_map_depth * p_depth);
+                             });
   }
 };
 

@@ -4,6 +4,7 @@
 #include "eval/lab/trial_run.hpp"
 
 #include "core/refinement/map_refinement.hpp"
+#include "eval/lab/detected_samples.hpp"
 #include "eval/score/instances/instance_score.hpp"
 
 namespace mapscore::eval {
@@ -87,15 +88,10 @@ void TrialRun::count(const std::vector<Segment>& segments,
 
 Observation TrialRun::observe_truth(const Frame& frame) const {
   Observation observation;
-  for (int v = 0; v < frame.depth.rows; ++v) {
-    for (int u = 0; u < frame.depth.cols; ++u) {
-      const ClassId class_id = table_.class_of(frame.depth_label(v, u));
-      const double z = frame.depth(v, u) / kDepthUnitsPerMetre;
-      if (!table_.detected(class_id) || z == 0.0 || z < true_.range_min_m || z > true_.range_max_m)
-        continue;
-      object_of(class_id, observation).positions.push_back(true_.depth.back_project(u, v, z));
-    }
-  }
+  for_each_detected_sample(frame, true_, table_,
+                           [&](ClassId class_id, const Eigen::Vector3d& p_depth) {
+                             object_of(class_id, observation).positions.push_back(p_depth);
+                           });
   return observation;
 }
 

@@ -27,11 +27,8 @@ std::int32_t floor_index(double a) {
   return truncated - (a < truncated);
 }
 
-/// Voxels of one row of the depth image, one entry a column.
-struct VoxelRow {
-  explicit VoxelRow(int width) : i(width), j(width), k(width) {}
-  std::vector<std::int32_t> i, j, k;
-};
+/// In place of a packed key: no sample.
+constexpr std::uint64_t kNoSample = ~std::uint64_t{0};
 
 /// Smallest and largest raw depth value within the range.
 struct RawRange {
@@ -52,20 +49,22 @@ struct RawRange {
 [[gnu::target_clones("default", "avx2", "avx512f")]]
 #endif
 void place_row(const std::uint16_t* depth, const DepthRays& rays, int v, const Pose& T_map_depth,
-               double edge_m, VoxelRow& row) {
+               double edge_m, const RawRange& range, std::uint64_t* keys) {
   const Eigen::Matrix3d R = T_map_depth.linear();
   const Eigen::Vector3d t = T_map_depth.translation();
   const int width = static_cast<int>(rays.x().size());
   const double* ray_x = rays.x().data();
   const double ray_y = rays.y()[v];
-  std::int32_t *i = row.i.data(), *j = row.j.data(), *k = row.k.data();
+  const int low = range.low, high = range.high;
   for (int u = 0; u < width; ++u) {
     const double z = depth[u] / kDepthUnitsPerMetre;
     const double x = z * ray_x[u];
     const double y = z * ray_y;
-    i[u] = floor_index((R(0, 0) * x + R(0, 1) * y + R(0, 2) * z + t.x()) / edge_m);
-    j[u] = floor_index((R(1, 0) * x + R(1, 1) * y + R(1, 2) * z + t.y()) / edge_m);
-    k[u] = floor_index((R(2, 0) * x + R(2, 1) * y + R(2, 2) * z + t.z()) / edge_m);
+    const std::uint64_t key =
+        pack({floor_index((R(0, 0) * x + R(0, 1) * y + R(0, 2) * z + t.x()) / edge_m),
+              floor_index((R(1, 0) * x + R(1, 1) * y + R(1, 2) * z + t.y()) / edge_m),
+              floor_index((R(2, 0) * x + R(2, 1) * y + R(2, 2) * z + t.z()) / edge_m)});
+    keys[u] = depth[u] >= low && depth[u] <= high ? key : kNoSample;
   }
 }
 
@@ -111,22 +110,16 @@ void SampleCounter::add(const Frame& frame, const Calibration& true_calibration,
   check(frame, true_calibration, T_map_depth, edge_m_);
   const DepthRays rays(true_calibration.depth);
   const RawRange range(true_calibration);
-  VoxelRow row(frame.depth.cols);
+  std::vector<std::uint64_t> keys(static_cast<std::size_t>(frame.depth.cols));
   for (int v = 0; v < frame.depth.rows; ++v) {
-    const std::uint16_t* depth = frame.depth[v];
     const std::uint16_t* label = frame.depth_label[v];
-    place_row(depth, rays, v, T_map_depth, edge_m_, row);
-    const auto within = [&](int u) { return depth[u] >= range.low && depth[u] <= range.high; };
+    place_row(frame.depth[v], rays, v, T_map_depth, edge_m_, range, keys.data());
     // Neighbours mostly share voxel and instance, so the table is asked once a run.
-    for (int u = 0; u < frame.depth.cols;) {
-      const int first = u++;
-      if (!within(first)) continue;
-      while (u < frame.depth.cols && within(u) && label[u] == label[first] &&
-             row.i[u] == row.i[first] && row.j[u] == row.j[first] && row.k[u] == row.k[first]) {
-        ++u;
-      }
-      count(pack({row.i[first], row.j[first], row.k[first]}), table.class_of(label[first]),
-            static_cast<std::uint32_t>(u - first));
+    for (std::size_t u = 0; u < keys.size();) {
+      const std::size_t first = u++;
+      while (u < keys.size() && keys[u] == keys[first] && label[u] == label[first]) ++u;
+      if (keys[first] != kNoSample)
+        count(keys[first], table.class_of(label[first]), static_cast<std::uint32_t>(u - first));
     }
   }
 }
