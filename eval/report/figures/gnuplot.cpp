@@ -4,23 +4,16 @@
 #include "eval/report/figures/gnuplot.hpp"
 
 #include "core/error.hpp"
+#include "files/command.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <fstream>
+#include <sstream>
 
 namespace mapscore::eval {
 namespace {
 
-constexpr const char* kLog = "gnuplot.log";
-
 /// The first line that says something but a warning.
-std::string first_words(const std::filesystem::path& log) {
-  std::ifstream stream(log);
+std::string first_words(const std::string& log) {
+  std::istringstream stream(log);
   for (std::string line; std::getline(stream, line);)
     if (const std::size_t start = line.find_first_not_of(" \t^");
         start != std::string::npos && line.find("arning:") == std::string::npos)
@@ -31,25 +24,11 @@ std::string first_words(const std::filesystem::path& log) {
 }  // namespace
 
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
-  std::string program = "gnuplot", no_startup_files = "-d", argument = script;
-  char* arguments[] = {program.data(), no_startup_files.data(), argument.data(), nullptr};
-  posix_spawn_file_actions_t actions;  // what the child does before it becomes gnuplot
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, kLog, O_WRONLY | O_CREAT | O_TRUNC,
-                                   0644);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = 0;
-  const int problem = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (problem != 0) throw Error("gnuplot: not found; install gnuplot-nox");
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+  if (!program_on_path("gnuplot")) throw Error("gnuplot: not found; install gnuplot-nox");
+  const CommandOutcome outcome = run_command({"gnuplot", "-d", script}, folder);
+  if (outcome.exit_code != 0)
     throw Error(
-        script + ": gnuplot failed: " + first_words(folder / kLog) +
+        script + ": gnuplot failed: " + first_words(outcome.err) +
         "; check the free space, and that gnuplot is 5.2 or later with cairo (gnuplot-nox)");
 }
 
