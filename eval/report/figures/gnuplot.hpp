@@ -8,7 +8,7 @@
 
 namespace mapscore::eval {
 
-/// Runs `gnuplot SCRIPT` in `folder`; Throws Error, with its first words, when
+/// Runs `gnuplot SCRIPT` in `folder`. Throws Error when
 /// gnuplot is not installed, or fails (with the first line that it said).
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script);
 
