@@ -47,7 +47,7 @@ TEST_F(Summary, EstimatesAreOfThePooledCounts) {
 TEST_F(Summary, IsRefusedWhileTrialsAreMissing) {
   expect_error("run `mapscore sweep` first", [&] { (void)summarise_store(results()); });
   sweep(1, 2);
-  expect_error("1 of 3 trials are not there yet; run `mapscore sweep STUDY -o",
+  expect_error("2 of 3 trials are not there yet; run `mapscore sweep STUDY -o",
                [&] { (void)summarise_store(results()); });
   sweep(2, 2);
   EXPECT_THAT(summarise_store(results()).trials, SizeIs(2));
