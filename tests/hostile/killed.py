@@ -57,12 +57,12 @@ class Sweep:
                 raise SystemExit(f"the sweep ended with {outcome.code} alone: {shown(outcome.err)}")
             self.trials, self.csv, self.bytes = self.stored(), self.table(), disk.used()
 
-    def start(self, command=(), jobs=None):
+    def start(self, command=(), jobs=None, flags=("-q",)):
         jobs = jobs or self.chance.choice((1, 2))
-        return self.program.start([*self.command, "-j", str(jobs)], self.work, command=command)
+        return self.program.start([*self.command, "-j", str(jobs), *flags], self.work, command=command)
 
     def go_on(self):
-        return self.program.wait(self.start())
+        return self.program.wait(self.start(flags=()))
 
     def some_time(self, share=1.0):
         time.sleep(self.chance.uniform(0.0, share * self.seconds))
