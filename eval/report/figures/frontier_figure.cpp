@@ -85,7 +85,8 @@ FigureSheet frontier_figure(const Study& study, const ToleranceAim& aim,
         Panel{class_title(study, group), first.second->axis.title(), first.axis.title()});
     const double left = first.second->axis.at.front();
     const double right = lines.begin()->second.back()->second->axis.at.front();
-    panel.settings = {"set xtics autofreq; set ytics autofreq",
+    panel.settings = {style.width_mm ? "" : "set ylabel offset 0,0",
+                      "set xtics autofreq; set ytics autofreq",
                       fmt::format("set xrange [{:.9g}:{:.9g}]", left - kSideMargin * (right - left),
                                   right + kSideMargin * (right - left)),
                       fmt::format("set yrange [{:.9g}:{:.9g}]", first.search.low * unit,
@@ -103,7 +104,8 @@ FigureSheet frontier_figure(const Study& study, const ToleranceAim& aim,
   sheet.panel_width_in = sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in);
   sheet.caption = fmt::format(
       "{}: largest dose of the one fault at which {} under the dose of the other along x, voxels "
-      "of {:.6g} cm. Bars: 95 % interval. Triangles: beyond the range.",
+      "of {:.6g} cm. Bars: 95 % interval, to the end of the range where it is open. Triangles: "
+      "beyond the range.",
       study.name, aim.text(), 100.0 * study.voxel_m);
   return sheet;
 }
