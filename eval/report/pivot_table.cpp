@@ -272,6 +272,11 @@ bool places(const PivotQuestion& question, const std::string& dimension) {
 }
 
 Table pivot_table(const StudySummary& summary, const PivotQuestion& question, Reader reader) {
+  if (points_of(summary.study.sampling) > 0)
+    throw Error(
+        "the points of this study lie over ranges, so its paths have no values to share rows or "
+        "columns; leave --rows, --columns, --metric, --spread and further classes out, or ask for "
+        "--tidy");
   return Pivot(summary, question, reader).table();
 }
 

@@ -26,8 +26,8 @@ struct PivotQuestion {
 /// Figures pooled over the seeds. Without rows, all dimensions of several values but those of the
 /// columns stand there; without columns, those but the rows', or the metric. What has one value is
 /// told in the caption. A program gets the spread in any case, and what it is in the last column.
-/// Throws Error for an unknown dimension, group or metric, one that stands twice, and a dimension
-/// of several values without a place.
+/// Throws Error for an unknown dimension, group or metric, one that stands twice, a dimension of
+/// several values without a place, and a study whose points lie over ranges.
 [[nodiscard]] Table pivot_table(const StudySummary& summary, const PivotQuestion& question,
                                 Reader reader = Reader::terminal);
 

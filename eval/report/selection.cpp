@@ -17,6 +17,14 @@
 namespace mapscore::eval {
 namespace {
 
+/// Values of a swept path that cells have: the listed ones, or those of points over its range.
+std::vector<std::string> values_of(const Study& study, std::size_t axis) {
+  if (points_of(study.sampling) == 0) return study.sweep[axis].values;
+  std::set<std::string> values;
+  for (const Cell& cell : cells(study)) values.insert(cell.doses[axis].second);
+  return {values.begin(), values.end()};
+}
+
 /// Values that are wanted of each swept path; one that is not asked for has none.
 std::vector<std::set<std::string>> wanted_values(const Study& study,
                                                  const std::vector<std::string>& where) {
@@ -35,9 +43,10 @@ std::vector<std::set<std::string>> wanted_values(const Study& study,
     Study probe = study;  // 0.010 is 0.01
     set_leaf(probe, swept.path, text.substr(equals + 1));
     const std::string value = leaf_text(probe, swept.path);
-    if (std::ranges::count(swept.values, value) == 0)
+    const std::vector<std::string> values = values_of(study, *axis);
+    if (std::ranges::count(values, value) == 0)
       throw Error(fmt::format("--where {}: {} has no such value; there are: {}", text, swept.path,
-                              fmt::join(swept.values, ", ")));
+                              fmt::join(values, ", ")));
     wanted[*axis].insert(value);
   }
   return wanted;

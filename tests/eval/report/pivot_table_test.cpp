@@ -114,6 +114,17 @@ TEST(PivotTable, OfAnUnfinishedSweepWhatIsNotThereIsUndefined) {
   EXPECT_THAT(table.rows[0], ElementsAre("0", "0", "-", "0.935"));
 }
 
+TEST(PivotTable, OfPointsOverRangesThereIsNone) {
+  Study study = synthetic_study({"direct"}, {kShiftDoses}, 1);
+  study.sampling = Sobol{3};  // at 0, 0.005 and 0.0075
+  const StudySummary summary = synthetic_summary(std::move(study));
+  EXPECT_THAT(selected(summary, {{"magnitude_m=0.0050"}, {}}).trials, SizeIs(1));
+  expect_error("has no such value; there are: 0, 0.005, 0.0075", [&] {
+    (void)selected(summary, {{"magnitude_m=0.01"}, {}});
+  });
+  expect_error("ask for --tidy", [&] { (void)pivot_table(summary, asked({}, {"method"})); });
+}
+
 TEST(PivotTable, RefusesWhatIsNotThereWithTheNearest) {
   const auto refuse = [](const std::string& part, const Selection& selection,
                          const PivotQuestion& question) {
