@@ -129,11 +129,8 @@ class CurveFigure {
   }
 
   [[nodiscard]] FigureSheet finish(const std::string& caption) {
-    const double low =
-        layout_.bars() ? 0.0 : std::max(0.0, std::floor(10.0 * (least_ - 0.01)) / 10.0);
-    for (Panel& panel : sheet_.panels)
-      panel.settings.push_back(fmt::format("set yrange [{:.2f}:{:.3f}]; set ytics {}", low,
-                                           1.0 + 0.03 * (1.0 - low), low < 0.45 ? 0.2 : 0.1));
+    const std::string settings = score_settings(layout_.bars() ? 0.0 : least_);
+    for (Panel& panel : sheet_.panels) panel.settings.push_back(settings);
     add_legend();
     sheet_.caption = caption + layout_.columns_caption();
     return std::move(sheet_);
@@ -225,6 +222,12 @@ std::vector<std::string> number_settings(const FigureAxis& x, double width_in) {
   const double padding = *high > *low ? kXPadding * (*high - *low) : 0.5;
   return {fmt::format("set xrange [{:.9g}:{:.9g}]", *low - padding, *high + padding),
           fmt::format("set xtics {:.9g}", tic_step(*high - *low, width_in))};
+}
+
+std::string score_settings(double least) {
+  const double low = std::max(0.0, std::floor(10.0 * (least - 0.01)) / 10.0);
+  return fmt::format("set yrange [{:.2f}:{:.3f}]; set ytics {}", low, 1.0 + 0.03 * (1.0 - low),
+                     low < 0.45 ? 0.2 : 0.1);
 }
 
 std::string figure_number(const std::optional<double>& value) {

@@ -38,6 +38,9 @@ inline constexpr const char* kCeilingsCaption =
 /// `set` lines of an axis of numbers.
 [[nodiscard]] std::vector<std::string> number_settings(const FigureAxis& x, double width_in);
 
+/// `set` line of an axis of scores from the least one to 1.
+[[nodiscard]] std::string score_settings(double least);
+
 /// A figure in the data file: `-` where undefined.
 [[nodiscard]] std::string figure_number(const std::optional<double>& value);
 

@@ -97,9 +97,7 @@ FigureSheet frontier_figure(const Study& study, const ToleranceAim& aim,
                    ((static_cast<double>(n) + 0.5) / static_cast<double>(curves.size()) - 0.5));
   }
   for (const Curve& curve : curves)
-    sheet.add_legend(fmt::format("linespoints pt {} ps 0.8 lw 1.4 dt {} lc rgb '{}'", curve.point,
-                                 curve.dash, curve.colour),
-                     curve.name);
+    sheet.add_legend("linespoints " + curve.line_with_points(0.8), curve.name);
   sheet.columns = static_cast<int>(std::min<std::size_t>(3, sheet.panels.size()));
   sheet.panel_width_in = sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in);
   sheet.caption = fmt::format(

@@ -106,6 +106,14 @@ std::string palette_colour(std::size_t n) {
   return std::string(kColours[n % kColours.size()]);
 }
 
+std::string Curve::line() const {
+  return fmt::format("lw 1.4 dt {} lc rgb '{}'", dash, colour);
+}
+
+std::string Curve::line_with_points(double size) const {
+  return fmt::format("pt {} ps {} {}", point, size, line());
+}
+
 Curve curve_of(const Study& study, const std::string& method, std::size_t n,
                const FigureStyle& style) {
   return {method_title(study, method),

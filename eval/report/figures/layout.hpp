@@ -24,6 +24,11 @@ struct Curve {
   std::string colour;    ///< #rrggbb of Okabe and Ito's palette, made for colour-blind readers too
   int point = 7;         ///< gnuplot's point type
   std::string dash = "1";  ///< gnuplot's dash type
+
+  /// "lw 1.4 dt 1 lc rgb '#0072B2'".
+  [[nodiscard]] std::string line() const;
+  /// The same with its marks: "pt 7 ps 0.8 lw 1.4 ...".
+  [[nodiscard]] std::string line_with_points(double size) const;
 };
 
 /// The n-th colour of the figures: #rrggbb of Okabe and Ito's palette, over again after seven.

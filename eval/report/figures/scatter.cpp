@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <string>
 
@@ -21,7 +20,6 @@ using XY = std::vector<std::pair<double, double>>;
 using ShownScore = std::pair<const char*, const char*>;  ///< metric and title
 constexpr std::array<ShownScore, 3> kShownScores{
     {{"precision", "precision"}, {"recall", "recall"}, {"f1", "F1"}}};
-constexpr std::array<int, 6> kMarks{7, 5, 9, 13, 11, 15};
 constexpr double kLeastOfThree_in = 1.7;  ///< so that a path's title stands on one line
 constexpr double kShareOfMean = 0.125;    ///< of all points
 constexpr std::size_t kLeastOfMean = 5;
@@ -76,6 +74,8 @@ class ScatterFigure {
     if (style.columns(3, kLeastOfThree_in) < 3) scores_ = {kShownScores.back()};
     sheet_.columns = static_cast<int>(scores_.size());
     sheet_.panel_width_in = style.panel_width_in(sheet_.columns, sheet_.least_panel_in);
+    for (const MethodSettings& method : summary.study.methods)
+      curves_.push_back(curve_of(summary.study, method.name, curves_.size(), style));
   }
 
   void add_row(const SampledAxis& axis) {
@@ -83,22 +83,17 @@ class ScatterFigure {
     for (const auto& [metric, title] : scores_) {
       const bool first = metric == scores_.front().first;
       Panel panel{title, axis.shown().title(), first ? "score" : "", first, settings};
-      const auto& methods = summary_.study.methods;
-      for (std::size_t m = 0; m < methods.size(); ++m)
-        add_method(panel, fmt::format("{} {}; {}", title, axis.shown().key, methods[m].name),
-                   points_of_method(axis, methods[m].name, metric), m, axis.shown().numeric);
+      for (const Curve& curve : curves_)
+        add_method(panel, fmt::format("{} {}; {}", title, axis.shown().key, curve.method),
+                   points_of_method(axis, curve.method, metric), curve, axis.shown().numeric);
       sheet_.panels.push_back(std::move(panel));
     }
   }
 
   [[nodiscard]] FigureSheet finish() {
-    const double low = std::max(0.0, std::floor(10.0 * (least_ - 0.01)) / 10.0);
-    for (Panel& panel : sheet_.panels)
-      panel.settings.push_back(fmt::format("set yrange [{:.2f}:{:.3f}]; set ytics {}", low,
-                                           1.0 + 0.03 * (1.0 - low), low < 0.45 ? 0.2 : 0.1));
-    for (std::size_t m = 0; m < summary_.study.methods.size(); ++m)
-      sheet_.add_legend(fmt::format("linespoints ps 0.6 {}", look(m)),
-                        summary_.study.methods[m].name);
+    for (Panel& panel : sheet_.panels) panel.settings.push_back(score_settings(least_));
+    for (const Curve& curve : curves_)
+      sheet_.add_legend("linespoints " + curve.line_with_points(0.6), curve.name);
     sheet_.caption =
         study_caption(summary_) +
         fmt::format(
@@ -111,13 +106,6 @@ class ScatterFigure {
  private:
   [[nodiscard]] std::size_t points() const {
     return summary_.trials.size() / std::max<std::size_t>(1, summary_.study.methods.size());
-  }
-
-  [[nodiscard]] std::string look(std::size_t method) const {
-    const bool grey = sheet_.style.grey;
-    return fmt::format("pt {} lw 1.4 dt {} lc rgb '{}'", kMarks[method % kMarks.size()],
-                       grey ? grey_dash(method) : "1",
-                       grey ? grey_tone(method) : palette_colour(method));
   }
 
   std::vector<std::string> x_settings(const FigureAxis& x) {
@@ -148,22 +136,23 @@ class ScatterFigure {
     return of;
   }
 
-  void add_method(Panel& panel, const std::string& what, const XY& marks, std::size_t method,
+  void add_method(Panel& panel, const std::string& what, const XY& marks, const Curve& curve,
                   bool numeric) {
     if (marks.empty()) return;
-    panel.elements.push_back(fmt::format("{} using 1:2 with points ps 0.35 {} notitle",
-                                         block(what, marks), look(method)));
+    panel.elements.push_back(fmt::format("{} using 1:2 with points {} notitle", block(what, marks),
+                                         curve.line_with_points(0.35)));
     XY means = means_by_x(marks);  // names, and few whole numbers
     if (numeric && 2 * means.size() > marks.size())
       means = running_mean(marks, window_of(points()));
     if (means.empty()) return;
-    panel.elements.push_back(fmt::format("{} using 1:2 with {} {} notitle",
-                                         block(what + "; mean", means),
-                                         numeric ? "lines" : "points ps 1.2", look(method)));
+    panel.elements.push_back(
+        fmt::format("{} using 1:2 with {} notitle", block(what + "; mean", means),
+                    numeric ? "lines " + curve.line() : "points " + curve.line_with_points(1.2)));
   }
 
   const StudySummary& summary_;
   std::vector<ShownScore> scores_{kShownScores.begin(), kShownScores.end()};
+  std::vector<Curve> curves_;  ///< a method each
   FigureSheet sheet_;
   double least_ = 1.0;
 };

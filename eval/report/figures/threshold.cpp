@@ -50,12 +50,7 @@ class ThresholdFigure {
     sheet_.panel_width_in = sheet_.style.panel_width_in(sheet_.columns, sheet_.least_panel_in);
     sheet_.panel_height_in = kThresholdHeight_in;
     for (const Curve& curve : layout.curves())
-      sheet_.add_legend("linespoints " + style_of(curve), curve.name);
-  }
-
-  [[nodiscard]] static std::string style_of(const Curve& curve) {
-    return fmt::format("pt {} ps 0.8 lw 1.4 dt {} lc rgb '{}'", curve.point, curve.dash,
-                       curve.colour);
+      sheet_.add_legend("linespoints " + curve.line_with_points(0.8), curve.name);
   }
 
   /// Both axes from 0 to 1.
@@ -123,8 +118,7 @@ FigureSheet precision_recall_figure(const StudySummary& summary, const StudyLayo
                                figure_number(point.precision), point.threshold));
     const std::string mark = figure.block("at the working threshold", "recall precision");
     figure.write(figure_number(recall(counts)) + ' ' + figure_number(precision(counts)));
-    panel.elements.push_back(fmt::format("{} using 1:2 with lines lw 1.4 dt {} lc rgb '{}' notitle",
-                                         line, curve.dash, curve.colour));
+    panel.elements.push_back(fmt::format("{} using 1:2 with lines {} notitle", line, curve.line()));
     panel.elements.push_back(
         fmt::format("{} using 1:2 with points pt {} ps 1.1 lc rgb '{}' notitle", mark, curve.point,
                     curve.colour));
@@ -154,12 +148,12 @@ FigureSheet reliability_figure(const StudySummary& summary, const StudyLayout& l
                                    figure_number(bin.mean_probability),
                                    figure_number(bin.share_true)));
         panel.elements.push_back(fmt::format("{} using 5:6 with linespoints {} notitle", block,
-                                             ThresholdFigure::style_of(curve)));
+                                             curve.line_with_points(0.8)));
         const double offset = 0.1 / kReliabilityBins + (static_cast<double>(c) + 0.5) * bar;
         bars.push_back(
             layout.style().grey
                 ? fmt::format("{} using ($1+{}):4 with linespoints {} notitle", block,
-                              0.5 / kReliabilityBins, ThresholdFigure::style_of(curve))
+                              0.5 / kReliabilityBins, curve.line_with_points(0.8))
                 : fmt::format("{} using ($1+{:.5f}):4:({:.5f}) with boxes fs solid 1 noborder lc "
                               "rgb '{}' notitle",
                               block, offset, bar, curve.colour));

@@ -73,8 +73,7 @@ class SearchMarks {
                                  score - curve.half_width(dose), score + curve.half_width(dose));
     }
     panel_.elements.push_back(
-        fmt::format("{} using 1:2 with lines lw 1.4 dt {} lc rgb '{}' notitle", block, look_.dash,
-                    look_.colour));
+        fmt::format("{} using 1:2 with lines {} notitle", block, look_.line()));
   }
 
   void add_step(const DoseStep& step) {
@@ -85,8 +84,7 @@ class SearchMarks {
                     in_unit(row_.tolerance.points.front().dose), step.above, at, step.above, at,
                     step.below, in_unit(row_.tolerance.points.back().dose), step.below);
     panel_.elements.push_back(
-        fmt::format("{} using 1:2 with lines lw 1.4 dt {} lc rgb '{}' notitle", block, look_.dash,
-                    look_.colour));
+        fmt::format("{} using 1:2 with lines {} notitle", block, look_.line()));
   }
 
   FigureSheet& sheet_;
@@ -143,9 +141,7 @@ FigureSheet tolerance_figure(const Study& study, const ToleranceAim& aim,
     const auto [curve, is_new_method] =
         curves.try_emplace(row.method, curve_of(study, row.method, curves.size(), style));
     if (is_new_method)
-      sheet.add_legend(fmt::format("linespoints pt {} ps 0.6 lw 1.4 dt {} lc rgb '{}'",
-                                   curve->second.point, curve->second.dash, curve->second.colour),
-                       curve->second.name);
+      sheet.add_legend("linespoints " + curve->second.line_with_points(0.6), curve->second.name);
     SearchMarks(sheet, sheet.panels[panel->second], row, curve->second).add();
   }
   sheet.columns = static_cast<int>(std::min<std::size_t>(3, sheet.panels.size()));

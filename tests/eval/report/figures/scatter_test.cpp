@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,19 @@ TEST_F(FiguresTest, PointsOverRangesAreAScatterAPath) {
   EXPECT_THAT(block(sheet.data, "# precision preset; direct; mean"),
               ElementsAre("0 0.94", "1 0.91", "2 0.9"));
   EXPECT_THAT(sheet.caption, HasSubstr("Mean: of 5 neighbours"));
+}
+
+TEST_F(FiguresTest, ScattersTellEightMethodsApartByTheirTitles) {
+  Study study = synthetic_study({"a", "b", "c", "d", "e", "f", "g", "h"}, {kShift}, 1);
+  study.sampling = Sobol{5};
+  study.methods[7].title = "eighth";
+  const FigureSheet sheet = scatter_figure(synthetic_summary(std::move(study)));
+  ASSERT_EQ(sheet.legend.size(), 8u);
+  EXPECT_THAT(sheet.legend[7], HasSubstr("title 'eighth'"));
+  std::set<std::string> marks;
+  for (const std::string& entry : sheet.legend)
+    marks.insert(entry.substr(entry.find("pt "), entry.find(" ps") - entry.find("pt ")));
+  EXPECT_EQ(marks.size(), 8u);
 }
 
 TEST_F(FiguresTest, PointsOverRangesFitIntoPrint) {
