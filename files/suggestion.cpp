@@ -3,6 +3,8 @@
 
 #include "files/suggestion.hpp"
 
+#include "core/error.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -61,6 +63,12 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ch
   if (nearest == choices.end()) return "remove it";
   if (distance(*nearest) <= most_edits(word)) return fmt::format("did you mean '{}'?", *nearest);
   return fmt::format("write one of {}", fmt::join(choices, ", "));
+}
+
+void require_one_of(const std::vector<std::string>& choices, std::string_view word,
+                    std::string_view problem) {
+  if (std::ranges::find(choices, word) == choices.end())
+    throw Error(fmt::format("{}; {}", problem, suggestion(word, choices)));
 }
 
 std::string path_suggestion(const fs::path& missing, std::string_view otherwise) {

@@ -14,6 +14,10 @@ namespace mapscore {
 [[nodiscard]] std::string suggestion(std::string_view word,
                                      const std::vector<std::string>& choices);
 
+/// Throws Error with `problem` and a suggestion unless `word` is one of `choices`.
+void require_one_of(const std::vector<std::string>& choices, std::string_view word,
+                    std::string_view problem);
+
 /// "did you mean 'PATH'?" with what is there under nearly the name of the first part of `missing`
 /// that is not; `otherwise` where nothing is near. Never throws.
 [[nodiscard]] std::string path_suggestion(const std::filesystem::path& missing,

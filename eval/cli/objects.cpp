@@ -12,6 +12,7 @@
 #include "eval/report/table.hpp"
 #include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"
+#include "files/suggestion.hpp"
 
 #include <fmt/format.h>
 
@@ -62,12 +63,8 @@ TrialSpec spec_of(const Study& study, const ObjectFlags& flags) {
     throw Error(fmt::format("--seed {}: no such repetition; they are 0 to {}", flags.seed,
                             study.seeds - 1));
   const std::string method = flags.method.empty() ? study.methods.front().name : flags.method;
-  std::string names;
-  for (const MethodSettings& each : study.methods) {
-    if (each.name == method) return {0, method, {}, flags.seed};
-    names += ' ' + each.name;
-  }
-  throw Error(fmt::format("--method {}: no such method; there are:{}", method, names));
+  require_one_of(method_names(study), method, fmt::format("--method {}: no such method", method));
+  return {0, method, {}, flags.seed};
 }
 
 ObjectRunOptions options_of(const ObjectFlags& flags) {

@@ -50,9 +50,8 @@ TrialSpec spec_of(const Study& study, const RunFlags& flags) {
   for (const TrialSpec& spec : trials(study))
     if (spec.seed_index == flags.seed && (flags.method.empty() || spec.method == flags.method))
       return spec;
-  std::string names;
-  for (const MethodSettings& method : study.methods) names += " " + method.name;
-  throw Error(fmt::format("no trial of method '{}'; methods:{}", flags.method, names));
+  throw Error(fmt::format("no trial of method '{}'; methods: {}", flags.method,
+                          fmt::join(method_names(study), " ")));
 }
 
 std::string score_text(const TrialResult& result, const ClassTable& table) {

@@ -4,6 +4,7 @@
 #include "eval/report/comparison.hpp"
 
 #include "core/error.hpp"
+#include "files/suggestion.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,23 +17,15 @@ namespace mapscore::eval {
 namespace {
 
 void require(const char* what, const std::string& name, const std::vector<std::string>& known) {
-  if (std::ranges::find(known, name) == known.end())
-    throw Error(fmt::format("compare: no {} '{}' in this study; there are: {}", what, name,
-                            fmt::join(known, ", ")));
-}
-
-std::vector<std::string> methods_of(const StudySummary& summary) {
-  std::vector<std::string> names;
-  for (const auto& method : summary.study.methods) names.push_back(method.name);
-  return names;
+  require_one_of(known, name, fmt::format("compare: no {} '{}' in this study", what, name));
 }
 
 void check_methods(const StudySummary& summary, const ComparisonQuestion& question) {
   for (const std::string& method : {question.a, question.b})
-    require("method", method, methods_of(summary));
+    require("method", method, method_names(summary.study));
   if (question.a == question.b)
     throw Error(fmt::format("compare: '{}' with itself; give two of: {}", question.a,
-                            fmt::join(methods_of(summary), ", ")));
+                            fmt::join(method_names(summary.study), ", ")));
 }
 
 void check_figures(const StudySummary& summary, const ComparisonQuestion& question) {

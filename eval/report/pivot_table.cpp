@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "eval/report/axes.hpp"
 #include "files/suggestion.hpp"
-#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

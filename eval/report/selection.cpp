@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "eval/report/table.hpp"
 #include "files/suggestion.hpp"
-#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -69,19 +68,11 @@ std::vector<std::string> swept_names(const Study& study) {
   return names;
 }
 
-std::vector<std::string> method_names(const Study& study) {
-  std::vector<std::string> names;
-  for (const MethodSettings& method : study.methods) names.push_back(method.name);
-  return names;
-}
-
 StudySummary selected(StudySummary summary, const Selection& selection) {
   const std::vector<std::set<std::string>> wanted = wanted_values(summary.study, selection.where);
-  const std::vector<std::string> known = method_names(summary.study);
   for (const std::string& method : selection.methods)
-    if (std::ranges::count(known, method) == 0)
-      throw Error(
-          fmt::format("no method '{}' in this study; {}", method, suggestion(method, known)));
+    require_one_of(method_names(summary.study), method,
+                   fmt::format("no method '{}' in this study", method));
   const auto is_wanted = [&](const ResultLine& line) {
     for (std::size_t axis = 0; axis < wanted.size(); ++axis)
       if (!wanted[axis].empty() && !wanted[axis].contains(line.cell.doses[axis].second))

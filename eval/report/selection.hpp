@@ -16,7 +16,6 @@ namespace mapscore::eval {
 [[nodiscard]] std::optional<std::size_t> swept_axis(const Study& study, const std::string& name);
 /// What swept_axis takes.
 [[nodiscard]] std::vector<std::string> swept_names(const Study& study);
-[[nodiscard]] std::vector<std::string> method_names(const Study& study);
 
 /// What of a study is asked for. A swept path may be given by its last part.
 struct Selection {

@@ -8,7 +8,6 @@
 #include "eval/results/build_identity.hpp"
 #include "eval/results/study_store.hpp"
 #include "files/suggestion.hpp"
-#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -109,13 +108,6 @@ void check_all_there(const HeldTasks& held, const TaskList& tasks,
         results.string(), missing, tasks.size(), results.string()));
 }
 
-void check_groups(const std::vector<std::string>& wanted, const std::vector<std::string>& known) {
-  for (const std::string& group : wanted)
-    if (std::ranges::count(known, group) == 0)
-      throw Error(
-          fmt::format("class '{}': not scored in this study; {}", group, suggestion(group, known)));
-}
-
 /// How much of an unfinished sweep is there.
 std::string interim_note(const HeldTasks& held, const TaskList& tasks) {
   return fmt::format("INTERIM: {} of {} trials and ceilings are there; figures will change",
@@ -211,7 +203,9 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
   const TaskList& tasks = source->plan.tasks;
   const HeldTasks held = held_tasks(source->store, tasks);
   StudySummary summary{record.study, record.table, record.recording_hash, held.builds, {}, {}, {}};
-  check_groups(options.groups, summary.groups());
+  for (const std::string& group : options.groups)
+    require_one_of(summary.groups(), group,
+                   fmt::format("class '{}': not scored in this study", group));
   std::unordered_set<std::string> keys;
   if (options.interim && held.all < tasks.size()) {
     keys = source->store.keys();

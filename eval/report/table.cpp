@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "eval/report/axes.hpp"
 #include "files/suggestion.hpp"
-#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -79,8 +78,7 @@ void check_metric(const StudySummary& summary, const std::string& group,
   if (metrics.empty()) metrics = metrics_of_group(counts, summary.table, kPooled);
   std::vector<std::string> names{kBestF1, kBestThreshold};
   for (const Metric& known : metrics) names.push_back(known.name);
-  if (std::ranges::count(names, metric) == 0)
-    throw Error(fmt::format("no metric '{}' in this study; {}", metric, suggestion(metric, names)));
+  require_one_of(names, metric, fmt::format("no metric '{}' in this study", metric));
 }
 
 std::string column_of(const SweepAxis& axis, const std::vector<SweepAxis>& sweep) {

@@ -4,6 +4,7 @@
 #include "eval/results/study_store.hpp"
 
 #include "core/error.hpp"
+#include "files/suggestion.hpp"
 #include "files/text.hpp"
 #include "files/yaml_value.hpp"
 
@@ -81,9 +82,7 @@ void check_titles(const Study& study, const ClassTable& table) {
   for (const SemanticClass& c : table.classes)
     if (c.id != kBackground) names.push_back(c.name);
   for (const auto& [name, title] : study.class_titles)
-    if (std::ranges::count(names, name) == 0)
-      throw Error(
-          fmt::format("class_titles: there is no class '{}'; {}", name, suggestion(name, names)));
+    require_one_of(names, name, fmt::format("class_titles: there is no class '{}'", name));
 }
 
 ClassTable with_detected_set(const Study& study, ClassTable table) {

@@ -87,8 +87,7 @@ std::optional<std::vector<double>> numbers_of(const SweepAxis& axis) {
 
 LazyList<TrialSpec> trials(const Study& study) {
   const auto grid = std::make_shared<const std::vector<Cell>>(cells(study));
-  std::vector<std::string> methods;
-  for (const MethodSettings& method : study.methods) methods.push_back(method.name);
+  const std::vector<std::string> methods = method_names(study);
   const auto seeds = static_cast<std::size_t>(study.seeds);
   return {grid->size() * seeds * methods.size(), [grid, methods, seeds](std::size_t position) {
             const std::size_t seed = position / methods.size();

@@ -83,6 +83,12 @@ DrawnFusion fusion_of(const DrawnFusion& of_study, const MethodFusion& of_method
       of_method);
 }
 
+std::vector<std::string> method_names(const Study& study) {
+  std::vector<std::string> names;
+  for (const MethodSettings& method : study.methods) names.push_back(method.name);
+  return names;
+}
+
 std::string method_title(const Study& study, const std::string& name) {
   const auto method = std::ranges::find(study.methods, name, &MethodSettings::name);
   return method == study.methods.end() ? name : method->title.value_or(name);

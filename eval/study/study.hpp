@@ -241,6 +241,7 @@ void check(const Study& study);
 
 /// What a method or a class is called in figures, and in tables for papers: its title or else its
 /// name.
+[[nodiscard]] std::vector<std::string> method_names(const Study& study);
 [[nodiscard]] std::string method_title(const Study& study, const std::string& name);
 [[nodiscard]] std::string class_title(const Study& study, const std::string& name);
 

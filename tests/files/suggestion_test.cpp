@@ -3,7 +3,7 @@
 
 #include "files/suggestion.hpp"
 
-#include <gtest/gtest.h>
+#include "tests/support/expect_error.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -45,6 +45,13 @@ TEST_F(PathSuggestion, IsSilentWhereNothingIsNear) {
   EXPECT_EQ(of("demo.yaml/study"), "give one") << "below a file";
   EXPECT_EQ(of("results/demo/results.sqlite"), "give one") << "an empty folder";
   EXPECT_EQ(path_suggestion("", "give one"), "give one");
+}
+
+TEST(Suggestion, StandsBehindTheProblemOfANameThatIsNotThere) {
+  EXPECT_NO_THROW(require_one_of({"direct", "erosion"}, "erosion", "no method"));
+  testing::expect_error("no method 'errosion'; did you mean 'erosion'?", [] {
+    require_one_of({"direct", "erosion"}, "errosion", "no method 'errosion'");
+  });
 }
 
 }  // namespace

@@ -7,10 +7,10 @@
 #include "eval/cli/verbs.hpp"
 #include "eval/report/regression_report.hpp"
 #include "eval/results/build_identity.hpp"
+#include "files/suggestion.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iostream>
@@ -50,8 +50,7 @@ std::vector<std::string> metrics_in(const Baseline& baseline, const CheckFlags& 
     if (std::ranges::find(known, metric) != known.end())
       metrics.push_back(metric);
     else if (std::ranges::find(usual, metric) == usual.end())
-      throw Error(fmt::format("--metric {}: not in the baseline; there are: {}", metric,
-                              fmt::join(known, ", ")));
+      require_one_of(known, metric, fmt::format("--metric {}: not in the baseline", metric));
   }
   return metrics;
 }
@@ -62,9 +61,8 @@ void check_tolerances(const Tolerances& tolerances, const Baseline& baseline) {
   groups.insert(groups.end(), {std::string(kPooled), std::string(kMacro)});
   const std::vector<std::string> metrics = voxel_metrics(baseline);
   const auto require = [](const std::string& name, const std::vector<std::string>& known) {
-    if (!name.empty() && std::ranges::find(known, name) == known.end())
-      throw Error(fmt::format("--allow: '{}' is not in the baseline; there are: {}", name,
-                              fmt::join(known, ", ")));
+    if (!name.empty())
+      require_one_of(known, name, fmt::format("--allow: '{}' is not in the baseline", name));
   };
   for (const auto& [name, value] : tolerances.special) {
     require(name.first, groups);

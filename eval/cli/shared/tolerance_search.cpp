@@ -7,10 +7,10 @@
 #include "eval/cli/shared/progress.hpp"
 #include "eval/lab/runner.hpp"
 #include "eval/report/summary.hpp"
+#include "files/suggestion.hpp"
 #include "files/text_rows.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +22,7 @@ namespace {
 std::vector<std::string> chosen(const char* flag, const std::vector<std::string>& names,
                                 const std::vector<std::string>& known) {
   for (const std::string& name : names)
-    if (std::ranges::find(known, name) == known.end())
-      throw Error(fmt::format("{} {}: not in this study; there are: {}", flag, name,
-                              fmt::join(known, ", ")));
+    require_one_of(known, name, fmt::format("{} {}: not in this study", flag, name));
   return names.empty() ? known : names;
 }
 
@@ -178,13 +176,12 @@ std::vector<ToleranceRow> tolerance_searches(const Study& study, const ClassTabl
     throw Error(
         "sweep: is empty, so no fault has a range of doses; write one into the study, or --set "
         "sweep.faults.misregistration.magnitude_m=[0,0.04]");
-  std::vector<std::string> paths, methods, groups{std::string(kPooled), std::string(kMacro)};
+  std::vector<std::string> paths, groups{std::string(kPooled), std::string(kMacro)};
   for (const SweepAxis& axis : study.sweep)
     if (axis.path != choice.against) paths.push_back(axis.path);
   if (!choice.against.empty() && paths.size() == study.sweep.size()) {
     static_cast<void>(chosen("--against", {choice.against}, paths));
   }
-  for (const MethodSettings& method : study.methods) methods.push_back(method.name);
   for (const std::string& name : detected_names(table)) groups.push_back(name);
   std::vector<std::string> of_groups = choice.groups;
   if (of_groups.empty()) of_groups = {std::string(kPooled)};
@@ -200,7 +197,7 @@ std::vector<ToleranceRow> tolerance_searches(const Study& study, const ClassTabl
     check_alone(study, path, search, seconds);
     for (const auto& second : seconds)
       for (const std::string& group : chosen("--group", of_groups, groups))
-        for (const std::string& method : chosen("--method", choice.methods, methods))
+        for (const std::string& method : chosen("--method", choice.methods, method_names(study)))
           rows.push_back({path, axis, second, method, group, search, {}, {}});
   }
   return rows;

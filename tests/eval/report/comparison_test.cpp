@@ -139,9 +139,9 @@ TEST(Comparison, ListsWhatThereIs) {
   const auto error = [&](const std::string& part, const ComparisonQuestion& question) {
     expect_error(part, [&] { (void)comparison_table(summary, question); });
   };
-  error("no method 'guess' in this study; there are: direct, erosion", {"direct", "guess"});
+  error("no method 'guess' in this study; write one of direct, erosion", {"direct", "guess"});
   error("'direct' with itself; give two of: direct, erosion", {"direct", "direct"});
-  error("no group 'wall' in this study; there are: pooled, macro, cup, chair",
+  error("no group 'wall' in this study; write one of pooled, macro, cup, chair",
         {"direct", "erosion", "wall"});
   error("no metric 'F1' in this study; did you mean 'f1'?",
         {"direct", "erosion", "pooled", {"F1"}});
