@@ -78,8 +78,9 @@ CommandOutcome run_command(const std::vector<std::string>& words,
     throw Error(words.front() + ": cannot be started in " + folder.string() + ": " +
                 std::strerror(problem));
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR)
+      throw Error(words.front() + ": how it ended is not known: " + std::strerror(errno));
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), out.text(), err.text()};
 }
 

@@ -159,11 +159,7 @@ ChosenTrial trial_of_store(const RunFlags& flags) {
   StudyRecord record = read_study(store, file.parent_path());
   const Plan plan = plan_of(record.study, record.recording_hash);
   ListedTask listed = task_of_key(plan, flags.key, results);
-  const std::filesystem::path place = (file.parent_path() / record.recording).lexically_normal();
-  Recording recording = Recording::open(place);
-  if (recording.content_hash() != record.recording_hash)
-    throw Error(place.string() +
-                ": is another recording than that of the study's trials; sweep again");
+  Recording recording = recording_of(record, file.parent_path());
   Task task = plan.tasks[listed.task];
   auto stored = store.find(task.key);
   return {

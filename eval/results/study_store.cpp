@@ -137,6 +137,15 @@ StudyRecord read_study(const ResultStore& store, const std::filesystem::path& fo
               "); sweep again into another folder");
 }
 
+Recording recording_of(const StudyRecord& record, const std::filesystem::path& folder) {
+  const std::filesystem::path place = (folder / record.recording).lexically_normal();
+  Recording recording = Recording::open(place);
+  if (recording.content_hash() != record.recording_hash)
+    throw Error(place.string() +
+                ": is another recording than that of the study's trials; sweep again");
+  return recording;
+}
+
 ClassTable detected_table(const Study& study, ClassTable table) {
   refuse_reserved_names(table);
   check_titles(study, table);

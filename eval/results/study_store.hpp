@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "eval/recording/recording.hpp"
 #include "eval/results/store.hpp"
 #include "eval/study/study.hpp"
 
@@ -26,6 +27,11 @@ void write_study(ResultStore& store, const StudyRecord& record,
                  const std::filesystem::path& folder);
 /// Throws Error when the store holds none.
 [[nodiscard]] StudyRecord read_study(const ResultStore& store, const std::filesystem::path& folder);
+
+/// The recording that the record's trials were made on; `folder` is the store's. Throws Error when
+/// it is not there, or is another one now.
+[[nodiscard]] Recording recording_of(const StudyRecord& record,
+                                     const std::filesystem::path& folder);
 
 /// The class table of a recording with the study's `detect`. Throws Error when no class is
 /// detected, or naming a class that stands for all in tables ("pooled", "macro", "all") or is not

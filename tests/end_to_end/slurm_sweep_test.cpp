@@ -159,7 +159,8 @@ TEST_F(SlurmSweep, RefusesBeforeTheWork) {
   expect_refused(submit({"--shard", "1/2"}), {"--slurm", "leave --shard"});
   expect_refused(submit({"--merge_only"}), {"--slurm", "--merge_only"});
   expect_refused(submit({"--tasks", "0"}), {"--tasks"});
-  for (const char* option : {"--array=1-5", "-a1-5", "--dependency=singleton", "-W"})
+  for (const char* option :
+       {"--array=1-5", "-a1-5", "--dependency=singleton", "--dep=singleton", "-W"})
     expect_refused(submit({"--", option}), {option, "mapscore sets this option"});
   expect_refused(mapscore({"sweep", study(), "-o", results(), "--tasks", "3"}),
                  {"--tasks: goes with --slurm"});

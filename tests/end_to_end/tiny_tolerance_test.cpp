@@ -46,6 +46,15 @@ TEST_F(TinyTolerance, MakesTheTrialsOfTheStudyAndNoCeilings) {
   EXPECT_THAT(sweep.err, HasSubstr("3 trials computed, 2 already there"));
 }
 
+// An end with more digits than the doses in between: rounded down, no trial would stand at it.
+TEST_F(TinyTolerance, TriesTheVeryEndOfTheRange) {
+  const Outcome found =
+      mapscore({"tolerance", study(), "-o", results(), "-q", "--trials", "24", "--method", "direct",
+                "--set", "sweep.faults.misregistration.magnitude_m=[0,0.00012344]"});
+  expect_done(found);
+  EXPECT_THAT(found.out, HasSubstr("> 0.123 mm"));
+}
+
 TEST_F(TinyTolerance, DrawsTheFrontierOfTwoFaults) {
   const Outcome frontier =
       mapscore({"tolerance", study(), "-o", results(), "-q", "--trials", "24", "--method", "direct",

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
+
 namespace mapscore {
 namespace {
 
@@ -31,6 +33,14 @@ TEST(Command, MuchOutputIsWhole) {
 
 TEST(Command, EndedByASignal) {
   EXPECT_EQ(run_command({"sh", "-c", "kill -9 $$"}, "/").exit_code, 128 + 9);
+}
+
+TEST(Command, HowItEndedIsNotKnownWhereTheSystemForgetsChildren) {
+  const auto before = std::signal(SIGCHLD, SIG_IGN);
+  testing::expect_error("sh: how it ended is not known", [] {
+    (void)run_command({"sh", "-c", "exit 3"}, "/");
+  });
+  std::signal(SIGCHLD, before);
 }
 
 TEST(Command, WhatIsNotThere) {

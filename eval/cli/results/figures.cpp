@@ -63,7 +63,7 @@ void draw_from_recording(const FiguresFlags& flags, const PictureChoice& choice,
               << " is not there; `mapscore sweep` renders it\n";
     return;
   }
-  const Recording recording = Recording::open(place);
+  const Recording recording = recording_of(record, file.parent_path());
   print({write_picture(folder / "contact_sheet.png",
                        contact_sheet(record.study, record.table, recording))});
   print(draw_believed(record.study, recording, choice, folder, style));

@@ -12,6 +12,7 @@
 #include "files/text.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <iostream>
 
@@ -34,20 +35,20 @@ struct SweptStudy {
 SweptStudy swept_study(const std::filesystem::path& results) {
   const std::filesystem::path file = store_file(results);
   StudyRecord record = read_study(ResultStore::open_existing(file), file.parent_path());
-  const auto folder = (file.parent_path() / record.recording).lexically_normal();
-  Recording recording = Recording::open(folder);
-  if (recording.content_hash() != record.recording_hash)
-    throw Error(folder.string() + ": is another recording than that of the trials; sweep again");
+  Recording recording = recording_of(record, file.parent_path());
   return {std::move(record), std::move(recording)};
 }
 
-std::vector<TrialYields> first_seed_yields(const SweptStudy& swept,
+/// `seed`: of the draws, not of which cells there are.
+std::vector<TrialYields> first_seed_yields(const SweptStudy& swept, std::uint64_t seed,
                                            const std::function<bool(const TrialSpec&)>& is_asked) {
   std::vector<TrialSpec> specs;
   for (const TrialSpec& spec : trials(swept.record.study))
     if (spec.seed_index == 0 && is_asked(spec)) specs.push_back(spec);
+  Study drawn = swept.record.study;
+  drawn.seed = seed;
   Bench bench = swept.bench();
-  return yields_of(swept.record.study, specs, bench);
+  return yields_of(drawn, specs, bench);
 }
 
 std::vector<std::string> classes_of(const JudgedFigure& figure, const ClassTable& table) {
@@ -67,7 +68,8 @@ void keep_classes(const std::vector<std::string>& classes, const ClassTable& tab
 }  // namespace
 
 std::vector<TrialYields> yields_of_store(const std::filesystem::path& results) {
-  return first_seed_yields(swept_study(results), [](const TrialSpec&) { return true; });
+  const SweptStudy swept = swept_study(results);
+  return first_seed_yields(swept, swept.record.study.seed, [](const TrialSpec&) { return true; });
 }
 
 std::optional<FrameTrace> trace_frames(const std::filesystem::path& results, const Baseline& before,
@@ -77,9 +79,8 @@ std::optional<FrameTrace> trace_frames(const std::filesystem::path& results, con
   };
   const auto then = std::ranges::find_if(before.yields, is_worst);
   if (then == before.yields.end()) return std::nullopt;
-  SweptStudy swept = swept_study(results);
-  swept.record.study.seed = before.study.seed;  // so that all draws are the same
-  const std::vector<TrialYields> now = first_seed_yields(swept, is_worst);
+  const SweptStudy swept = swept_study(results);
+  const std::vector<TrialYields> now = first_seed_yields(swept, before.study.seed, is_worst);
   if (now.front().frames.size() != then->frames.size())
     throw Error("the recording has other frames than the baseline's");
   return FrameTrace{worst.method, worst.cell, worst.group,

@@ -32,6 +32,13 @@ constexpr int kMostBatches = 1000;  // Slurm's MaxArraySize is 1001 unless a sit
 /// Options of sbatch that say what mapscore says.
 constexpr std::array kOurOptions{"--array", "-a", "--dependency", "-d", "--wrap", "--wait", "-W"};
 
+/// Whether sbatch takes a word for an option: whole or, as long ones may be, shortened.
+bool names(std::string_view word, std::string_view option) {
+  const std::string_view name = word.substr(0, word.find('='));
+  return option.size() == 2 ? word.starts_with(option)
+                            : name.size() > 2 && option.starts_with(name);
+}
+
 fs::path jobs_file(const fs::path& results) {
   return results / "slurm" / "jobs.json";
 }
@@ -98,10 +105,9 @@ void check_slurm(const std::vector<std::string>& sbatch_options, const fs::path&
         "--slurm: no sbatch on this machine; give the command where jobs are submitted, or share "
         "the sweep out by --shard i/n (docs/clusters.md)");
   for (const std::string& option : sbatch_options)
-    for (const std::string_view ours : kOurOptions)
-      if (option.substr(0, option.find('=')) == ours ||
-          (ours.size() == 2 && option.starts_with(ours)))
-        throw Error("--slurm: " + option + ": mapscore sets this option of sbatch; leave it out");
+    if (std::ranges::any_of(kOurOptions,
+                            [&](std::string_view ours) { return names(option, ours); }))
+      throw Error("--slurm: " + option + ": mapscore sets this option of sbatch; leave it out");
   const auto jobs = read_slurm_jobs(results);
   if (const std::string queue = jobs ? queue_text(*jobs) : ""; !queue.empty())
     throw Error(fmt::format(

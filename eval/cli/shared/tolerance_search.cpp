@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace mapscore::eval {
 namespace {
@@ -43,14 +44,21 @@ std::vector<double> doses_of(const SweepAxis& axis) {
   return doses;
 }
 
-/// A dose in a thousandth of the decade of the range, as the study's canonical text has it. Throws
-/// Error where the leaf takes whole numbers alone.
+/// A dose in a thousandth of the decade of the range, or an end of it as it is, as the study's
+/// canonical text has it. Throws Error where the leaf takes whole numbers alone.
 std::string dose_text(Study study, const std::string& path, const ToleranceSearch& search,
                       double dose) {
   const int decade = static_cast<int>(std::floor(std::log10(search.high - search.low)));
   const double step = std::pow(10.0, decade - 3);
-  const double rounded = std::clamp(std::round(dose / step) * step, search.low, search.high);
-  set_leaf(study, path, fmt::format("{:.{}f}", rounded, std::clamp(3 - decade, 0, 17)));
+  constexpr int kMostDigits = 17;
+  double rounded = std::clamp(std::round(dose / step) * step, search.low, search.high);
+  int digits = std::clamp(3 - decade, 0, kMostDigits);
+  for (const double end : {search.low, search.high})
+    if (std::abs(dose - end) < 0.5 * step) {
+      rounded = end;
+      digits = kMostDigits;
+    }
+  set_leaf(study, path, fmt::format("{:.{}f}", rounded, digits));
   return leaf_text(study, path);
 }
 
@@ -153,18 +161,21 @@ class Stage {
 /// lattice ceiling of the first seed, or where there is no such metric.
 void refuse_unreachable(const ToleranceAim& aim, const std::vector<ToleranceRow>& rows,
                         const Counts& ceiling, const ClassTable& table) {
-  std::string reached;
+  std::map<std::string, double> reached;  // by group
   for (const ToleranceRow& row : rows) {
     const auto metrics = metrics_of_group(ceiling, table, row.group);
-    const auto value = metrics.empty() ? std::nullopt : value_of(metrics, aim.metric);
-    if (!aim.target || !value || *value >= *aim.target) return;
-    if (reached.find(row.group + ' ') == std::string::npos)
-      reached += fmt::format("{}{} {:.3g}", reached.empty() ? "" : ", ", row.group, *value);
+    if (metrics.empty()) return;
+    const double value = value_of(metrics, aim.metric).value_or(*aim.target);
+    if (value >= *aim.target) return;
+    reached[row.group] = value;
   }
+  std::string text;
+  for (const auto& [group, value] : reached)
+    text += fmt::format("{}{} {:.3g}", text.empty() ? "" : ", ", group, value);
   throw Error(
       fmt::format("--target {}: beyond the lattice ceiling of {}, which true labels at the "
                   "true pose reach: {}; give a lower one",
-                  *aim.target, aim.metric, reached));
+                  *aim.target, aim.metric, text));
 }
 
 }  // namespace
@@ -179,9 +190,8 @@ std::vector<ToleranceRow> tolerance_searches(const Study& study, const ClassTabl
   std::vector<std::string> paths, groups{std::string(kPooled), std::string(kMacro)};
   for (const SweepAxis& axis : study.sweep)
     if (axis.path != choice.against) paths.push_back(axis.path);
-  if (!choice.against.empty() && paths.size() == study.sweep.size()) {
+  if (!choice.against.empty() && paths.size() == study.sweep.size())
     static_cast<void>(chosen("--against", {choice.against}, paths));
-  }
   for (const std::string& name : detected_names(table)) groups.push_back(name);
   std::vector<std::string> of_groups = choice.groups;
   if (of_groups.empty()) of_groups = {std::string(kPooled)};

@@ -36,6 +36,18 @@ TEST(StudyStore, GivesBackTheStudyAndItsTable) {
   EXPECT_EQ(record.table.class_of(2), table.class_of(2));
 }
 
+TEST(StudyStore, OpensTheRecordingOfTheTrialsAndNoOther) {
+  const TemporaryFolder folder;
+  mapscore::testing::write_tiny_recording(folder.path() / "tiny");
+  StudyRecord record;
+  record.recording = "../tiny";
+  record.recording_hash = Recording::open(folder.path() / "tiny").content_hash();
+  EXPECT_EQ(recording_of(record, folder.path() / "results").content_hash(), record.recording_hash);
+  record.recording_hash = "another";
+  expect_error("is another recording than that of the study's trials",
+               [&] { (void)recording_of(record, folder.path() / "results"); });
+}
+
 TEST(StudyStore, RefusesAStoreWithoutAStudy) {
   const TemporaryFolder folder;
   ResultStore store = ResultStore::open(folder.path() / "results.sqlite");
