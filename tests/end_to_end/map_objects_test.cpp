@@ -57,7 +57,7 @@ TEST_F(MapObjects, GoesOnFromAMap) {
 
 TEST_F(MapObjects, BadInputIsRefusedInOneLine) {
   expect_refused(map(path("nothing"), "map"), {"nothing"});
-  expect_refused(map(path("tiny"), "map", {"--method", "guess"}), {"guess", "direct erosion"});
+  expect_refused(map(path("tiny"), "map", {"--method", "guess"}), {"guess", "direct, erosion"});
   expect_refused(map(study(), "map", {"--seed", "2"}), {"--seed 2", "0 to 1"});
   expect_refused(map(path("tiny"), "map", {"--face_share", "0"}), {"--face_share"});
   expect_refused(map(path("tiny"), "map", {"--update", "most"}), {"--update", "quantile"});

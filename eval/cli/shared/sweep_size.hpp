@@ -32,8 +32,8 @@ class SweepSize {
 };
 
 /// `mapscore sweep --dry-run`: prints cells, trials, how many are there (`keep_builds`: of other
-/// builds too), and the time that the
-/// missing ones take. Writes nothing. Throws Error as a sweep does.
+/// builds too), and the time that the missing ones take. Writes nothing. Throws Error as a sweep
+/// does.
 void print_dry_run(const Study& study, const std::filesystem::path& results, int shard, int shards,
                    bool keep_builds);
 

@@ -41,8 +41,8 @@ struct SearchCost {
 /// Runs all searches side by side, stage by stage. Trial n of each has seed n, so that methods are
 /// searched with the same draws; every trial is an ordinary one of the study and goes into the
 /// store, and the store's are not made again. Doses are rounded to a thousandth of the decade of
-/// the range. The same study gives the same rows, whatever the store holds. Throws Error as
-/// run_plan, and when there is no such metric.
+/// the range, but its ends are tried as they are. The same study gives the same rows, whatever the
+/// store holds. Throws Error as run_plan, and when there is no such metric.
 SearchCost search_tolerances(const Study& study, const Recording& recording,
                              const ClassTable& table, const ToleranceAim& aim,
                              const WorkFlags& work, ResultStore& store,

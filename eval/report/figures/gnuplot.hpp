@@ -8,8 +8,8 @@
 
 namespace mapscore::eval {
 
-/// Runs `gnuplot SCRIPT` in `folder`. Throws Error when
-/// gnuplot is not installed, or fails (with the first line that it said).
+/// Runs `gnuplot SCRIPT` in `folder`. Throws Error when gnuplot is not installed, or fails (with
+/// the first line that it said).
 void run_gnuplot(const std::filesystem::path& folder, const std::string& script);
 
 }  // namespace mapscore::eval
