@@ -59,18 +59,6 @@ std::string lattice_note(const TaskList& tasks, const ResultStore& store, const 
   return check.note();
 }
 
-/// Keeps other sweeps out of the folder, so that none binds it to another study while this one
-/// runs. Waits for one that is there, and says so.
-void enter(const std::filesystem::path& results, bool quiet, std::optional<FolderLock>& lock) {
-  lock.emplace(results, WhenTaken::go_on);
-  if (!lock->taken()) return;
-  const auto other = read_status(results);
-  if (!quiet)
-    std::cerr << fmt::format("sweep: {} is in use{}; waiting until that sweep ends\n",
-                             shown(results), other ? " by " + shown(other->who) : "");
-  lock.emplace(results);
-}
-
 /// Where a sweep works.
 struct Workplace {
   const SweepFlags& flags;
@@ -194,7 +182,7 @@ int sweep(const SweepFlags& flags) {
 
   const std::filesystem::path results = shards > 1 ? shard_folder(whole, shard, shards) : whole;
   std::optional<FolderLock> lock;
-  enter(results, flags.work.quiet, lock);
+  enter_results("sweep", results, flags.work.quiet, lock);
   const Workplace at{flags, study, whole, results, recording, table, plan};
   ResultStore store = bound_store(at, merged);
   const SharedOutSweep shared_out{flags, whole, study.name, plan.tasks, store};

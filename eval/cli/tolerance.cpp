@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "eval/cli/shared/figure_flags.hpp"
+#include "eval/cli/shared/live_status.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/shared/tolerance_search.hpp"
@@ -56,6 +57,8 @@ void tolerance(const ToleranceFlags& flags) {
   check_truth_size(study, recording, rows.size() * static_cast<std::size_t>(flags.aim.trials),
                    flags.yes);
 
+  std::optional<FolderLock> lock;
+  enter_results("tolerance", results, flags.work.quiet, lock);
   ResultStore store = ResultStore::open(results / "results.sqlite");
   const SearchCost cost =
       search_tolerances(study, recording, table, flags.aim, flags.work, store, rows);
@@ -63,7 +66,7 @@ void tolerance(const ToleranceFlags& flags) {
     std::cerr << fmt::format("tolerance {}: {} trials computed, {} already there; {}\n", study.name,
                              cost.computed, cost.reused, shown(results / "results.sqlite"));
   if (!flags.figure.empty()) {
-    const FolderLock lock(flags.figure);
+    const FolderLock figures(flags.figure);
     const FigureSheet sheet = flags.choice.against.empty()
                                   ? tolerance_figure(study, flags.aim, rows, style)
                                   : frontier_figure(study, flags.aim, rows, style);

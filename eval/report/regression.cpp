@@ -124,7 +124,7 @@ void give_verdicts(Judgement& judgement) {
   const std::vector<bool> won = significantly_below(judgement.figures, true);
   for (std::size_t n = 0; n < judgement.figures.size(); ++n) {
     JudgedFigure& figure = judgement.figures[n];
-    if (figure.verdict == Standing::missing) continue;
+    if (!figure.after) continue;
     const double gain = figure.gain().value();
     const double limit = figure.allowed + kRounding;
     if (lost[n] || (judgement.same_seeds && gain < -limit))
@@ -140,7 +140,7 @@ void give_verdicts(Judgement& judgement) {
 /// where the results lack the line.
 std::optional<JudgedFigure> judged_figure(const PairedLines& lines, const Baseline& before,
                                           const Baseline& after, const std::string& group,
-                                          const std::string& metric) {
+                                          const std::string& metric, bool same_seeds) {
   const Estimate then = estimate(lines.before, before.table, group, metric);
   if (!then.pooled) return std::nullopt;
   JudgedFigure figure;
@@ -156,7 +156,10 @@ std::optional<JudgedFigure> judged_figure(const PairedLines& lines, const Baseli
     figure.difference = differences(then, now);
     figure.grown = grown_causes(lines, figure, before, after);
   }
-  if (!figure.after) figure.verdict = Standing::missing;
+  // Other seeds may lack what only some of the baseline's had.
+  const bool by_chance = !same_seeds && !lines.after.results.empty() &&
+                         std::ranges::any_of(then.by_seed, [](const auto& v) { return !v; });
+  if (!figure.after) figure.verdict = by_chance ? Standing::not_judged : Standing::missing;
   return figure;
 }
 
@@ -177,7 +180,7 @@ void judge_line(const ResultLine& line, const Baseline& before, const Baseline& 
   groups.insert(groups.begin(), {std::string(kPooled), std::string(kMacro)});
   for (const std::string& group : groups)
     for (const std::string& metric : metrics)
-      if (auto figure = judged_figure(lines, before, after, group, metric)) {
+      if (auto figure = judged_figure(lines, before, after, group, metric, judgement.same_seeds)) {
         figure->allowed = allowed.of(group, metric);
         judgement.figures.push_back(std::move(*figure));
       }

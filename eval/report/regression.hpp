@@ -34,7 +34,8 @@ enum class Standing {
   missing,     ///< the results lack it, or it is undefined there: as bad as worse
   better,      ///< by more than is allowed
   held,        ///< neither
-  not_judged,  ///< other seeds than the baseline's, and too few to tell chance
+  not_judged,  ///< other seeds than the baseline's, and too few to tell chance, or undefined in
+               ///< some of the baseline's and now in all
 };
 [[nodiscard]] const char* name_of(Standing verdict);
 

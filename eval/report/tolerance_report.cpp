@@ -48,7 +48,7 @@ std::string caption_of(const Study& study, const ToleranceAim& aim) {
 
 std::string ToleranceAim::text() const {
   return target ? fmt::format("{} >= {}", metric, *target)
-                : fmt::format("{} loses at most {}", metric, loss);
+                : fmt::format("{} loses at most {} against the least dose", metric, loss);
 }
 
 std::string text_of(const ToleranceRow& row) {
@@ -114,7 +114,8 @@ Table tolerance_table(const Study& study, const ToleranceAim& aim, const std::st
   table.caption = {
       caption_of(study, aim),
       "found: crosses within the range; above, below: keeps it, misses it over the whole range; "
-      "open: the trials do not tell where; not monotone: crosses it more than once"};
+      "open: the trials do not tell where; not monotone: crosses it more than once; undefined: "
+      "too few scores, or none to lose"};
   table.keys = has_second ? 4 : 3;
   for (const auto& [name, text] : columns) table.columns.push_back(name);
   for (Row row : rows) {
@@ -135,8 +136,10 @@ Table tolerance_matrix(const Study& study, const ToleranceAim& aim,
   };
   const bool seconds = differs(second_of), groups = differs([](Row row) { return row.group; });
   Table table;
-  table.caption = {caption_of(study, aim),
-                   "open: this side is not bounded by the trials; -: crosses it more than once"};
+  table.caption = {
+      caption_of(study, aim),
+      "open: this side is not bounded by the trials; - alone: crosses it more than once, or "
+      "too few scores, or none to lose"};
   table.columns = {"fault"};
   if (seconds) table.columns.emplace_back("at");
   if (groups) table.columns.emplace_back("group");

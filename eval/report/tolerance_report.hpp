@@ -21,7 +21,7 @@ struct ToleranceAim {
   double loss = 0.05;            ///< without a target: most that the least dose's score may lose
   int trials = ToleranceSearch{}.trials;
 
-  /// "f1 >= 0.8", "f1 loses at most 0.05".
+  /// "f1 >= 0.8", "f1 loses at most 0.05 against the least dose".
   [[nodiscard]] std::string text() const;
 };
 
@@ -40,6 +40,7 @@ struct ToleranceRow {
   ToleranceSearch search;         ///< in the unit of the leaf
   std::vector<DoseTrial> trials;  ///< scores, or without a target their change from the least dose
   Tolerance tolerance;
+  double most_to_lose = 0.0;  ///< without a target: greatest score of the least dose
 };
 
 /// "7.1 mm [6.4, 7.9]", "> 40 mm", "< 0 mm", "- [18.2, open]": dose and interval in the unit of

@@ -79,6 +79,8 @@ TEST_F(TinyTolerance, RefusesWhatCannotBeSearched) {
   refused({"--method", "guess"}, {"--method guess", "direct, erosion"});
   refused({"--group", "wall"}, {"--group wall", "pooled"});
   refused({"--metric", "f9"}, {"f9"});
+  refused({"--metric", "accuracy_mean_m"}, {"--metric accuracy_mean_m", "rises"});
+  refused({"--against", "faults.misregistration.magnitude_m"}, {"--against", "sweep another"});
   refused({"--reference", "guess"}, {"--reference guess"});
   refused({"--against", "faults.mount.magnitude_m"}, {"--against faults.mount", "misregistration"});
   refused({"--trials", "5"}, {"--trials", "24"});

@@ -99,12 +99,14 @@ int report(const Baseline& now, const Tolerances& allowed, const CheckFlags& fla
 /// Prints what it changes, where the old baseline compares, and writes the new one.
 void update(Baseline now, const Tolerances& allowed, const CheckFlags& flags) {
   std::string note;
+  bool frames = flags.frames;
   if (std::filesystem::exists(flags.baseline)) try {
+      frames = frames || !read_baseline(flags.baseline).yields.empty();
       static_cast<void>(report(now, allowed, flags));
     } catch (const Error& error) {
       note = fmt::format("; the old one: {}", shown(error.what()));
     }
-  if (flags.frames) now.yields = yields_of_store(flags.results);
+  if (frames) now.yields = yields_of_store(flags.results);
   write_baseline(now, flags.baseline);
   std::cerr << fmt::format("check: {} written{}\n", shown(flags.baseline), note);
 }
@@ -140,8 +142,10 @@ void add_check(CLI::App& program, int& exit_code) {
   add_format_flag(*verb, flags->format, kReportFormats);
   verb->add_flag("--update", flags->update,
                  "Write the baseline from these results, after what that changes");
-  verb->add_flag("--frames", flags->frames,
-                 "With --update: keep what each frame gives, so that a fall is traced to frames")
+  verb->add_flag(
+          "--frames", flags->frames,
+          "With --update: keep what each frame gives, so that a fall is traced to frames; also "
+          "where the old baseline has it")
       ->needs("--update");
   verb->add_option("--pictures", flags->pictures,
                    "Folder for pictures of the trial that lost most: its map, and the frames");

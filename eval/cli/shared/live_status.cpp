@@ -3,7 +3,12 @@
 
 #include "eval/cli/shared/live_status.hpp"
 
+#include "files/text.hpp"
+
+#include <fmt/format.h>
+
 #include <ctime>
+#include <iostream>
 #include <utility>
 
 namespace mapscore::eval {
@@ -49,6 +54,17 @@ void LiveStatus::write() {
     status_.rate_jobs = status_.jobs;
   }
   write_status(status_, results_);
+}
+
+void enter_results(const char* verb, const std::filesystem::path& results, bool quiet,
+                   std::optional<FolderLock>& lock) {
+  lock.emplace(results, WhenTaken::go_on);
+  if (!lock->taken()) return;
+  const auto other = read_status(results);
+  if (!quiet)
+    std::cerr << fmt::format("{}: {} is in use{}; waiting until that sweep ends\n", verb,
+                             shown(results), other ? " by " + shown(other->who) : "");
+  lock.emplace(results);
 }
 
 }  // namespace mapscore::eval

@@ -4,12 +4,14 @@
 #pragma once
 
 #include "eval/results/sweep_status.hpp"
+#include "files/folder_lock.hpp"
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 
 namespace mapscore::eval {
 
@@ -36,5 +38,10 @@ class LiveStatus {
   int frames_;
   Clock::time_point started_ = Clock::now(), written_ = started_;
 };
+
+/// Keeps other sweeps out of a results folder, so that none binds it to another study while this
+/// one runs. Waits for one that is there, and says so unless `quiet`; `verb`: who waits.
+void enter_results(const char* verb, const std::filesystem::path& results, bool quiet,
+                   std::optional<FolderLock>& lock);
 
 }  // namespace mapscore::eval

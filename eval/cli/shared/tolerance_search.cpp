@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/lab/runner.hpp"
+#include "eval/report/regression.hpp"
 #include "eval/report/summary.hpp"
 #include "files/suggestion.hpp"
 #include "files/text_rows.hpp"
@@ -130,6 +131,7 @@ class Stage {
       std::optional<double> value = score(wanted.trial);
       if (!aim.target) {
         const std::optional<double> reference = score(wanted.reference);
+        if (reference) wanted.row->most_to_lose = std::max(wanted.row->most_to_lose, *reference);
         value = value && reference ? std::optional(*value - *reference) : std::nullopt;
       }
       wanted.row->trials.push_back({wanted.dose, value});
@@ -171,7 +173,7 @@ void refuse_unreachable(const ToleranceAim& aim, const std::vector<ToleranceRow>
   }
   std::string text;
   for (const auto& [group, value] : reached)
-    text += fmt::format("{}{} {:.3g}", text.empty() ? "" : ", ", group, value);
+    text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", group, value);
   throw Error(
       fmt::format("--target {}: beyond the lattice ceiling of {}, which true labels at the "
                   "true pose reach: {}; give a lower one",
@@ -192,6 +194,12 @@ std::vector<ToleranceRow> tolerance_searches(const Study& study, const ClassTabl
     if (axis.path != choice.against) paths.push_back(axis.path);
   if (!choice.against.empty() && paths.size() == study.sweep.size())
     static_cast<void>(chosen("--against", {choice.against}, paths));
+  if (paths.empty() || std::ranges::count(choice.faults, choice.against) > 0)
+    throw Error(fmt::format("--against {}: is the fault that is searched; sweep another beside it",
+                            choice.against));
+  if (!higher_is_better(aim.metric))
+    throw Error(
+        fmt::format("--metric {}: rises with the dose; take one that falls, as f1", aim.metric));
   for (const std::string& name : detected_names(table)) groups.push_back(name);
   std::vector<std::string> of_groups = choice.groups;
   if (of_groups.empty()) of_groups = {std::string(kPooled)};
@@ -258,7 +266,13 @@ SearchCost search_tolerances(const Study& of, const Recording& recording, const 
     stage.hand_out(counts_of(stage.trials(), fmt::format("tolerance stage {}", number)), table,
                    aim);
   }
-  for (ToleranceRow& row : rows) row.tolerance = tolerance_of(row.search, row.trials);
+  for (ToleranceRow& row : rows) {
+    row.tolerance = tolerance_of(row.search, row.trials);
+    if (!aim.target && row.most_to_lose <= aim.loss) {
+      row.tolerance.verdict = ToleranceVerdict::undefined;
+      row.tolerance.dose = row.tolerance.low = row.tolerance.high = std::nullopt;
+    }
+  }
   cost.reused = asked - cost.computed;
   return cost;
 }

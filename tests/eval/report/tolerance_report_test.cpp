@@ -50,7 +50,7 @@ TEST(ToleranceReport, ForProgramsHasPathUnitAndNineDigits) {
       "found,42,0\n");
   EXPECT_EQ(aim.text(), "f1 >= 0.8");
   aim.target.reset();
-  EXPECT_EQ(aim.text(), "f1 loses at most 0.05");
+  EXPECT_EQ(aim.text(), "f1 loses at most 0.05 against the least dose");
 }
 
 TEST(ToleranceReport, ComparesWithTheReferenceOfTheSameFaultAndGroup) {
