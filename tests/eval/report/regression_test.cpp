@@ -167,6 +167,25 @@ TEST(Regression, WhatIsGoneIsAsBadAsWorse) {
   EXPECT_FALSE(judged(before, after).compared());
 }
 
+/// A class that only one seed of the baseline saw predicted: other seeds may not see it at all.
+TEST(Regression, WhatSomeSeedsOfTheBaselineLackIsNotMissedOnOthers) {
+  StudySummary summary = testing::summary_of(10);
+  const auto without_chairs = [](ResultLine& line, std::size_t from) {
+    line.pooled.clear();
+    for (std::size_t n = 0; n < line.results.size(); ++n) {
+      if (n >= from) line.results[n].counts[2] = ClassCounts{};
+      pool_into(line.pooled, line.results[n].counts);
+    }
+  };
+  for (ResultLine& line : summary.trials) without_chairs(line, 1);
+  const Baseline before = baseline_of(summary);
+  for (ResultLine& line : summary.trials) without_chairs(line, 0);
+  Baseline after = baseline_of(summary);
+  EXPECT_GT(judged(before, after).count(Standing::missing), 0u);  // the same seeds
+  after.study.seed = before.study.seed + 1;
+  EXPECT_EQ(judged(before, after).count(Standing::missing), 0u);
+}
+
 TEST(Regression, SeedsPairByTheirIndex) {
   const Baseline before = baseline_of(testing::summary_of(3));
   Baseline after = before;
