@@ -49,7 +49,7 @@ def main():
     flags = parser.parse_args()
     sweep = [flags.program, "sweep", flags.study, "--set", f"seeds={flags.seeds}", "-o", flags.folder, "-q", "-j", "1"]
     processor_seconds(sweep + ["--merge_only"], (0, 1))  # the recording
-    trials = int(processor_seconds(sweep + ["--dry-run"])[1].split(" with ceilings")[0].split()[-1])
+    trials = int(processor_seconds(sweep + ["--dry_run"])[1].split(" with ceilings")[0].split()[-1])
 
     def shard(i, n):
         return processor_seconds(sweep + ["--shard", f"{i}/{n}"])[0]

@@ -168,14 +168,14 @@ void add_info(CLI::App& program) {
   verb->add_option("FILE", flags->file, "Scene, recording, map or results")->required();
   verb->add_option("--picture", flags->picture,
                    "Of a scene: where its picture by class goes [STEM.classes.png beside it]");
-  verb->add_flag("--no-picture", flags->no_picture, "Of a scene: draw none");
-  verb->add_flag("--suggest-classes", flags->suggest_classes,
+  verb->add_flag("--no_picture", flags->no_picture, "Of a scene: draw none");
+  verb->add_flag("--suggest_classes", flags->suggest_classes,
                  "Of a scene: print a first class file, made of its bodies' names");
   verb->add_option("-o,--output", flags->output, "Write the suggestion here; must not exist");
   verb->footer(
       "Examples:\n"
       "  mapscore info scenes/apartment.xml --picture apartment.png\n"
-      "  mapscore info kitchen.xml --suggest-classes -o kitchen.classes.yaml\n"
+      "  mapscore info kitchen.xml --suggest_classes -o kitchen.classes.yaml\n"
       "  mapscore info map.pcd\n"
       "  mapscore info results/demo");
 }

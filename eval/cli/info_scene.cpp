@@ -168,7 +168,7 @@ void suggest(const fs::path& scene, const SceneInfoFlags& flags) {
 void info_of_scene(const fs::path& file, const SceneInfoFlags& flags) {
   if (flags.suggest_classes) return suggest(file, flags);
   if (!flags.output.empty())
-    throw Error("--output: only a suggestion is written; add --suggest-classes");
+    throw Error("--output: only a suggestion is written; add --suggest_classes");
   const SceneSurfaces scene = surfaces_of_scene(file);
   const sim::SceneInventory inventory = sim::take_inventory(file);
   print_kinds(file, scene);

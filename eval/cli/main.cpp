@@ -88,9 +88,17 @@ void refuse_empty_values(const std::vector<std::string>& words) {
   }
 }
 
-/// The words after the program's name; `help VERB` as `VERB --help`.
+/// The words after the program's name; `help VERB` as `VERB --help`, and the hyphens within a
+/// flag's name as the underscores that ours have. What follows a bare `--` is for another program.
 std::vector<std::string> words_of(int argc, char** argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  for (std::string& word : words) {
+    if (word == "--") break;
+    if (!word.starts_with("--")) continue;
+    const auto end =
+        word.begin() + static_cast<std::ptrdiff_t>(std::min(word.find('='), word.size()));
+    std::replace(word.begin() + 2, end, '-', '_');
+  }
   if (!words.empty() && words.front() == "help") {
     words.erase(words.begin());
     words.insert(words.begin() + (words.empty() ? 0 : 1), "--help");

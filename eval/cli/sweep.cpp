@@ -33,10 +33,14 @@ namespace {
 
 /// A store keeps the trials of every study, and shows those of the last one.
 void note_other_study(const ResultStore& store, const std::filesystem::path& results,
-                      const Study& study) {
+                      const Study& study, bool merge_only, bool quiet) {
   if (store.text("study").empty()) return;
   const std::string before = read_study(store, results).study.name;
-  if (before != study.name)
+  if (before != study.name && merge_only)
+    throw Error(fmt::format(
+        "{} holds study {}; --merge_only does not bind it to {}: take that study, or another -o",
+        shown(results), shown(before), shown(study.name)));
+  if (before != study.name && !quiet)
     std::cerr << fmt::format(
         "sweep: note: {} held study {}; its trials stay, tables will show {}\n", shown(results),
         shown(before), shown(study.name));
@@ -75,7 +79,7 @@ struct Workplace {
 ResultStore bound_store(const Workplace& at, const OtherStores& merged) {
   const bool quiet = at.flags.work.quiet;
   ResultStore store = ResultStore::open(at.results / "results.sqlite");
-  if (!quiet) note_other_study(store, at.results, at.study);
+  note_other_study(store, at.results, at.study, at.flags.merge_only, quiet);
   write_study(store,
               {at.study, at.table, at.recording.content_hash(),
                std::filesystem::relative(at.recording.folder(), at.results).string()},
@@ -212,7 +216,7 @@ void add_sweep(CLI::App& program, int& exit_code) {
       "Ends with 1 when some trials failed, with 130 by Ctrl-C; then what is done is kept.\n"
       "Examples:\n"
       "  mapscore sweep configs/demo.yaml\n"
-      "  mapscore sweep configs/demo.yaml --dry-run\n"
+      "  mapscore sweep configs/demo.yaml --dry_run\n"
       "  mapscore sweep configs/demo.yaml -o /data/demo --jobs 8 --memory 4GiB\n"
       "  mapscore sweep configs/demo.yaml --set seeds=20 --set voxel_m=0.02\n"
       "  mapscore sweep configs/demo.yaml -o results/demo --shard 2/8      one of eight processes\n"

@@ -6,6 +6,7 @@
 #include "eval/cli/shared/live_status.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
+#include "eval/cli/shared/stop_signal.hpp"
 #include "eval/cli/shared/tolerance_search.hpp"
 #include "eval/cli/shared/truth_source.hpp"
 #include "eval/cli/verbs.hpp"
@@ -21,6 +22,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <memory>
 
 namespace mapscore::eval {
 namespace {
@@ -43,7 +45,7 @@ std::string reference_method(const std::string& named, const std::vector<Toleran
   return named;
 }
 
-void tolerance(const ToleranceFlags& flags) {
+int tolerance(const ToleranceFlags& flags) {
   const FigureStyle style = flags.style.style();
   const Study study = flags.study.load();
   const std::filesystem::path results = flags.study.results_folder(study);
@@ -60,8 +62,16 @@ void tolerance(const ToleranceFlags& flags) {
   std::optional<FolderLock> lock;
   enter_results("tolerance", results, flags.work.quiet, lock);
   ResultStore store = ResultStore::open(results / "results.sqlite");
-  const SearchCost cost =
-      search_tolerances(study, recording, table, flags.aim, flags.work, store, rows);
+  const StopSignal stop;
+  const SearchCost cost = search_tolerances(
+      study, recording, table, flags.aim, flags.work, store, [&] { return stop.taken() != 0; },
+      rows);
+  if (cost.stopped) {
+    std::cerr << fmt::format(
+        "tolerance: stopped; {} trials were computed and are in {}; the same command goes on\n",
+        cost.computed, shown(results / "results.sqlite"));
+    return 128 + stop.taken();
+  }
   if (!flags.work.quiet)
     std::cerr << fmt::format("tolerance {}: {} trials computed, {} already there; {}\n", study.name,
                              cost.computed, cost.reused, shown(results / "results.sqlite"));
@@ -78,6 +88,7 @@ void tolerance(const ToleranceFlags& flags) {
                              ? tolerance_matrix(study, flags.aim, rows)
                              : tolerance_table(study, flags.aim, reference, rows, reader),
                          flags.format);
+  return 0;
 }
 
 void add_aim(CLI::App& verb, ToleranceFlags& flags) {
@@ -110,9 +121,11 @@ void add_aim(CLI::App& verb, ToleranceFlags& flags) {
 
 }  // namespace
 
-void add_tolerance(CLI::App& program) {
-  const auto [verb, flags] = add_verb<ToleranceFlags>(
-      program, "tolerance", "Find the largest dose of each fault that a score bears", tolerance);
+void add_tolerance(CLI::App& program, int& exit_code) {
+  auto* verb =
+      program.add_subcommand("tolerance", "Find the largest dose of each fault that a score bears");
+  const auto flags = std::make_shared<ToleranceFlags>();
+  verb->callback([flags, &exit_code] { exit_code = tolerance(*flags); });
   flags->study.add_to(*verb);
   flags->work.add_to(*verb);
   add_yes_flag(*verb, flags->yes);
@@ -125,7 +138,8 @@ void add_tolerance(CLI::App& program) {
   verb->footer(
       "Each swept path of the study is searched by itself, between its least and its greatest\n"
       "value, the others as the study has them. Trials go into the results folder and are never\n"
-      "computed again. docs/tolerance.md says how it searches.\n"
+      "computed again; after Ctrl-C, which ends with 130, the same command goes on.\n"
+      "docs/tolerance.md says how it searches.\n"
       "Examples:\n"
       "  mapscore tolerance configs/demo.yaml\n"
       "  mapscore tolerance configs/demo.yaml --target 0.8 --figure results/demo/figures\n"

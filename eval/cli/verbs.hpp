@@ -29,7 +29,7 @@ void add_record(CLI::App& program);
 void add_run(CLI::App& program, int& exit_code);
 void add_frames(CLI::App& program);
 void add_sweep(CLI::App& program, int& exit_code);
-void add_tolerance(CLI::App& program);
+void add_tolerance(CLI::App& program, int& exit_code);
 void add_map(CLI::App& program);
 void add_localize(CLI::App& program);
 void add_segment(CLI::App& program);
@@ -51,9 +51,10 @@ inline void add_verbs(CLI::App& program, int& exit_code) {
   add_run(program, exit_code);
   add_frames(program);
   add_sweep(program, exit_code);
+  add_tolerance(program, exit_code);
   for (const auto add :
-       {add_tolerance, add_map, add_localize, add_segment, add_objects, add_truth, add_score,
-        add_resolutions, add_status, add_trials, add_table, add_compare, add_figures})
+       {add_map, add_localize, add_segment, add_objects, add_truth, add_score, add_resolutions,
+        add_status, add_trials, add_table, add_compare, add_figures})
     add(program);
   add_check(program, exit_code);
   add_info(program);

@@ -224,6 +224,15 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
     summary.lattice_ceilings.push_back(
         reader.line(Role::lattice_ceiling, line, line.lattice_ceiling));
   }
+  if (!summary.interim.empty() && !summary.trials.empty()) {
+    const auto count = [](const ResultLine& line) { return line.seeds.size(); };
+    const auto [least, most] = std::ranges::minmax(summary.trials, {}, count);
+    summary.interim +=
+        fmt::format("; each has {}{} of {} seeds",
+                    count(least) < count(most) ? fmt::format("{} to ", count(least)) : "",
+                    count(most), summary.study.seeds);
+    summary.study.seeds = static_cast<int>(count(most));
+  }
   if (summary.trials.empty())
     throw Error(fmt::format("{}: no trial is there with both of its ceilings yet; wait, or go on",
                             results.string()));

@@ -77,7 +77,8 @@ struct StudySummary {
   std::vector<ResultLine> trials;
   /// Ceilings of `trials[i]`; lines that agree for several trials are repeated.
   std::vector<ResultLine> registration_ceilings, lattice_ceilings;
-  /// Of an unfinished sweep: how much is there, for captions; empty for a complete one.
+  /// Of an unfinished sweep: how much is there, for captions, and `study.seeds` is what the fullest
+  /// line has; empty for a complete one.
   std::string interim = {};
 
   /// "pooled", "macro", then the detected classes.

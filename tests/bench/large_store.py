@@ -111,7 +111,7 @@ def main():
     print(f"{count} trials and ceilings, {args.doses} doses, {args.seeds} seeds: {store_mb:.1f} MB")
     print("verb            wall s  processor s  memory MB  output MB")
     verbs = {"status": ["status", large], "table": ["table", large], "table --class": ["table", large, "--class", "chair"],
-             "figures": ["figures", large, "--no-pictures", "-o", figures], "trials": ["trials", large],
+             "figures": ["figures", large, "--no_pictures", "-o", figures], "trials": ["trials", large],
              "compare": ["compare", large, "direct", "erosion"], "table --tidy": ["table", large, "--tidy"]}
     for name, verb in verbs.items():
         wall_s, cpu_s, memory_mb = measured([program, *verb], printed)

@@ -52,7 +52,7 @@ class SweepControl : public TinyStudy {
 
 TEST_F(SweepControl, ADryRunCountsAndWritesNothing) {
   const auto before = contents_of(folder());
-  const Outcome first = sweep({"--dry-run"});
+  const Outcome first = sweep({"--dry_run"});
   expect_done(first);
   EXPECT_THAT(first.out,
               AllOf(HasSubstr("2 cells x 2 methods x 2 seeds = 8 trials, 10 with ceilings"),
@@ -61,13 +61,14 @@ TEST_F(SweepControl, ADryRunCountsAndWritesNothing) {
   EXPECT_EQ(contents_of(folder()), before);
   expect_done(sweep({"-q"}));
   const std::string store = bytes_of(path("results/results.sqlite"));
-  const Outcome more = sweep({"--dry-run", "--set", "seeds=3"});
+  EXPECT_EQ(sweep({"--dry-run"}).out, sweep({"--dry_run"}).out) << "flags may have hyphens";
+  const Outcome more = sweep({"--dry_run", "--set", "seeds=3"});
   expect_done(more);
   EXPECT_THAT(more.out,
               AllOf(HasSubstr("10 there, 5 missing"), HasSubstr(" s a trial, as the last")));
-  EXPECT_THAT(sweep({"--dry-run", "--set", "seeds=3", "--shard", "2/2"}).out,
+  EXPECT_THAT(sweep({"--dry_run", "--set", "seeds=3", "--shard", "2/2"}).out,
               HasSubstr("5 missing, 5 in shard 2/2"));
-  EXPECT_THAT(sweep({"--dry-run"}).out, HasSubstr("time: none"));
+  EXPECT_THAT(sweep({"--dry_run"}).out, HasSubstr("time: none"));
   EXPECT_TRUE(bytes_of(path("results/results.sqlite")) == store);
 }
 
@@ -81,7 +82,7 @@ TEST_F(SweepControl, VeryManyTrialsNeedYes) {
 TEST_F(SweepControl, RefusesBadFlagsBeforeTheWork) {
   expect_refused(sweep({"--shard", "4/3"}), {"--shard 4/3", "1 <= i <= n"});
   expect_refused(sweep({"--merge", path("nothing")}), {"nothing", "no result store there"});
-  expect_refused(sweep({"--dry-run", "--set", "sweep.voxel_m=[]"}), {"sweep.voxel_m", "no values"});
+  expect_refused(sweep({"--dry_run", "--set", "sweep.voxel_m=[]"}), {"sweep.voxel_m", "no values"});
   EXPECT_FALSE(std::filesystem::exists(results()));
   for (const char* verb : {"status", "trials"})
     expect_refused(mapscore({verb, path("nothing")}), {"nothing", "no result store there"});
@@ -198,10 +199,30 @@ TEST_F(SweepControl, InterimTablesAndFiguresAreMarked) {
   EXPECT_THAT(table.out,
               AllOf(HasSubstr("INTERIM: "), HasSubstr(" of 10 trials and ceilings are there"),
                     HasSubstr("seeds there")));
-  expect_done(mapscore({"figures", results(), "--interim", "--no-pictures"}));
+  expect_done(mapscore({"figures", results(), "--interim", "--no_pictures"}));
   EXPECT_THAT(bytes_of(path("results/interim_figures/table.txt")), HasSubstr("INTERIM"));
   EXPECT_THAT(bytes_of(path("results/interim_figures/accuracy_by_dose.gp")), HasSubstr("INTERIM"));
   EXPECT_FALSE(std::filesystem::exists(path("results/figures")));
+}
+
+TEST_F(SweepControl, MergeOnlyBindsNoFolderToAnotherStudy) {
+  expect_done(sweep());
+  const std::string before = mapscore({"table", results()}).out;
+  std::filesystem::copy(study(), path("other.yaml"));
+  expect_refused(mapscore({"sweep", path("other.yaml"), "-o", results(), "--merge_only"}),
+                 {"holds study", "other"});
+  EXPECT_EQ(mapscore({"table", results()}).out, before);
+}
+
+TEST_F(SweepControl, CtrlCOfATolerance) {
+  Process running(
+      mapscore_command({"tolerance", study(), "-o", results(), "-j", "1", "--trials", "20000"}));
+  ASSERT_TRUE(comes("results/results.sqlite", "SQLite"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  running.interrupt();
+  const Outcome stopped = running.wait();
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
+  EXPECT_THAT(stopped.err, HasSubstr("the same command goes on"));
 }
 
 TEST_F(SweepControl, HelpOfAVerb) {

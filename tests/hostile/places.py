@@ -31,7 +31,7 @@ def in_a_scene(case, names, full):
     tiny.write_scene(case.at(""), classes=texts, bodies=texts if full else None, geoms=texts, meshes=texts)
     scene, folder = case.at("room.xml"), case.out("recorded")
     case.run("info", scene, "--picture", case.out("scene.png"))
-    case.run("info", scene, "--suggest-classes", "-o", case.out("suggested.classes.yaml"))
+    case.run("info", scene, "--suggest_classes", "-o", case.out("suggested.classes.yaml"))
     if full:
         case.run("truth", scene, "-o", case.out("truth.csv"), "-q", "-j", "1")
     if not case.run("record", case.at("study.yaml"), "-o", folder, "-q", "-j", "1"):
@@ -107,7 +107,7 @@ def as_a_title(case, name, full):
     sweep_and_show(case, study, (), full)
     for form in ("markdown", "tex"):
         case.run("table", case.out("results"), "--rows", "class,method", "--format", form)
-    case.run("figures", case.out("results"), "--no-pictures", "--width_mm", "85", "--grey")
+    case.run("figures", case.out("results"), "--no_pictures", "--width_mm", "85", "--grey")
     frames_of(case, study)
 
 
@@ -116,7 +116,7 @@ def as_a_method(case, name, _):
     tiny.write(case.at("study.yaml"), b"recording: recording\nmethods:\n  ? " + tiny.in_yaml(name.text) +
                b"\n  : {segmentation: {direct: {}}}\n")
     if case.run("sweep", case.at("study.yaml"), "-o", case.out("results"), "-q"):
-        case.run("figures", case.out("results"), "--no-pictures")
+        case.run("figures", case.out("results"), "--no_pictures")
 
 
 def as_a_study_file(case, name, full):
@@ -127,7 +127,7 @@ def as_a_study_file(case, name, full):
 
 def as_a_scene_file(case, name, full):
     tiny.write_scene(case.at(""), file=name.as_file() + b".xml")
-    case.run("info", case.at(name.as_file() + b".xml"), "--no-picture")
+    case.run("info", case.at(name.as_file() + b".xml"), "--no_picture")
     if case.run("record", case.at("study.yaml"), "-o", case.out("recorded"), "-q", "-j", "1"):
         case.run("info", case.out("recorded"))
     case.run("sweep", case.at("study.yaml"), "-o", case.out("results"), "-q", "-j", "1")
@@ -191,7 +191,7 @@ def in_a_store(case, name, full):
         for flags in TEXT_FORMATS + (("--tidy",),) if full else (("--tidy",),):
             case.run("table", folder, *flags)
         if full or what in ("classes", "study"):
-            case.run("figures", folder, "--no-pictures")
+            case.run("figures", folder, "--no_pictures")
         if full:
             case.run("compare", folder, "direct", "erosion")
             case.run("check", folder, "--baseline", case.out("b.json"), "--update")
@@ -267,7 +267,7 @@ def in_flags(case, name, _):
         case.run("check", case.out("r"), "--baseline", case.at("baseline.json"), codes=(2,))
         case.run("check", case.out("r"), "--baseline", case.out("made.json"), "--update")
         case.run("check", case.out("r"), "--baseline", case.out("made.json"), b"--allow=" + text + b"=1", codes=(2,))
-        case.run("figures", case.out("r"), "--no-pictures", b"--trial=" + text)
+        case.run("figures", case.out("r"), "--no_pictures", b"--trial=" + text)
         case.run("table", case.out("r"), b"--class=" + text)
         case.run("compare", case.out("r"), "--", "direct", text)
         case.run("compare", case.out("r"), "direct", "erosion", b"--metric=" + text)

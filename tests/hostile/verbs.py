@@ -23,7 +23,7 @@ def sweep_and_show(case, study, classes, full, results="results"):
         case.run("table", folder, *flags)
     for verb in ("info", "status", "trials"):
         case.run(verb, folder)
-    case.run("figures", folder, *(() if full else ("--no-pictures",)))
+    case.run("figures", folder, *(() if full else ("--no_pictures",)))
     if not full:
         return
     for name in classes:
@@ -82,7 +82,7 @@ def objects_of(case, recording):
         case.run("objects", recording, "-o", case.out("objects"), "-q", "--min_points", "5", *flags)
     if os.path.exists(case.out("objects/objects.yaml")):
         case.run("objects", recording, "-o", case.out("more"), "-q", "--start", case.out("objects/objects.yaml"))
-        case.run("info", case.out("objects/objects.xml"), "--no-picture")
+        case.run("info", case.out("objects/objects.xml"), "--no_picture")
 
 
 def whole_recording(case, recording, classes, full):

@@ -229,7 +229,7 @@ def check_seeds(findings, mapscore, results):
     findings.hold_equal(f"{tidy.seeds} seeds: the same call twice", twice, once)
     rows = compare_rows(mapscore, results, a, b, "pooled", "json")
     check_json(findings, once, rows, f"{tidy.seeds} seeds, {a} - {b}")
-    program(mapscore, "figures", results, "--no-pictures")
+    program(mapscore, "figures", results, "--no_pictures")
     check_curves(findings, tidy, os.path.join(results, "figures"))
 
 

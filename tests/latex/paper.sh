@@ -11,7 +11,7 @@ set -euo pipefail
 program=$(realpath "$1") results=$(realpath "$2") width_mm=${4:-85}
 mkdir -p "$3" && cd "$3"
 
-"$program" figures "$results" -o figures --no-pictures --width_mm "$width_mm" --grey --no_caption >figures.txt
+"$program" figures "$results" -o figures --no_pictures --width_mm "$width_mm" --grey --no_caption >figures.txt
 "$program" table "$results" --columns method --metric f1 --format tex >f1.tex
 "$program" table "$results" --rows class --columns metric --metric precision,recall,f1 --format tex \
   $("$program" table "$results" --format json | python3 -c '

@@ -116,10 +116,10 @@ def measure(mapscore, workshop, scene):
 
 def classes_for(mapscore, scene, file, folder):
     """Flags that name a suggested class file, where it is wanted or the scene is but geoms of the world."""
-    if not scene.suggested and counts_of(run(mapscore, "info", file, "--no-picture"))[1] > 0:
+    if not scene.suggested and counts_of(run(mapscore, "info", file, "--no_picture"))[1] > 0:
         return []
     classes = os.path.join(folder, "suggested.classes.yaml")
-    run(mapscore, "info", file, "--suggest-classes", "-o", classes)
+    run(mapscore, "info", file, "--suggest_classes", "-o", classes)
     return ["--set", f"classes={classes}"]
 
 

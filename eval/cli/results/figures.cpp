@@ -111,7 +111,7 @@ void add_figures(CLI::App& program) {
   flags->view.add_to(*verb);
   add_memory_flag(*verb, flags->choice.memory_bytes);
   add_interim_flag(*verb, flags->interim);
-  verb->add_flag("--no-pictures", flags->no_pictures, "Figures and tables alone");
+  verb->add_flag("--no_pictures", flags->no_pictures, "Figures and tables alone");
   flags->style.add_to(*verb);
   verb->footer(
       "Writes table.txt, figures (PNG, PDF, SVG, and the gnuplot script and numbers "
@@ -124,7 +124,7 @@ void add_figures(CLI::App& program) {
       "  mapscore figures results/demo\n"
       "  mapscore figures results/demo -o paper --trial faults.misregistration.magnitude_m=0.04\n"
       "  mapscore figures results/demo --view 4 1 2.2 5.5 3 0.8\n"
-      "  mapscore figures results/person --no-pictures\n"
+      "  mapscore figures results/person --no_pictures\n"
       "  mapscore figures results/demo -o paper --width_mm 85 --grey --no_caption  # one column\n"
       "  mapscore figures results/demo -o slides --width_mm 240 --font \"DejaVu Serif\"");
 }

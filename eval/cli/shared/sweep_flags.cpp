@@ -15,7 +15,7 @@ void SweepFlags::add_to(CLI::App& verb) {
   study.add_to(verb);
   work.add_to(verb);
   add_yes_flag(verb, yes, "Begin a sweep of very many trials, or a truth that takes much memory");
-  verb.add_flag("--dry-run", dry_run,
+  verb.add_flag("--dry_run", dry_run,
                 "Only print how many trials there are, how many are missing, and for how long");
   verb.add_option("--shard", shard,
                   "Only one of n slices of the trials, in a folder of its own below the results: "

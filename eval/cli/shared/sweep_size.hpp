@@ -31,7 +31,7 @@ class SweepSize {
   std::optional<SweepStatus> last_;
 };
 
-/// `mapscore sweep --dry-run`: prints cells, trials, how many are there (`keep_builds`: of other
+/// `mapscore sweep --dry_run`: prints cells, trials, how many are there (`keep_builds`: of other
 /// builds too), and the time that the missing ones take. Writes nothing. Throws Error as a sweep
 /// does.
 void print_dry_run(const Study& study, const std::filesystem::path& results, int shard, int shards,

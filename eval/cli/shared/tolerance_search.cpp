@@ -223,7 +223,7 @@ std::vector<ToleranceRow> tolerance_searches(const Study& study, const ClassTabl
 
 SearchCost search_tolerances(const Study& of, const Recording& recording, const ClassTable& table,
                              const ToleranceAim& aim, const WorkFlags& work, ResultStore& store,
-                             std::vector<ToleranceRow>& rows) {
+                             const std::function<bool()>& stop, std::vector<ToleranceRow>& rows) {
   Study study = of;
   study.sweep.clear();
   SearchCost cost;
@@ -232,9 +232,11 @@ SearchCost search_tolerances(const Study& of, const Recording& recording, const 
     Progress progress(what, "frame evaluations", work.quiet);
     RunnerOptions options{work.jobs, work.memory_bytes};
     options.progress = [&](std::int64_t done, std::int64_t total) { progress.show(done, total); };
+    options.stop = stop;
     const RunnerOutcome outcome = run_plan({tasks, {}}, recording, table, store, options);
     if (!outcome.failures.empty()) throw Error(outcome.failures.front().reason);
     cost.computed += outcome.computed;
+    cost.stopped = outcome.stopped;
     asked += tasks.size();
   };
   const auto counts_at = [&](const TaskList& tasks, std::size_t position) {
@@ -244,6 +246,7 @@ SearchCost search_tolerances(const Study& of, const Recording& recording, const 
     const TrialTasks plan = tasks_of_trials(study, trials, recording.content_hash());
     run(plan.tasks, what);
     std::vector<Counts> counts;
+    if (cost.stopped) return counts;
     for (const std::size_t position : plan.positions)
       counts.push_back(counts_at(plan.tasks, position));
     return counts;
@@ -254,17 +257,20 @@ SearchCost search_tolerances(const Study& of, const Recording& recording, const 
     alone.seeds = 1;
     const Plan plan = plan_of(alone, recording.content_hash());
     run(plan.tasks, "tolerance ceiling");
+    if (cost.stopped) return cost;
     refuse_unreachable(aim, rows, counts_at(plan.tasks, plan.trials[0].lattice_ceiling), table);
   }
   const std::size_t asked_before = asked;
-  const Counts first = counts_of({Stage(study, aim, rows).trials().front()}, "tolerance").front();
-  static_cast<void>(value_of(metrics_of_group(first, table, kPooled), aim.metric));
+  const auto first = counts_of({Stage(study, aim, rows).trials().front()}, "tolerance");
+  if (cost.stopped) return cost;
+  static_cast<void>(value_of(metrics_of_group(first.front(), table, kPooled), aim.metric));
   asked = asked_before;
   for (int number = 1;; ++number) {
     const Stage stage(study, aim, rows);
     if (stage.trials().empty()) break;
-    stage.hand_out(counts_of(stage.trials(), fmt::format("tolerance stage {}", number)), table,
-                   aim);
+    const auto counts = counts_of(stage.trials(), fmt::format("tolerance stage {}", number));
+    if (cost.stopped) return cost;
+    stage.hand_out(counts, table, aim);
   }
   for (ToleranceRow& row : rows) {
     row.tolerance = tolerance_of(row.search, row.trials);

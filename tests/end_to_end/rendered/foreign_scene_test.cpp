@@ -48,7 +48,7 @@ TEST_F(ForeignScene, InfoTellsWhatIsThereAndDrawsIt) {
 }
 
 TEST_F(ForeignScene, ThePictureGoesWhereItIsWanted) {
-  expect_done(mapscore({"info", scene(), "--no-picture"}));
+  expect_done(mapscore({"info", scene(), "--no_picture"}));
   EXPECT_FALSE(fs::exists(folder() / "room.classes.png"));
   expect_done(mapscore({"info", scene(), "--picture", folder() / "my.png"}));
   EXPECT_FALSE(fs::exists(folder() / "room.classes.png"));
@@ -58,16 +58,16 @@ TEST_F(ForeignScene, ThePictureGoesWhereItIsWanted) {
 }
 
 TEST_F(ForeignScene, ASuggestedClassFileIsTakenAsItIs) {
-  const Outcome printed = mapscore({"info", scene(), "--suggest-classes"});
+  const Outcome printed = mapscore({"info", scene(), "--suggest_classes"});
   expect_done(printed);
   EXPECT_THAT(printed.out, HasSubstr("name: \"cup\""));
-  expect_done(mapscore({"info", scene(), "--suggest-classes", "-o", classes()}));
+  expect_done(mapscore({"info", scene(), "--suggest_classes", "-o", classes()}));
   EXPECT_EQ(bytes_of(classes()), printed.out);
-  const Outcome told = mapscore({"info", scene(), "--no-picture"});
+  const Outcome told = mapscore({"info", scene(), "--no_picture"});
   expect_done(told);
   EXPECT_THAT(told.out, HasSubstr("wall"));
   EXPECT_THAT(told.out, HasSubstr("no      1"));
-  expect_refused(mapscore({"info", scene(), "--suggest-classes", "-o", classes()}),
+  expect_refused(mapscore({"info", scene(), "--suggest_classes", "-o", classes()}),
                  {"room.classes.yaml", "exists already", "give another"});
 }
 
@@ -77,7 +77,7 @@ TEST_F(ForeignScene, WithoutLightIsSaidInALineAndDrawnLit) {
              "<body name='cup_1'><geom type='box' size='.2 .2 .3'/></body></worldbody></mujoco>\n");
   const Outcome told = mapscore({"info", scene()});
   EXPECT_THAT(told.out, HasSubstr("note: no light shines"));
-  const Outcome suggested = mapscore({"info", scene(), "--suggest-classes"});
+  const Outcome suggested = mapscore({"info", scene(), "--suggest_classes"});
   expect_done(suggested);
   EXPECT_THAT(suggested.err, HasSubstr("note: no light shines"));
   EXPECT_THAT(suggested.out, Not(HasSubstr("no light")));
@@ -123,8 +123,8 @@ TEST_F(ForeignScene, ABakedCopyHasNoiseInItsImagesAndExactTruth) {
 }
 
 TEST_F(ForeignScene, FlagsOfScenesApplyToScenesAlone) {
-  expect_refused(mapscore({"info", scene(), "-o", classes()}), {"--output", "--suggest-classes"});
-  expect_refused(mapscore({"info", folder(), "--suggest-classes"}), {"not a scene"});
+  expect_refused(mapscore({"info", scene(), "-o", classes()}), {"--output", "--suggest_classes"});
+  expect_refused(mapscore({"info", folder(), "--suggest_classes"}), {"not a scene"});
 }
 
 TEST_F(ForeignScene, TruthNeedsNoRobot) {

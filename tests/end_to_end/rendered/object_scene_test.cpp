@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 TEST_F(ObjectScene, IsLoadedAsAScene) {
   expect_done(mapscore({"objects", path("tiny"), "-o", path("map"), "-q"}));
-  const Outcome info = mapscore({"info", path("map/objects.xml"), "--no-picture"});
+  const Outcome info = mapscore({"info", path("map/objects.xml"), "--no_picture"});
   expect_done(info);
   EXPECT_THAT(info.out, HasSubstr("scene of 1 drawn surfaces"));
   EXPECT_THAT(info.out, HasSubstr("crate"));

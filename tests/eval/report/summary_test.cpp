@@ -99,7 +99,9 @@ TEST_F(Summary, AnInterimOneHasTheLinesThatAreThereWithTheirCeilings) {
   });
   sweep(2, 3);
   const StudySummary interim = summarise_store(results(), {{}, true});
-  EXPECT_EQ(interim.interim, "INTERIM: 2 of 3 trials and ceilings are there; figures will change");
+  EXPECT_EQ(interim.interim,
+            "INTERIM: 2 of 3 trials and ceilings are there; figures will change; each has 1 of 1 "
+            "seeds");
   ASSERT_THAT(interim.trials, SizeIs(1));
   EXPECT_THAT(interim.lattice_ceilings, SizeIs(1));
   sweep(3, 3);
