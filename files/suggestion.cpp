@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 
 namespace mapscore {
@@ -52,13 +53,30 @@ std::string nearest_name(const fs::path& folder, const std::string& name) {
   return nearest;
 }
 
+std::vector<std::string> ending_in(std::string_view name, const std::vector<std::string>& paths) {
+  std::vector<std::string> found;
+  std::ranges::copy_if(paths, std::back_inserter(found), [&](const std::string& path) {
+    return path.ends_with("." + std::string(name));
+  });
+  return found;
+}
+
 }  // namespace
+
+std::optional<std::string> path_named(std::string_view name,
+                                      const std::vector<std::string>& paths) {
+  if (std::ranges::find(paths, name) != paths.end()) return std::string(name);
+  const std::vector<std::string> ending = ending_in(name, paths);
+  return ending.size() == 1 ? std::optional(ending.front()) : std::nullopt;
+}
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& choices) {
   // Most often the unit is what is missing: a choice that continues the word is the nearest of all.
   const auto distance = [&](const std::string& choice) {
     return choice.starts_with(std::string(word) + "_") ? 0 : edit_distance(word, choice);
   };
+  if (const auto ending = ending_in(word, choices); ending.size() > 1)
+    return fmt::format("write one of {}", fmt::join(ending, ", "));
   const auto nearest = std::ranges::min_element(choices, {}, distance);
   if (nearest == choices.end()) return "remove it";
   if (distance(*nearest) <= most_edits(word)) return fmt::format("did you mean '{}'?", *nearest);

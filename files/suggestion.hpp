@@ -4,13 +4,19 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace mapscore {
 
-/// "did you mean 'NEAREST'?", or the choices when none is near.
+/// The dotted path that `name` stands for: itself, or the only one that ends in ".NAME".
+[[nodiscard]] std::optional<std::string> path_named(std::string_view name,
+                                                    const std::vector<std::string>& paths);
+
+/// "did you mean 'NEAREST'?", or the choices when none is near; those that end in ".WORD" alone
+/// where several do.
 [[nodiscard]] std::string suggestion(std::string_view word,
                                      const std::vector<std::string>& choices);
 

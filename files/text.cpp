@@ -129,6 +129,13 @@ std::string excerpt(std::string_view text) {
   return fmt::format("'{}{}'", printable, text.size() > kLongest ? "..." : "");
 }
 
+std::string with_signs(std::string_view text, const std::function<bool(char32_t)>& keep,
+                       std::string_view sign) {
+  return rewritten(text, [&](const Character& c) {
+    return std::string(c.valid && keep(c.code) ? c.bytes : sign);
+  });
+}
+
 std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& letter : lower)

@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,6 +35,12 @@ template <std::same_as<std::filesystem::path> Path>
 
 /// A text of a file for a message: in single quotes, cut when long, control characters as '?'.
 [[nodiscard]] std::string excerpt(std::string_view text);
+
+/// The text with `sign` in the place of every character that `keep` refuses, and of every byte that
+/// is no UTF-8.
+[[nodiscard]] std::string with_signs(std::string_view text,
+                                     const std::function<bool(char32_t)>& keep,
+                                     std::string_view sign);
 
 /// ASCII capitals made small, as names of fields, columns and endings are compared.
 [[nodiscard]] std::string lower_case(std::string_view text);

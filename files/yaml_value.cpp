@@ -113,6 +113,12 @@ YAML::Node load_one(const std::string& text, const std::string& source, bool lin
   }
 }
 
+/// Whether YAML reads the text as itself: no mark, no null.
+bool is_plain_word(std::string_view text) {
+  return is_word(text, "_-./") && text.front() != '-' && text != "null" && text != "Null" &&
+         text != "NULL" && text != "...";
+}
+
 /// The number of digits alone that is the whole of `text`.
 std::optional<std::uint64_t> digits_of(std::string_view text, int base) {
   std::uint64_t value = 0;
@@ -236,6 +242,8 @@ YamlValue parse_yaml(const std::string& text, const std::string& source) {
 
 YamlValue parse_yaml_value(const std::string& text, const std::string& source,
                            const std::string& path) {
+  // A plain word is itself: a sweep reads every value of every cell here.
+  if (is_plain_word(text)) return {YAML::Node(text), source, 0, path};
   return {load_one(text, source, false), source, 0, path};
 }
 
@@ -262,9 +270,7 @@ YamlValue find(const YamlValue& root, std::string_view path) {
 }
 
 std::string yaml_text(std::string_view text) {
-  const bool word = is_word(text, "_-./") && text.front() != '-' && text != "null" &&
-                    text != "Null" && text != "NULL" && text != "...";
-  return word ? std::string(text) : yaml_quoted(text);
+  return is_plain_word(text) ? std::string(text) : yaml_quoted(text);
 }
 
 std::string join_path(std::string_view head, std::string_view tail) {

@@ -44,6 +44,7 @@ SemanticMap::SemanticMap(std::unique_ptr<SemanticOcTree> tree)
 void SemanticMap::fuse(std::span<const VoxelHit> hits, int draws, const FusionRule& rule,
                        std::size_t class_count) {
   check_fusion(hits, draws, rule, class_count);
+  SemanticOcTree::Descent descent(*tree_);
   std::visit(
       [&](const auto& kind) {
         for_each_voxel(hits, [&](std::span<const VoxelHit> of_voxel) {
@@ -54,7 +55,7 @@ void SemanticMap::fuse(std::span<const VoxelHit> hits, int draws, const FusionRu
           }
           // Inner nodes are brought up to date in what is saved.
           SemanticOcTreeNode& voxel =
-              carves() ? tree_->finest(octree_key(key)) : tree_->hit(octree_key(key));
+              carves() ? descent.finest(octree_key(key)) : descent.hit(octree_key(key));
           mapscore::fuse(kind, of_voxel, draws, voxel.mutable_beliefs());
         });
       },

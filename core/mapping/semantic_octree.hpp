@@ -14,6 +14,7 @@
 #include <octomap/OccupancyOcTreeBase.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
@@ -109,8 +110,7 @@ class SemanticOcTree : public octomap::OccupancyOcTreeBase<SemanticOcTreeNode> {
   void set_model(const OccupancyModel& model);
   /// The finest voxel of a key, made (log-odds 0) or cut out of a pruned leaf where there is none.
   [[nodiscard]] SemanticOcTreeNode& finest(const octomap::OcTreeKey& key);
-  /// As octomap's updateNode(key, true, lazy), with one descent, and never into a pruned leaf.
-  [[nodiscard]] SemanticOcTreeNode& hit(const octomap::OcTreeKey& key);
+  class Descent;
   /// One update of every voxel of the blocks, which lie within the span: as octomap's updateNode of
   /// each, pruned and inner occupancy brought up to date above them, in one pass.
   void observe(const SpaceBlocks& blocks);
@@ -144,6 +144,26 @@ class SemanticOcTree : public octomap::OccupancyOcTreeBase<SemanticOcTreeNode> {
 
   /// Makes the type known to octomap::AbstractOcTree::read.
   static const bool kKnown;
+};
+
+/// Goes to one voxel after the other and keeps the way to the last, so that a near one takes few
+/// steps. Between two steps nothing else may change the tree.
+class SemanticOcTree::Descent {
+ public:
+  explicit Descent(SemanticOcTree& tree) : tree_(tree) {}
+
+  /// As SemanticOcTree::finest.
+  [[nodiscard]] SemanticOcTreeNode& finest(const octomap::OcTreeKey& key);
+  /// As octomap's updateNode(key, true, lazy), with one descent, and never into a pruned leaf.
+  [[nodiscard]] SemanticOcTreeNode& hit(const octomap::OcTreeKey& key);
+
+ private:
+  static constexpr unsigned kLevels = 16;
+
+  SemanticOcTree& tree_;
+  octomap::OcTreeKey last_;
+  std::array<SemanticOcTreeNode*, kLevels + 1>
+      way_{};  ///< by level, 0 for the finest voxel `last_`
 };
 
 /// An octree spans this many voxels on either side of the origin.

@@ -6,7 +6,9 @@
 #include "core/mapping/semantic_octree.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <span>
+#include <tuple>
 
 namespace mapscore {
 namespace {
@@ -46,25 +48,40 @@ void SemanticOcTree::expand_leaf(SemanticOcTreeNode* node) {
 }
 
 SemanticOcTreeNode& SemanticOcTree::finest(const octomap::OcTreeKey& key) {
-  auto [node, created] = root_or_new();
-  for (unsigned level = getTreeDepth(); level > 0; --level) {
+  return Descent(*this).finest(key);
+}
+
+SemanticOcTreeNode& SemanticOcTree::Descent::finest(const octomap::OcTreeKey& key) {
+  unsigned level = kLevels;
+  bool created = false;
+  if (way_[kLevels] == nullptr) {
+    std::tie(way_[kLevels], created) = tree_.root_or_new();
+  } else {
+    const auto differ =
+        static_cast<unsigned>((key[0] ^ last_[0]) | (key[1] ^ last_[1]) | (key[2] ^ last_[2]));
+    level = static_cast<unsigned>(std::bit_width(differ));
+  }
+  SemanticOcTreeNode* node = way_[level];
+  for (; level > 0; --level) {
     const unsigned index = octomap::computeChildIdx(key, static_cast<int>(level) - 1);
-    if (nodeChildExists(node, index)) {
-      node = getNodeChild(node, index);
-    } else if (!created && !nodeHasChildren(node)) {
-      expand_leaf(node);
-      node = getNodeChild(node, index);
+    if (tree_.nodeChildExists(node, index)) {
+      node = tree_.getNodeChild(node, index);
+    } else if (!created && !tree_.nodeHasChildren(node)) {
+      tree_.expand_leaf(node);
+      node = tree_.getNodeChild(node, index);
     } else {
-      node = createNodeChild(node, index);
+      node = tree_.createNodeChild(node, index);
       created = true;
     }
+    way_[level - 1] = node;
   }
+  last_ = key;
   return *node;
 }
 
-SemanticOcTreeNode& SemanticOcTree::hit(const octomap::OcTreeKey& key) {
+SemanticOcTreeNode& SemanticOcTree::Descent::hit(const octomap::OcTreeKey& key) {
   SemanticOcTreeNode& node = finest(key);
-  if (node.getLogOdds() < getClampingThresMaxLog()) integrateHit(&node);
+  if (node.getLogOdds() < tree_.getClampingThresMaxLog()) tree_.integrateHit(&node);
   return node;
 }
 

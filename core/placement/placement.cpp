@@ -4,10 +4,13 @@
 #include "core/placement/placement.hpp"
 
 #include "core/error.hpp"
+#include "core/geometry/voxel_packer.hpp"
 #include "core/placement/point_parts.hpp"
 #include "core/placement/voxel_index.hpp"
+#include "core/wide_vectors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -23,14 +26,14 @@ class DrawVotes {
   /// Objects are numbered by their place in the observation, which must outlive this.
   explicit DrawVotes(const Observation& observation) : observation_(observation) {}
 
-  /// Adds points of an object to a voxel in the current draw.
-  void add(const VoxelKey& key, std::uint32_t object, int points) {
-    if (key != last_key_ || object != last_object_) begin_votes(key, object);
+  /// Adds points of an object to a voxel (packed) in the current draw.
+  void add(std::uint64_t voxel, std::uint32_t object, int points) {
+    if (voxel != last_voxel_ || object != last_object_) begin_votes(voxel, object);
     last_vote_->points += points;
   }
   /// True if the object has votes in the voxel in the current draw.
   [[nodiscard]] bool has(const VoxelKey& key, std::uint32_t object) {
-    const std::uint32_t number = index_.find(key);
+    const std::uint32_t number = index_.find(pack(key));
     if (number == kNone || voxels_[number].draw != draw_) return false;
     for (const Vote* vote = &voxels_[number].first; vote; vote = next(vote))
       if (vote->object == object) return vote->draw == draw_;
@@ -38,7 +41,7 @@ class DrawVotes {
   }
   /// True if several classes have votes in the voxel in the current draw.
   [[nodiscard]] bool contested(const VoxelKey& key) {
-    const std::uint32_t number = index_.find(key);
+    const std::uint32_t number = index_.find(pack(key));
     return number != kNone && voxels_[number].draw == draw_ && voxels_[number].contested;
   }
   /// True if any voxel is contested in the current draw.
@@ -91,8 +94,8 @@ class DrawVotes {
     bool contested = false;          ///< in that draw
   };
 
-  void begin_votes(const VoxelKey& key, std::uint32_t object) {
-    const std::uint32_t number = index_.number(key);
+  void begin_votes(std::uint64_t packed, std::uint32_t object) {
+    const std::uint32_t number = index_.number(packed);
     if (number == voxels_.size()) voxels_.emplace_back();
     Voxel& voxel = voxels_[number];
     const ClassId class_id = observation_[object].class_id;
@@ -107,7 +110,7 @@ class DrawVotes {
     Vote& vote = vote_of(voxel, object);
     if (vote.draw != draw_) vote.points = 0;
     vote.draw = draw_;
-    last_key_ = key;
+    last_voxel_ = packed;
     last_object_ = object;
     last_vote_ = &vote;
   }
@@ -167,10 +170,19 @@ class DrawVotes {
   int draw_ = 0;                      ///< the current one
   std::vector<std::uint32_t> voted_;  ///< numbers of the voxels with votes in the current draw
   bool any_contested_ = false;
-  VoxelKey last_key_;  ///< with last_object_, what add() was called with last
+  std::uint64_t last_voxel_ = 0;  ///< with last_object_, what add() was called with last
   std::uint32_t last_object_ = kNone;
   Vote* last_vote_ = nullptr;
 };
+
+/// The packed voxels of points, as VoxelPacker gives them.
+MAPSCORE_WIDE_VECTORS
+void pack_points(const Eigen::Vector3d* points, std::size_t count, const VoxelPacker& packer,
+                 std::uint64_t* packed) {
+  const VoxelPacker pack = packer;
+  for (std::size_t n = 0; n < count; ++n)
+    packed[n] = pack(points[n].x(), points[n].y(), points[n].z());
+}
 
 /// Places the points of one frame in one draw after the other (docs/fusion.md, Many draws).
 class FramePlacer {
@@ -180,8 +192,8 @@ class FramePlacer {
       : edge_m_(edge_m), parts_(parts), boxes_(std::move(boxes)), votes_(observation) {}
 
   void place(const Pose& T_map_sensor) {
-    R_ = T_map_sensor.linear();
-    t_ = T_map_sensor.translation();
+    T_map_sensor_ = T_map_sensor;
+    packer_ = VoxelPacker(T_map_sensor, edge_m_);
     for (const PointPart& part : parts_.loose) vote_by_points(part);
     if (boxes_.move_to(T_map_sensor))
       vote_by_parts();
@@ -193,9 +205,16 @@ class FramePlacer {
 
  private:
   void vote_by_points(const PointPart& part) {
-    for (const Eigen::Vector3d& p_sensor : part.points) {
-      const Eigen::Vector3d p_map = R_ * p_sensor + t_;
-      if (const auto key = packable_voxel_of(p_map, edge_m_)) votes_.add(*key, part.object, 1);
+    for (std::span rest = part.points; !rest.empty();) {
+      const auto points = rest.first(std::min(rest.size(), packed_.size()));
+      rest = rest.subspan(points.size());
+      pack_points(points.data(), points.size(), packer_, packed_.data());
+      for (std::size_t n = 0; n < points.size(); ++n) {
+        if (packed_[n] != VoxelPacker::kNone)
+          votes_.add(packed_[n], part.object, 1);
+        else if (const auto far = packable_voxel_of(T_map_sensor_ * points[n], edge_m_))
+          votes_.add(pack(*far), part.object, 1);
+      }
     }
   }
 
@@ -207,7 +226,7 @@ class FramePlacer {
     for (std::uint32_t n = 0; n < parts_.small.size(); ++n) {
       const auto& [object, points] = parts_.small[n];
       if (boxes_.within_one_voxel(n))
-        votes_.add(boxes_.low(n), object, static_cast<int>(points.size()));
+        votes_.add(pack(boxes_.low(n)), object, static_cast<int>(points.size()));
       else
         open_.push_back(n);
     }
@@ -238,8 +257,9 @@ class FramePlacer {
   const PointParts& parts_;
   PartBoxes boxes_;
   DrawVotes votes_;
-  Eigen::Matrix3d R_;  ///< of the current draw, with t_
-  Eigen::Vector3d t_;
+  Pose T_map_sensor_;  ///< of the current draw
+  VoxelPacker packer_{Pose::Identity(), edge_m_};
+  std::array<std::uint64_t, 512> packed_{};
   std::vector<std::uint32_t> open_;    ///< parts that may lie in several voxels
   std::vector<std::uint32_t> unread_;  ///< of these, parts that can enter no further voxel
 };

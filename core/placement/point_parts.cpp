@@ -43,7 +43,7 @@ Cubes find_cubes(const std::vector<Eigen::Vector3d>& points, const Eigen::Matrix
   for (const Eigen::Vector3d& p : points) {
     const Eigen::Vector3d q = to_voxels * p;
     const bool within = (q.array().abs() < kReach).all();
-    const std::uint32_t cube = within ? index.number(voxel_of(q, kCube)) : kNone;
+    const std::uint32_t cube = within ? index.number(pack(voxel_of(q, kCube))) : kNone;
     cubes.of_point.push_back(cube);
     if (!within) continue;
     if (cube == cubes.boxes.size()) {

@@ -13,22 +13,22 @@ namespace mapscore {
 
 /// Numbers voxels 0, 1, 2, ... in the order in which they first ask for a number. A hash table of
 /// blocks of 4 x 4 x 4 voxels: a voxel in the block of the one before is found without hashing.
-/// Indices within +-2^20. Not thread-safe, lookups included.
+/// Voxels are named by their packed keys. Not thread-safe, lookups included.
 class VoxelIndex {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   /// The number of a voxel, the next free one if it had none.
-  std::uint32_t number(const VoxelKey& key) {
-    std::uint32_t& number = cell(key);
+  std::uint32_t number(std::uint64_t packed) {
+    std::uint32_t& number = cell(packed);
     if (number == kNone) {
       number = static_cast<std::uint32_t>(keys_.size());
-      keys_.push_back(pack(key));
+      keys_.push_back(packed);
     }
     return number;
   }
   /// The number of a voxel, or kNone.
-  [[nodiscard]] std::uint32_t find(const VoxelKey& key) { return cell(key); }
+  [[nodiscard]] std::uint32_t find(std::uint64_t packed) { return cell(packed); }
   /// The numbered voxels, packed, by number.
   [[nodiscard]] const std::vector<std::uint64_t>& keys() const { return keys_; }
 
@@ -39,9 +39,9 @@ class VoxelIndex {
   };
   static constexpr std::size_t kCells = 64;  ///< of a block
 
-  [[nodiscard]] std::uint32_t& cell(const VoxelKey& key) {
+  [[nodiscard]] std::uint32_t& cell(std::uint64_t packed) {
     constexpr std::uint64_t kAxis = 3, kWithin = kAxis << 42 | kAxis << 21 | kAxis;
-    const std::uint64_t packed = pack(key), block = packed & ~kWithin;
+    const std::uint64_t block = packed & ~kWithin;
     if (block != last_block_) {
       last_block_ = block;
       first_cell_ = kCells * number_of_block(block);

@@ -6,10 +6,24 @@
 #include "core/error.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <string>
 
 namespace mapscore {
 namespace {
+
+/// The first column from `u` on whose value is not that of `u`. Looks at four at a time.
+int end_of_run(const std::uint16_t* row, int u, int columns) {
+  const std::uint64_t four = row[u] * 0x0001000100010001ULL;
+  const int first = u;
+  for (std::uint64_t next = 0; u + 4 <= columns; u += 4) {
+    std::memcpy(&next, row + u, sizeof next);
+    if (next != four) break;
+  }
+  while (u < columns && row[u] == row[first]) ++u;
+  return u;
+}
 
 /// Tight box of every instance id that occurs, indexed by id; empty boxes have u_max < u_min.
 std::vector<PixelBox> boxes_of(const cv::Mat1w& label, std::size_t instance_count) {
@@ -20,7 +34,7 @@ std::vector<PixelBox> boxes_of(const cv::Mat1w& label, std::size_t instance_coun
     for (int u = 0; u < label.cols;) {
       const std::uint16_t id = row[u];
       const int first = u;
-      while (u < label.cols && row[u] == id) ++u;
+      u = end_of_run(row, u, label.cols);
       if (id == 0 || id >= instance_count) continue;
       PixelBox& box = boxes[id];
       box = {std::min(box.u_min, first), std::min(box.v_min, v), std::max(box.u_max, u - 1), v};

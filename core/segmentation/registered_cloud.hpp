@@ -42,6 +42,8 @@ class RegisteredCloud {
                      std::vector<Eigen::Vector3d>& points) const;
 
  private:
+  void append_points(std::span<const int> depth_pixels, std::vector<Eigen::Vector3d>& points) const;
+
   cv::Mat1w depth_;
   DepthRays rays_;
   cv::Mat1i source_;

@@ -5,7 +5,9 @@
 
 #include "core/error.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace mapscore {
 namespace {
@@ -13,6 +15,31 @@ namespace {
 void check_edge(double voxel_m) {
   if (!(voxel_m > 0.0) || !std::isfinite(voxel_m))
     throw Error("voxel_m: must be a positive length in metres");
+}
+
+/// Bounds of points. Four at a time, so that the compiler makes vectors and no minimum waits for
+/// the one before.
+Eigen::AlignedBox3d box_of(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  if (points.empty()) return box;
+  constexpr std::size_t kLanes = 12;
+  std::array<double, kLanes> low{}, high{};
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    low[lane] = high[lane] = points.front()[static_cast<Eigen::Index>(lane % 3)];
+  const double* values = points.front().data();
+  const std::size_t whole = 3 * points.size() / kLanes * kLanes;
+  for (std::size_t n = 0; n < whole; n += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const double value = values[n + lane];
+      low[lane] = value < low[lane] ? value : low[lane];
+      high[lane] = value > high[lane] ? value : high[lane];
+    }
+  for (std::size_t lane = 0; lane < kLanes; lane += 3) {
+    box.extend(Eigen::Vector3d(low[lane], low[lane + 1], low[lane + 2]));
+    box.extend(Eigen::Vector3d(high[lane], high[lane + 1], high[lane + 2]));
+  }
+  for (std::size_t n = whole / 3; n < points.size(); ++n) box.extend(points[n]);
+  return box;
 }
 
 }  // namespace
@@ -26,7 +53,7 @@ Segment described(Segment found, const Detection& detection) {
   found.class_id = detection.class_id;
   found.instance = detection.instance;
   found.score = detection.score;
-  for (const Eigen::Vector3d& point : found.points) found.box.extend(point);
+  found.box.extend(box_of(found.points));
   return found;
 }
 

@@ -80,8 +80,8 @@ void compare_frames(const FramesFlags& flags) {
   if (flags.seed < 0 || flags.seed >= study.seeds)
     throw Error(fmt::format("no trial of seed {}; seeds: 0 to {}", flags.seed, study.seeds - 1));
   const fs::path results = flags.study.results_folder(study);
-  ShownRecording display(flags.work.quiet);
-  const Recording recording = recording_of(study, results, flags.work.jobs, display.progress());
+  const Recording recording =
+      shown_recording("frames", study, results, flags.work.jobs, flags.work.quiet);
   const ClassTable table = detected_table(study, recording.info().table);
   const std::vector<Task> tasks = tasks_of(study, flags.seed, recording.content_hash());
   check_truth_size(tasks.front().config, recording, 1, flags.yes);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/results/build_identity.hpp"
 #include "files/suggestion.hpp"
@@ -145,6 +146,9 @@ int main(int argc, char** argv) {
     return complain(std::string(error.what()) + "; see `mapscore --help`");
   } catch (const mapscore::Error& error) {
     return complain(error.what());
+  } catch (const mapscore::eval::StoppedRecording& stopped) {
+    complain(stopped.what());
+    return 128 + stopped.signal;
   } catch (const std::filesystem::filesystem_error& error) {
     return complain(error.path1().string() + ": " + error.code().message() +
                     "; give another place, or mend its permissions");

@@ -168,9 +168,7 @@ void add_resolutions(CLI::App& program) {
   verb->add_option("--threshold", flags->threshold,
                    "Least probability of a predicted voxel [half of the rule's first full hit]")
       ->check(finite_within(0.0, 1.0));
-  verb->add_option("--detect", flags->detect, "Classes that count, by commas, or all [the truth's]")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list(*verb, "--detect", flags->detect, "Classes that count, by commas, or all [the truth's]");
   verb->add_option("--picture", flags->picture, "PNG: the maps side by side in class colours");
   flags->view.add_to(*verb);
   verb->add_option("--color", flags->color,

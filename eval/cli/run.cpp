@@ -5,12 +5,11 @@
 #include "core/whole_file.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
+#include "eval/cli/shared/score_command.hpp"
 #include "eval/cli/shared/trial_maps.hpp"
 #include "eval/cli/shared/truth_source.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/bench.hpp"
-#include "eval/lab/map_frame.hpp"
-#include "eval/render/replay_check.hpp"
 #include "eval/render/study_recording.hpp"
 #include "eval/report/pictures/pictures.hpp"
 #include "eval/report/summary.hpp"
@@ -18,6 +17,7 @@
 #include "eval/report/tidy_csv.hpp"
 #include "eval/report/trial_list.hpp"
 #include "eval/results/plan.hpp"
+#include "eval/results/searched_trials.hpp"
 #include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"
 #include "files/text.hpp"
@@ -25,6 +25,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -89,27 +90,6 @@ void write_frames(const TrialRun& trial, const ClassTable& table,
   std::cout << shown(file) << '\n';
 }
 
-/// The command that scores the map again, as a comment.
-std::string score_command(const std::filesystem::path& map, const Study& study,
-                          const Recording& recording, const ClassTable& table, const Task& task,
-                          double threshold) {
-  const MapFrame frame = map_frame(task.config, task.seed_index);
-  std::string command = fmt::format(
-      "# mapscore score {} --truth {} --voxel_m {} --origin_m {} {} {} --yaw_deg {} --threshold {}",
-      shell_word(map.native()), shell_word(recording.folder().native()), frame.edge_m,
-      frame.origin_m.x(), frame.origin_m.y(), frame.origin_m.z(), task.config.map_yaw_deg,
-      threshold);
-  if (task.config.score.unit == ScoreUnit::frame)
-    command += fmt::format(" --frames {}", recording.frame_count() - 1);
-  if (study.detect) {
-    std::vector<std::string> names;
-    for (const SemanticClass& c : table.classes)
-      if (c.detect) names.push_back(c.name);
-    command += " --detect " + shell_word(fmt::format("{}", fmt::join(names, ",")));
-  }
-  return shown(command) + '\n';
-}
-
 /// A trial to run, and all that it stands on.
 struct ChosenTrial {
   Study study;
@@ -123,27 +103,52 @@ struct ChosenTrial {
 };
 
 ChosenTrial trial_of_study(const RunFlags& flags) {
+  if (const std::string& file = flags.study.file;
+      std::filesystem::is_directory(file) && std::filesystem::exists(store_file(file)))
+    throw Error(fmt::format(
+        "{0}: holds results; `mapscore trials {0}` lists its trials, --trial KEY repeats one",
+        file));
   Study study = flags.study.load();
   std::filesystem::path results = flags.study.results_folder(study);
   TrialSpec spec = spec_of(study, flags);
-  ShownRecording display(flags.work.quiet);
-  Recording recording = recording_of(study, results, flags.work.jobs, display.progress());
-  if (const std::string note = note_on_baked(recording.info()); !note.empty())
-    std::cerr << "run: " << note << '\n';
+  Recording recording = shown_recording("run", study, results, flags.work.jobs, flags.work.quiet);
   ClassTable table = detected_table(study, recording.info().table);
   Task task = task_of(study, spec, Labels::detected, recording.content_hash());
   return {std::move(study), std::move(results), std::move(recording), std::move(table),
           std::move(spec),  Role::trial,        std::move(task)};
 }
 
+/// Of a searched trial a store keeps no study; says how to repeat it.
+void refuse_searched(const ResultStore& store, const std::string& begin) {
+  const auto all = searched_trials(store);
+  const auto begins = [&](const auto& trial) { return trial.key.starts_with(begin); };
+  if (std::ranges::count_if(all, begins) > 1)
+    throw Error(fmt::format(
+        "--trial {}: several keys of `mapscore tolerance` begin so; write more of it", begin));
+  for (const auto& [key, spec] : all) {
+    if (!key.starts_with(begin)) continue;
+    std::string command = fmt::format("mapscore run STUDY --method {} --seed {} --set seeds={}",
+                                      spec.method, spec.seed_index, spec.seed_index + 1);
+    command += " --set 'sweep={}'";
+    for (const auto& [path, value] : spec.cell.doses)
+      command += fmt::format(" --set {}={}", path, value);
+    throw Error(
+        fmt::format("--trial {}: is of `mapscore tolerance`; `{}` repeats it, with the "
+                    "study that was searched",
+                    begin, command));
+  }
+}
+
 /// The one task whose key begins with `begin`.
-ListedTask task_of_key(const Plan& plan, const std::string& begin, const std::string& results) {
+ListedTask task_of_key(const Plan& plan, const ResultStore& store, const std::string& begin,
+                       const std::string& results) {
   std::vector<ListedTask> found;
   visit_tasks(plan, [&](const ListedTask& listed) {
     if (plan.tasks.key(listed.task).starts_with(begin)) found.push_back(listed);
     return found.size() < 2;
   });
   if (found.size() == 1) return found.front();
+  if (found.empty()) refuse_searched(store, begin);
   throw Error(fmt::format("--trial {}: {}; `mapscore trials {}` lists the keys", begin,
                           found.empty() ? "no trial of the study has this key"
                                         : "several keys begin so; write more of it",
@@ -156,9 +161,15 @@ ChosenTrial trial_of_store(const RunFlags& flags) {
     throw Error("--set: stands beside --trial, which repeats a trial as it is; leave one out");
   const std::filesystem::path file = store_file(results);
   const ResultStore store = ResultStore::open_existing(file);
+  if (store.text("study").empty() && !searched_trials(store).empty()) {
+    refuse_searched(store, flags.key);
+    throw Error(
+        fmt::format("--trial {}: no trial has this key; `mapscore trials {}` lists the keys",
+                    flags.key, results));
+  }
   StudyRecord record = read_study(store, file.parent_path());
   const Plan plan = plan_of(record.study, record.recording_hash);
-  ListedTask listed = task_of_key(plan, flags.key, results);
+  ListedTask listed = task_of_key(plan, store, flags.key, results);
   Recording recording = recording_of(record, file.parent_path());
   Task task = plan.tasks[listed.task];
   auto stored = store.find(task.key);
@@ -247,14 +258,15 @@ void add_run(CLI::App& program, int& exit_code) {
   auto* verb = program.add_subcommand("run", "One trial, with its map and pictures of its errors");
   const auto flags = std::make_shared<RunFlags>();
   verb->callback([flags, &exit_code] { exit_code = run(*flags); });
-  flags->study.add_to(*verb);
+  flags->study.add_to(*verb, "STUDY or RESULTS",
+                      "Study file (YAML), or with --trial a results folder");
   flags->work.add_to(*verb);
   add_yes_flag(*verb, flags->yes);
   auto* method =
       verb->add_option("--method", flags->method, "Name of a method of the study [the first]");
   auto* seed = verb->add_option("--seed", flags->seed, "Index of the seed [0]");
   verb->add_option("--trial", flags->key,
-                   "With a results folder as STUDY: repeat the trial whose key begins so, and "
+                   "With RESULTS: repeat the trial whose key begins so, and "
                    "compare its counts with those stored")
       ->excludes(method)
       ->excludes(seed);

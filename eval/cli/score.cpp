@@ -201,10 +201,8 @@ void add_score(CLI::App& program) {
   verb->add_option("--threshold", flags->threshold,
                    "Least probability of a predicted voxel [0.25; 0 for geometry]")
       ->check(finite_within(0.0, 1.0));
-  verb->add_option("--detect", flags->detect,
-                   "Classes of pooled, macro, pictures and errors, by commas, or all [the truth's]")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list(*verb, "--detect", flags->detect,
+           "Classes of pooled, macro, pictures and errors, by commas, or all [the truth's]");
   verb->add_flag("--details", flags->details,
                  "And distances, probabilities, instances, confusion, free space");
   verb->add_flag("--tidy", flags->tidy, "Everything as one table: class,metric,value");

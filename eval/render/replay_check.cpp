@@ -7,8 +7,11 @@
 #include "core/fusion/fusion_rule.hpp"
 #include "eval/results/study_store.hpp"
 #include "eval/study/grid.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
+
+#include <filesystem>
 
 namespace mapscore::eval {
 namespace {
@@ -64,6 +67,16 @@ void check_replay(const Study& study, const RecordingInfo& info) {
   check_classes(study, info.table);
   if (info.baked)
     for (const Cell& cell : cells(study)) check_baked(resolve(study, cell), info);
+}
+
+std::string note_on_scene(const Study& study, const RecordingInfo& info) {
+  if (!study.recording || !study.scene) return {};
+  const std::string scene = std::filesystem::path(*study.scene).filename().string();
+  if (scene == info.scene) return {};
+  return fmt::format(
+      "note: {} is not the scene that was recorded{}; pictures show the recorded surfaces in the "
+      "colours of their classes",
+      shown(scene), info.scene.empty() ? "" : ", " + shown(info.scene));
 }
 
 std::string note_on_baked(const RecordingInfo& info) {

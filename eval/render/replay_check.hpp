@@ -19,6 +19,9 @@ void check_classes(const Study& study, const ClassTable& table);
 /// Throws Error.
 void check_replay(const Study& study, const RecordingInfo& info);
 
+/// That the study's scene is another than the replayed recording's; empty otherwise.
+[[nodiscard]] std::string note_on_scene(const Study& study, const RecordingInfo& info);
+
 /// What to know before believing the scores of a recording whose depth was baked; empty otherwise.
 [[nodiscard]] std::string note_on_baked(const RecordingInfo& info);
 

@@ -48,6 +48,12 @@ std::string FigureAxis::value_text(std::size_t value) const {
   return fmt::format("{}{}{}", values.at(value), unit.empty() ? "" : " ", unit);
 }
 
+FigureAxis axis_of_names(const std::string& name, std::vector<std::string> names) {
+  FigureAxis axis{name, "", false, {}, std::move(names), name};
+  for (std::size_t n = 0; n < axis.values.size(); ++n) axis.at.push_back(static_cast<double>(n));
+  return axis;
+}
+
 FigureAxis figure_axis(const Field& field, const std::vector<std::string>& values) {
   FigureAxis figure;
   std::tie(figure.name, figure.unit) =
@@ -60,8 +66,7 @@ FigureAxis figure_axis(const Field& field, const std::vector<std::string>& value
     figure.at.push_back(number.value_or(0.0) * scale);
     figure.values.push_back(number ? fmt::format("{:.6g}", *number * scale) : spaced(value));
   }
-  if (!figure.numeric)
-    for (std::size_t i = 0; i < figure.at.size(); ++i) figure.at[i] = static_cast<double>(i);
+  if (!figure.numeric) figure.at = axis_of_names("", figure.values).at;
   return figure;
 }
 

@@ -30,6 +30,9 @@ struct FigureAxis {
 /// "particle_filter" as people write it: "particle filter".
 [[nodiscard]] std::string spaced(std::string name);
 
+/// Names at 0, 1, 2, ...
+[[nodiscard]] FigureAxis axis_of_names(const std::string& name, std::vector<std::string> names);
+
 /// The axis of these values of a field, as a study file writes them.
 [[nodiscard]] FigureAxis figure_axis(const Field& field, const std::vector<std::string>& values);
 /// The same for a swept leaf of a study.

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
+#include "eval/report/comparable.hpp"
 #include "files/file_bytes.hpp"
 
 #include <fmt/format.h>
@@ -226,9 +227,7 @@ std::vector<std::string> voxel_metrics(const Baseline& baseline) {
 }
 
 Baseline baseline_of(const StudySummary& summary) {
-  if (summary.builds.size() != 1)
-    throw Error(fmt::format("the trials were made by {} builds; sweep again with one",
-                            summary.builds.size()));
+  check_one_build(summary, "results");
   Baseline baseline{kScoringVersion,
                     summary.recording_hash,
                     *summary.builds.begin(),
@@ -268,7 +267,8 @@ void write_baseline(const Baseline& baseline, const std::filesystem::path& file)
 }
 
 Baseline read_baseline(const std::filesystem::path& file) try {
-  if (!std::filesystem::exists(file)) throw Error(kNoBaseline);
+  if (!std::filesystem::exists(file))
+    throw Error("is not there; make it with `mapscore check RESULTS --baseline FILE --update`");
   return baseline_from(read_file(file));
 } catch (const nlohmann::json::exception&) {
   throw Error(file.string() + ": " + kNoBaseline);

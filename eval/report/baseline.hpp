@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "eval/report/frame_yields.hpp"
+#include "eval/lab/frame_yields.hpp"
 #include "eval/report/summary.hpp"
 
 #include <filesystem>

@@ -4,6 +4,7 @@
 #include "eval/report/best_threshold.hpp"
 
 #include <cstddef>
+#include <iterator>
 
 namespace mapscore::eval {
 namespace {
@@ -60,7 +61,7 @@ BestThreshold macro_best_threshold(const ResultLine& line, const ClassTable& tab
 BestThreshold best_threshold(std::span<const ClassCurve> seeds) {
   BestThreshold best;
   best.by_seed.resize(seeds.size());
-  if (seeds.size() < 2) return best;
+  if (std::ssize(seeds) < kSeedsForBest) return best;
   const std::vector<ClassCurve> others = pooled_others(seeds);
   CurvePoint sum;
   ClassCurve all;

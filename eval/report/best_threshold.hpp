@@ -18,9 +18,12 @@ struct ChosenScore {
   std::optional<double> f1, threshold;
 };
 
+/// With fewer, each threshold would be chosen on a single other seed.
+inline constexpr int kSeedsForBest = 3;
+
 /// What choosing the threshold is worth: each seed is scored at the highest threshold with the
 /// greatest F1 on the pooled curve of the other seeds. Where these have no voxel of the class,
-/// nothing is predicted. Everything is undefined for fewer than two seeds.
+/// nothing is predicted. Everything is undefined for fewer than kSeedsForBest seeds.
 struct BestThreshold {
   std::vector<ChosenScore> by_seed;
   ChosenScore pooled;  ///< counts of the seeds, pooled; the threshold that is best on all of them

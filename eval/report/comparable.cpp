@@ -55,6 +55,12 @@ std::vector<std::string> differing_settings(const Study& before, const Study& af
   return differing;
 }
 
+void check_one_build(const StudySummary& summary, const std::string& results) {
+  if (summary.builds.size() != 1)
+    throw Error(fmt::format("{}: its trials were made by {} builds; sweep again with one", results,
+                            summary.builds.size()));
+}
+
 void check_comparable(const Baseline& before, const Baseline& after, bool any_recording) {
   const bool same_recording = before.recording_hash == after.recording_hash;
   std::vector<std::string> differing =
@@ -65,9 +71,14 @@ void check_comparable(const Baseline& before, const Baseline& after, bool any_re
     differing.push_back(
         fmt::format("scoring version {} -> {}", before.scoring_version, after.scoring_version));
   if (!same_recording && !any_recording)
-    differing.push_back(fmt::format("recording {} -> {} (--any_recording where both show the same)",
-                                    before.recording_hash.substr(0, 8),
-                                    after.recording_hash.substr(0, 8)));
+    differing.push_back(fmt::format(
+        "recording {} -> {}{} (--any_recording where both show the same)",
+        before.recording_hash.substr(0, 8), after.recording_hash.substr(0, 8),
+        before.study.seed == after.study.seed
+            ? ""
+            : fmt::format(" of seed {} -> {}, which the drive hangs on; --set recording=FOLDER "
+                          "keeps the one",
+                          before.study.seed, after.study.seed)));
   if (!differing.empty())
     throw Error(fmt::format("not comparable: {}", fmt::join(differing, ", ")));
 }

@@ -16,6 +16,9 @@ namespace mapscore::eval {
 [[nodiscard]] std::vector<std::string> differing_settings(const Study& before, const Study& after,
                                                           bool same_recording = true);
 
+/// Throws Error naming the `results` that several builds made.
+void check_one_build(const StudySummary& summary, const std::string& results);
+
 /// Throws Error naming all that keeps results from being compared: settings, detected classes,
 /// scoring version, and the recording unless `any_recording`. Of two recordings that were rendered
 /// for the studies, what they were made of must agree.

@@ -4,6 +4,7 @@
 #include "eval/report/comparison.hpp"
 
 #include "core/error.hpp"
+#include "eval/report/comparable.hpp"
 #include "files/suggestion.hpp"
 
 #include <fmt/format.h>
@@ -39,16 +40,13 @@ void check_figures(const StudySummary& summary, const ComparisonQuestion& questi
 }
 
 /// Refuses results whose draws of a seed are not the same.
-void check_paired(const StudySummary& before, const StudySummary& after) {
-  for (const StudySummary* summary : {&before, &after})
-    if (summary->builds.size() != 1)
-      throw Error(fmt::format("compare: the {} were made by {} builds; sweep again with one",
-                              summary == &before ? "results before" : "results after",
-                              summary->builds.size()));
-  if (before.recording_hash != after.recording_hash)
+void check_paired(const StudySummary& before, const StudySummary& after, bool any_recording) {
+  check_one_build(before, "compare: results before");
+  check_one_build(after, "compare: results after");
+  if (before.recording_hash != after.recording_hash && !any_recording)
     throw Error(
         fmt::format("compare: recording {} -> {}; sweep both on one recording (--set "
-                    "recording=FOLDER)",
+                    "recording=FOLDER), or give --any_recording where both show the same",
                     before.recording_hash.substr(0, 8), after.recording_hash.substr(0, 8)));
   if (before.study.seed != after.study.seed)
     throw Error(fmt::format("compare: seed {} -> {}, so no draws pair; sweep both with one seed",
@@ -125,7 +123,7 @@ std::vector<ComparisonRow> compare_methods(const StudySummary& summary,
 std::vector<ComparisonRow> compare_results(const StudySummary& before, const StudySummary& after,
                                            const ComparisonQuestion& question) {
   for (const StudySummary* summary : {&before, &after}) check_figures(*summary, question);
-  check_paired(before, after);
+  check_paired(before, after, question.any_recording);
   std::vector<ComparisonRow> rows;
   for (const ResultLine& a : after.trials) {
     const auto b = std::ranges::find_if(before.trials, [&](const ResultLine& line) {

@@ -18,6 +18,7 @@ struct ComparisonQuestion {
   std::string a, b;                        ///< methods
   std::string group{kPooled};              ///< one of StudySummary::groups()
   std::vector<std::string> metrics{"f1"};  ///< figures of metrics_of_group, f1_best, threshold_best
+  bool any_recording = false;              ///< results before and after may be of two recordings
 };
 
 /// One figure at one cell of the grid, seed by seed.
@@ -36,8 +37,8 @@ struct ComparisonRow {
 
 /// The same methods before and after a change, in two results on one recording with one seed: rows
 /// by method, cell, metric, of what both have; difference: after - before. Of the question, group
-/// and metrics are asked. Throws Error as above, and where recordings or seeds differ, or several
-/// builds made a result.
+/// and metrics are asked. Throws Error as above, and where recordings (unless `any_recording`) or
+/// seeds differ, or several builds made a result.
 [[nodiscard]] std::vector<ComparisonRow> compare_results(const StudySummary& before,
                                                          const StudySummary& after,
                                                          const ComparisonQuestion& question);
@@ -48,7 +49,8 @@ struct ComparisonRow {
 [[nodiscard]] Table comparison_table(const StudySummary& summary,
                                      const ComparisonQuestion& question,
                                      Reader reader = Reader::terminal);
-/// The rows of compare_results; the caption tells which settings differ, too.
+/// The rows of compare_results; the caption tells which settings differ, too,
+/// and the recordings.
 [[nodiscard]] Table before_after_table(const StudySummary& before, const StudySummary& after,
                                        const ComparisonQuestion& question,
                                        Reader reader = Reader::terminal);

@@ -41,26 +41,33 @@ std::vector<std::string> caption_of(const StudySummary& summary, const Compariso
                                     std::size_t rows) {
   const Study& study = summary.study;
   const double least = least_sign_flip_p(study.seeds);
-  return {
+  std::vector<std::string> caption{
       fmt::format("{}: {} - {}, {} classes; detected: {}", study.name, question.a, question.b,
                   question.group, fmt::join(detected_names(summary.table), ", ")),
-      fmt::format("voxels of {} m; {} seed{}, paired seed by seed; each {} scored; figures: means "
-                  "of one value a seed (`mapscore table` pools counts)",
-                  study.voxel_m, study.seeds, study.seeds == 1 ? "" : "s",
-                  study.score.unit == ScoreUnit::map ? "map" : "frame"),
-      spread_note(study.seeds),
-      fmt::format(
-          "p: two-sided sign-flip permutation of the mean difference, {}; not corrected for "
-          "{} row{}; p (Holm): corrected",
-          study.seeds <= kExactSignFlips
-              ? "exact"
-              : fmt::format("exact up to {} differences other than 0, else by random sign patterns",
-                            kExactSignFlips),
-          rows, rows == 1 ? "" : "s") +
-          "; - where all seeds have the same values, drawn from nothing",
-      fmt::format("least p possible with {} pair{}: {}; p (Holm): {}", study.seeds,
-                  study.seeds == 1 ? "" : "s", probability(least),
-                  probability(std::min(1.0, least * static_cast<double>(rows))))};
+      scoring_text(study) +
+          "; paired seed by seed; figures: means of one value a seed (`mapscore table` pools "
+          "counts)",
+      spread_note(study.seeds)};
+  if (rows == 0) {
+    caption.emplace_back("p: none; no row has seeds that differ");
+    return caption;
+  }
+  caption.insert(
+      caption.end(),
+      {fmt::format(
+           "p: two-sided sign-flip permutation of the mean difference, {}; not corrected for "
+           "{} row{}; p (Holm): corrected",
+           study.seeds <= kExactSignFlips
+               ? "exact"
+               : fmt::format(
+                     "exact up to {} differences other than 0, else by random sign patterns",
+                     kExactSignFlips),
+           rows, rows == 1 ? "" : "s") +
+           "; - where all seeds have the same values, drawn from nothing",
+       fmt::format("least p possible with {} pair{}: {}; p (Holm): {}", study.seeds,
+                   study.seeds == 1 ? "" : "s", probability(least),
+                   probability(std::min(1.0, least * static_cast<double>(rows))))});
+  return caption;
 }
 
 Table table_of_rows(const std::vector<ComparisonRow>& rows, const StudySummary& summary,
@@ -155,7 +162,12 @@ Table before_after_table(const StudySummary& before, const StudySummary& after,
   Table table = table_of_rows(rows, after, asked, reader);
   table.caption.push_back(
       fmt::format("build {} -> {}", *before.builds.begin(), *after.builds.begin()));
-  if (const auto differing = differing_settings(before.study, after.study); !differing.empty())
+  const bool same_recording = before.recording_hash == after.recording_hash;
+  if (!same_recording)
+    table.caption.push_back(fmt::format("recording {} -> {}", before.recording_hash.substr(0, 8),
+                                        after.recording_hash.substr(0, 8)));
+  if (const auto differing = differing_settings(before.study, after.study, same_recording);
+      !differing.empty())
     table.caption.push_back(fmt::format("settings: {}", fmt::join(differing, ", ")));
   add_sentences(rows, asked, table);
   return table;

@@ -102,13 +102,13 @@ std::optional<Estimate> LineDigest::estimate(std::string_view group,
   if (name == of->metrics.end()) {
     if (of->metrics.size() > kBestMetrics)
       static_cast<void>(value_of(*pooled_metrics(group), metric));  // throws
-    return Estimate{{}, summarise(values), values};
+    return Estimate{{}, spread_of(metric, values), values};
   }
   const auto first =
       of->values.begin() + (name - of->metrics.begin()) * static_cast<std::ptrdiff_t>(1 + seeds_);
   std::transform(first + 1, first + 1 + static_cast<std::ptrdiff_t>(seeds_), values.begin(),
                  unpacked);
-  return Estimate{unpacked(*first), summarise(values), values};
+  return Estimate{unpacked(*first), spread_of(metric, values), values};
 }
 
 std::optional<std::vector<Metric>> LineDigest::pooled_metrics(std::string_view group) const {

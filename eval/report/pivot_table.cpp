@@ -19,15 +19,23 @@ namespace mapscore::eval {
 namespace {
 
 constexpr const char *kMethod = "method", *kClass = "class", *kMetric = "metric";
+/// All swept paths together, where the points lie over ranges and so share no value.
+constexpr const char* kPoint = "point";
+
+using Texts = std::vector<std::string>;
+using Doses = decltype(Cell::doses);
 
 /// One value of a dimension, as it stands in the study and as its reader sees it.
 struct Value {
-  std::string name, in_row, in_column;
+  std::string name;
+  Texts in_row;  ///< a cell each title of the dimension
+  std::string in_column;
+  Doses doses = {};  ///< of a swept path, or of a point
 };
 
 struct Dimension {
-  std::string name;   ///< path, or one of the three above
-  std::string title;  ///< of its column
+  std::string name;  ///< path, or one of the above
+  Texts titles;      ///< of its columns: one, or of `point` one a path
   std::vector<Value> values;
 };
 
@@ -36,7 +44,7 @@ class Pivot {
  public:
   Pivot(const StudySummary& summary, const PivotQuestion& question, Reader reader)
       : summary_(summary), question_(question), reader_(reader) {
-    add_axes();
+    points_of(summary.study.sampling) > 0 ? add_points() : add_axes();
     add_methods();
     add_groups();
     add_metrics();
@@ -48,14 +56,19 @@ class Pivot {
 
   [[nodiscard]] Table table() {
     Table table;
-    for (const std::size_t d : rows_) table.columns.push_back(dimensions_[d].title);
-    table.keys = rows_.size();
+    for (const std::size_t d : rows_)
+      table.columns.insert(table.columns.end(), dimensions_[d].titles.begin(),
+                           dimensions_[d].titles.end());
+    table.keys = table.columns.size();
     const auto columns = combinations(columns_);
     for (const auto& column : columns) add_heads(column, table.columns);
     if (reader_ == Reader::program) table.columns.emplace_back("spread");
     for (const auto& row : combinations(rows_)) {
       std::vector<std::string> cells;
-      for (const std::size_t d : rows_) cells.push_back(dimensions_[d].values[row.at(d)].in_row);
+      for (const std::size_t d : rows_) {
+        const Texts& texts = dimensions_[d].values[row.at(d)].in_row;
+        cells.insert(cells.end(), texts.begin(), texts.end());
+      }
       std::set<std::string> kinds;
       for (const auto& column : columns) add_cells(row, column, cells, kinds);
       if (reader_ == Reader::program) cells.push_back(fmt::format("{}", fmt::join(kinds, "/")));
@@ -67,29 +80,41 @@ class Pivot {
 
  private:
   using Place = std::map<std::size_t, std::size_t>;  ///< value of each dimension
-  using Doses = decltype(Cell::doses);
 
   void add_axes() {
     const Study& study = summary_.study;
     const std::vector<std::string> titles = dose_columns(study, reader_);
     for (std::size_t a = 0; a < study.sweep.size(); ++a) {
-      Dimension dimension{study.sweep[a].path, titles[a], {}};
+      Dimension dimension{study.sweep[a].path, {titles[a]}, {}};
       for (const std::string& value : study.sweep[a].values) {
         const auto has = [&](const ResultLine& line) { return line.cell.doses[a].second == value; };
         if (std::ranges::none_of(summary_.trials, has)) continue;
         const FigureAxis shown = figure_axis(study, {study.sweep[a].path, {value}});
-        const bool paper = reader_ == Reader::paper;
-        dimension.values.push_back({value, paper ? shown.values.front() : value,
-                                    !paper               ? fmt::format("{} = {}", titles[a], value)
+        dimension.values.push_back({value,
+                                    {reader_ == Reader::paper ? shown.values.front() : value},
+                                    reader_ != Reader::paper
+                                        ? fmt::format("{} = {}", titles[a], value)
                                     : shown.unit.empty() ? shown.text(0)
-                                                         : shown.value_text(0)});
+                                                         : shown.value_text(0),
+                                    {{study.sweep[a].path, value}}});
       }
       dimensions_.push_back(std::move(dimension));
     }
   }
 
+  void add_points() {
+    Dimension dimension{kPoint, dose_columns(summary_.study, reader_), {}};
+    for (const ResultLine& line : summary_.trials) {
+      if (!dimension.values.empty() && dimension.values.back().doses == line.cell.doses) continue;
+      const Texts texts = dose_texts(summary_.study, line.cell, reader_);
+      dimension.values.push_back(
+          {kPoint, texts, fmt::to_string(fmt::join(texts, ", ")), line.cell.doses});
+    }
+    dimensions_.push_back(std::move(dimension));
+  }
+
   void add_methods() {
-    Dimension dimension{kMethod, kMethod, {}};
+    Dimension dimension{kMethod, {kMethod}, {}};
     for (const std::string& name : method_names(summary_.study))
       if (std::ranges::count(summary_.trials, name, &ResultLine::method) > 0)
         add_value(dimension, name, method_text(summary_.study, name, reader_));
@@ -98,12 +123,9 @@ class Pivot {
 
   void add_groups() {
     std::vector<std::string> groups = question_.groups;
-    if (groups.empty() && places(question_, kClass)) {
-      groups = detected_names(summary_.table);
-      groups.emplace_back(kPooled);
-    }
-    if (groups.empty()) groups = {std::string(kPooled)};
-    Dimension dimension{kClass, kClass, {}};
+    if (groups.empty() && places(question_, kClass)) groups = detected_names(summary_.table);
+    if (question_.groups.empty()) groups.emplace_back(kPooled);
+    Dimension dimension{kClass, {kClass}, {}};
     for (const std::string& group : groups)
       add_value(dimension, group,
                 reader_ == Reader::paper ? class_title(summary_.study, group) : group);
@@ -112,10 +134,10 @@ class Pivot {
 
   void add_metrics() {
     std::vector<std::string> metrics = question_.metrics;
-    if (metrics.empty() && places(question_, kMetric))
-      metrics = {"precision", "recall", "f1", "iou"};
-    if (metrics.empty()) metrics = {"f1"};
-    Dimension dimension{kMetric, kMetric, {}};
+    if (metrics.empty())
+      metrics =
+          places(question_, kMetric) ? Texts{"precision", "recall", "f1", "iou"} : Texts{"f1"};
+    Dimension dimension{kMetric, {kMetric}, {}};
     for (const std::string& metric : metrics) {
       for (const Value& group : dimensions_.back().values)
         check_metric(summary_, group.name, metric);
@@ -127,7 +149,7 @@ class Pivot {
   static void add_value(Dimension& dimension, const std::string& name, const std::string& text) {
     if (std::ranges::count(dimension.values, name, &Value::name) > 0)
       throw Error(fmt::format("{} '{}' is given twice; once is enough", dimension.name, name));
-    dimension.values.push_back({name, text, text});
+    dimension.values.push_back({name, {text}, text});
   }
 
   /// Positions of dimensions, none of which has a place yet.
@@ -138,8 +160,12 @@ class Pivot {
       const std::string whole = axis ? summary_.study.sweep[*axis].path : name;
       const auto found = std::ranges::find(dimensions_, whole, &Dimension::name);
       if (found == dimensions_.end()) {
+        if (axis)
+          throw Error(name +
+                      ": points over ranges share no values; ask for `point`, all paths "
+                      "together, or for --tidy");
         std::vector<std::string> known = swept_names(summary_.study);
-        known.insert(known.end(), {kMethod, kClass, kMetric});
+        for (const Dimension& dimension : dimensions_) known.push_back(dimension.name);
         throw Error(fmt::format("'{}': neither a swept path nor method, class or metric; {}", name,
                                 suggestion(name, known)));
       }
@@ -163,8 +189,7 @@ class Pivot {
       if (!may_place)
         throw Error(
             fmt::format("{0} has {1} values and no place in the table; add it to --rows or "
-                        "--columns, or choose "
-                        "one by {2}",
+                        "--columns, or choose one by {2}",
                         dimensions_[d].name, dimensions_[d].values.size(),
                         d + 3 < dimensions_.size() ? "--where" : "--" + dimensions_[d].name));
       place.push_back(d);
@@ -204,20 +229,21 @@ class Pivot {
 
   void add_cells(const Place& row, const Place& column, std::vector<std::string>& cells,
                  std::set<std::string>& kinds) const {
-    const auto value = [&](std::size_t d) -> const std::string& {
+    const auto value = [&](std::size_t d) -> const Value& {
       const auto in_row = row.find(d), in_column = column.find(d);
       const std::size_t v = in_row != row.end()         ? in_row->second
                             : in_column != column.end() ? in_column->second
                                                         : 0;
-      return dimensions_[d].values[v].name;
+      return dimensions_[d].values[v];
     };
     const std::size_t axes = dimensions_.size() - 3;
     Doses doses;
-    for (std::size_t d = 0; d < axes; ++d) doses.emplace_back(dimensions_[d].name, value(d));
-    const auto line = lines_.find({value(axes), doses});
+    for (std::size_t d = 0; d < axes; ++d)
+      doses.insert(doses.end(), value(d).doses.begin(), value(d).doses.end());
+    const auto line = lines_.find({value(axes).name, doses});
     Estimate figure;
     if (line != lines_.end())
-      figure = estimate(*line->second, summary_.table, value(axes + 1), value(axes + 2));
+      figure = estimate(*line->second, summary_.table, value(axes + 1).name, value(axes + 2).name);
     const auto text = reader_ == Reader::program
                           ? nine_digits
                           : [](const std::optional<double>& number) { return cell_text(number); };
@@ -232,18 +258,15 @@ class Pivot {
     std::vector<std::string> fixed, lines;
     for (std::size_t d = 0; d < dimensions_.size(); ++d)
       if (!placed_.contains(d))
-        fixed.push_back(
-            fmt::format("{} {}", dimensions_[d].title, dimensions_[d].values.front().in_row));
+        fixed.push_back(fmt::format("{} {}", fmt::join(dimensions_[d].titles, ", "),
+                                    fmt::join(dimensions_[d].values.front().in_row, ", ")));
     if (!summary_.interim.empty()) lines.push_back(summary_.interim);
     lines.push_back(
         fmt::format("{}{}{}", study.name, fixed.empty() ? "" : ": ", fmt::join(fixed, ", ")));
-    lines.push_back(
-        fmt::format("voxels of {} m; {} seed{}, counts pooled over them; each {} scored",
-                    study.voxel_m, study.seeds, study.seeds == 1 ? "" : "s",
-                    study.score.unit == ScoreUnit::map ? "map" : "frame"));
+    lines.push_back(scoring_text(study) + "; counts pooled over seeds");
     for (const std::size_t d : columns_)
       if (d + 3 < dimensions_.size())
-        lines.push_back(fmt::format("columns: {}", dimensions_[d].title));
+        lines.push_back(fmt::format("columns: {}", fmt::join(dimensions_[d].titles, ", ")));
     if (with_spread())
       lines.push_back(study.seeds < kSeedsForInterval
                           ? "low, high: least and greatest of the seeds"
@@ -271,11 +294,6 @@ bool places(const PivotQuestion& question, const std::string& dimension) {
 }
 
 Table pivot_table(const StudySummary& summary, const PivotQuestion& question, Reader reader) {
-  if (points_of(summary.study.sampling) > 0)
-    throw Error(
-        "the points of this study lie over ranges, so its paths have no values to share rows or "
-        "columns; leave --rows, --columns, --metric, --spread and further classes out, or ask for "
-        "--tidy");
   return Pivot(summary, question, reader).table();
 }
 

@@ -203,13 +203,16 @@ Tolerances parse_tolerances(const std::vector<std::string>& texts) {
     if (!value || *value < 0.0 || *value > 1.0 || equals == 0)
       throw Error(fmt::format(
           "--allow {}: write a number from 0 to 1, METRIC=NUMBER or CLASS/METRIC=NUMBER", text));
-    const std::size_t slash = name.find('/');
-    if (name.empty())
+    if (name.empty()) {
       tolerances.all = *value;
-    else if (slash == std::string::npos)
-      tolerances.special[{"", name}] = *value;
-    else
-      tolerances.special[{name.substr(0, slash), name.substr(slash + 1)}] = *value;
+      continue;
+    }
+    const std::size_t slash = name.rfind('/');  // no metric holds one
+    const std::pair key = slash == std::string::npos
+                              ? std::pair(std::string(), name)
+                              : std::pair(name.substr(0, slash), name.substr(slash + 1));
+    if (!tolerances.special.emplace(key, *value).second)
+      throw Error(fmt::format("--allow {}: stands there twice; leave one out", name));
   }
   return tolerances;
 }

@@ -25,8 +25,8 @@ struct Tolerances {
   [[nodiscard]] double of(const std::string& group, const std::string& metric) const;
 };
 
-/// `VALUE`, `METRIC=VALUE`, `CLASS/METRIC=VALUE` or `CLASS/=VALUE`, in their order. Throws Error
-/// naming `--allow`.
+/// `VALUE`, `METRIC=VALUE`, `CLASS/METRIC=VALUE` or `CLASS/=VALUE`, in their order; the last slash
+/// and the last equals sign divide, so that a class may hold both. Throws Error naming `--allow`.
 [[nodiscard]] Tolerances parse_tolerances(const std::vector<std::string>& texts);
 
 enum class Standing {

@@ -18,6 +18,7 @@ namespace mapscore::eval {
 namespace {
 
 constexpr std::size_t kShownRows = 40;
+constexpr std::size_t kHandful = 5;  ///< rows that need no summary by class
 
 std::string method_of(const JudgedFigure& figure) {
   if (figure.role == Role::lattice_ceiling) return "lattice ceiling";
@@ -99,6 +100,38 @@ Table group_table(const std::vector<Group>& groups, bool fallen) {
   return table;
 }
 
+/// Of each class how much of it got worse, and its worst figure; the worst class first.
+Table class_table(const std::vector<Group>& groups) {
+  struct Fallen {
+    const JudgedFigure* worst;
+    std::size_t figures, of;
+    std::set<std::vector<std::pair<std::string, std::string>>> cells, all_cells;
+  };
+  std::vector<std::pair<std::string, Fallen>> classes;
+  for (const Group& group : groups) {
+    auto place = std::ranges::find(classes, group.front()->group, [](auto& c) { return c.first; });
+    if (place == classes.end())
+      place = classes.insert(place, {group.front()->group, {group.front(), 0, 0, {}, {}}});
+    for (const JudgedFigure* figure : group) {
+      ++place->second.of;
+      place->second.all_cells.insert(figure->cell.doses);
+      if (!is_fallen(*figure)) continue;
+      ++place->second.figures;
+      place->second.cells.insert(figure->cell.doses);
+    }
+  }
+  Table table;
+  table.columns = {"class",  "figures worse", "cells worse", "worst change",
+                   "metric", "method",        "worst at"};
+  for (const auto& [name, fallen] : classes)
+    if (fallen.figures > 0)
+      table.rows.push_back({name, fmt::format("{} of {}", fallen.figures, fallen.of),
+                            fmt::format("{} of {}", fallen.cells.size(), fallen.all_cells.size()),
+                            change_of(*fallen.worst, "{:+.4f}"), fallen.worst->metric,
+                            method_of(*fallen.worst), doses_text(fallen.worst->cell)});
+  return table;
+}
+
 Table all_figures(const Judgement& judgement) {
   Table table;
   table.columns = {"role", "method", "cell",   "class", "metric",  "before",  "after", "change",
@@ -163,6 +196,7 @@ std::string text_report(const Judgement& judgement, const std::string& results,
   for (const bool fallen : {true, false}) {
     Table table = group_table(groups, fallen);
     if (table.rows.empty()) continue;
+    if (fallen && table.rows.size() > kHandful) text += to(class_table(groups)) + '\n';
     const std::size_t more = table.rows.size() - std::min(table.rows.size(), kShownRows);
     table.rows.resize(table.rows.size() - more);
     text += to(table);

@@ -17,7 +17,8 @@ inline const std::vector<std::string> kReportFormats{"text",  "csv",    "json",
 
 /// A judgement for people and for CI; `results` names what was judged.
 ///   text, markdown  what got worse, then what got better, worst first: a row for each method,
-///                   metric and class, with its worst cell; both verdicts in the last line
+///                   metric and class, with its worst cell; above more than five rows of what got
+///                   worse, a row for each class; both verdicts in the last line
 ///   csv, json       every figure of every cell
 ///   junit           a test case for each method, metric and class
 ///   github          workflow commands: an error for each row of text, a notice for what got better

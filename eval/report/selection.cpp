@@ -39,9 +39,7 @@ std::vector<std::set<std::string>> wanted_values(const Study& study,
       throw Error(fmt::format("--where {}: '{}' is not swept; {}", text, path,
                               suggestion(path, swept_names(study))));
     const SweepAxis& swept = study.sweep[*axis];
-    Study probe = study;  // 0.010 is 0.01
-    set_leaf(probe, swept.path, text.substr(equals + 1));
-    const std::string value = leaf_text(probe, swept.path);
+    const std::string value = canonical_value(study, swept.path, text.substr(equals + 1));
     const std::vector<std::string> values = values_of(study, *axis);
     if (std::ranges::count(values, value) == 0)
       throw Error(fmt::format("--where {}: {} has no such value; there are: {}", text, swept.path,
@@ -54,10 +52,16 @@ std::vector<std::set<std::string>> wanted_values(const Study& study,
 }  // namespace
 
 std::optional<std::size_t> swept_axis(const Study& study, const std::string& name) {
-  for (std::size_t axis = 0; axis < study.sweep.size(); ++axis)
-    if (name == study.sweep[axis].path || name == column_of(study.sweep[axis], study.sweep))
-      return axis;
-  return std::nullopt;
+  std::vector<std::string> paths;
+  for (const SweepAxis& axis : study.sweep) paths.push_back(axis.path);
+  const auto path = path_named(name, paths);
+  if (!path) return std::nullopt;
+  return static_cast<std::size_t>(std::ranges::find(paths, *path) - paths.begin());
+}
+
+std::string canonical_value(Study study, const std::string& path, const std::string& value) {
+  set_leaf(study, path, value);
+  return leaf_text(study, path);
 }
 
 std::vector<std::string> swept_names(const Study& study) {

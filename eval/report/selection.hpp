@@ -12,12 +12,15 @@
 
 namespace mapscore::eval {
 
-/// Position in the sweep of a path, given as a whole or by its last part where one alone ends so.
+/// Position in the sweep of a path, given as a whole or by its end where one alone ends so.
 [[nodiscard]] std::optional<std::size_t> swept_axis(const Study& study, const std::string& name);
-/// What swept_axis takes.
+/// The value of a leaf as cells have it: 0.01 for 0.010. Throws as set_leaf.
+[[nodiscard]] std::string canonical_value(Study study, const std::string& path,
+                                          const std::string& value);
+/// To suggest from what swept_axis takes.
 [[nodiscard]] std::vector<std::string> swept_names(const Study& study);
 
-/// What of a study is asked for. A swept path may be given by its last part.
+/// What of a study is asked for. A swept path may be given by its end.
 struct Selection {
   std::vector<std::string> where = {};    ///< path=value; several of one path: any of them
   std::vector<std::string> methods = {};  ///< none: all

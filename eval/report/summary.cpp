@@ -5,9 +5,10 @@
 
 #include "core/error.hpp"
 #include "eval/report/best_threshold.hpp"
-#include "eval/results/build_identity.hpp"
 #include "eval/results/study_store.hpp"
+#include "eval/score/lattice_check.hpp"
 #include "files/suggestion.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,6 +32,26 @@ TrialResult read_result(const Source& source, std::size_t task) {
   auto result = source.store.find(key);
   if (!result) throw Error("trial " + key + ": gone from the store; sweep again");
   return std::move(*result);
+}
+
+/// "; 2 of them failed, the first: ..." with how to list them; empty where none did.
+std::string failed_text(const Source& source, const std::filesystem::path& results) {
+  const auto failures = source.store.failures();
+  if (failures.empty()) return "";
+  const auto held = source.store.keys();
+  std::size_t failed = 0;
+  std::string first;
+  for (std::size_t n = 0; n < source.plan.tasks.size(); ++n) {
+    const std::string key = source.plan.tasks.key(n);
+    const auto failure = failures.find(key);
+    if (failure == failures.end() || held.contains(key)) continue;
+    if (++failed == 1) first = failure->second;
+  }
+  return failed == 0 ? ""
+                     : fmt::format(
+                           "; {} of them failed, the first: {} (`mapscore trials {} --state "
+                           "failed` lists them)",
+                           failed, shown(first), shell_word(results.native()));
 }
 
 /// The seeds of a line, and the tasks of each and of its ceilings.
@@ -80,10 +101,7 @@ class LineReader {
     };
     std::shared_ptr<const LineDigest>& digest = digests_[tasks];
     if (!digest) {
-      std::vector<std::string> groups = groups_;
-      if (role == Role::lattice_ceiling && std::ranges::count(groups, kPooled) == 0)
-        groups.emplace_back(kPooled);  // which lattice_note reads
-      digest = std::make_shared<const LineDigest>(line, table_, groups);
+      digest = std::make_shared<const LineDigest>(line, table_, groups_);
       if (digests_.size() > 1) line.pooled.clear();  // the first line's are kept
     }
     line.digest = digest;
@@ -98,14 +116,15 @@ class LineReader {
 };
 
 /// Throws Error when trials of the plan are not held.
-void check_all_there(const HeldTasks& held, const TaskList& tasks,
+void check_all_there(const HeldTasks& held, const Source& source,
                      const std::filesystem::path& results) {
+  const TaskList& tasks = source.plan.tasks;
   const std::size_t missing = tasks.size() - held.all;
   if (missing > 0)
     throw Error(fmt::format(
-        "{}: {} of {} trials are not there yet; run `mapscore sweep STUDY -o {}` again, "
+        "{}: {} of {} trials are not there yet{}; run `mapscore sweep STUDY -o {}` again, "
         "it goes on where it stopped",
-        results.string(), missing, tasks.size(), results.string()));
+        results.string(), missing, tasks.size(), failed_text(source, results), results.string()));
 }
 
 /// How much of an unfinished sweep is there.
@@ -117,10 +136,16 @@ std::string interim_note(const HeldTasks& held, const TaskList& tasks) {
 Estimate estimate(const BestThreshold& best, std::optional<double> ChosenScore::*figure) {
   std::vector<std::optional<double>> values;
   for (const ChosenScore& score : best.by_seed) values.push_back(score.*figure);
-  return {best.pooled.*figure, summarise(values), values};
+  return {best.pooled.*figure, spread_of("", values), values};
 }
 
 }  // namespace
+
+SeedSummary spread_of(std::string_view metric, const std::vector<std::optional<double>>& by_seed) {
+  ValueLimits limits{.low = 0.0};
+  if (!metric.ends_with("_m")) limits.high = 1.0;
+  return summarise(by_seed, limits);
+}
 
 std::vector<std::string> StudySummary::groups() const {
   std::vector<std::string> groups = detected_names(table);
@@ -136,32 +161,8 @@ bool StudySummary::has_metric(std::string_view metric) const {
 
 std::string StudySummary::lattice_note() const {
   LatticeCheck check(table);
-  for (const ResultLine& line : lattice_ceilings) {
-    const Estimate precision = estimate(line, table, kPooled, "precision");
-    const Estimate recall = estimate(line, table, kPooled, "recall");
-    for (std::size_t s = 0; s < precision.by_seed.size(); ++s)
-      check.add(precision.by_seed[s], recall.by_seed[s]);
-  }
+  for (const ResultLine& line : lattice_ceilings) check.add(pooled_counts(line, table));
   return check.note();
-}
-
-void LatticeCheck::add(const Counts& ceiling) {
-  const ClassCounts pooled = pool_detected(ceiling, table_);
-  add(precision(pooled), recall(pooled));
-}
-
-void LatticeCheck::add(std::optional<double> precision, std::optional<double> recall) {
-  least_precision_ = std::min(least_precision_, precision.value_or(1.0));
-  least_recall_ = std::min(least_recall_, recall.value_or(1.0));
-}
-
-std::string LatticeCheck::note() const {
-  if (std::min(least_precision_, least_recall_) >= kLeast) return "";
-  return fmt::format(
-      "the lattice ceiling falls to a precision of {:.3f} and a recall of {:.3f}, so images, poses "
-      "and truth of the recording do not fit each other, or the voxels are too fine for its depth; "
-      "no score means much before that is mended (docs/ceilings.md)",
-      least_precision_, least_recall_);
 }
 
 std::vector<std::string> detected_names(const ClassTable& table) {
@@ -175,23 +176,6 @@ std::vector<std::string> detected_titles(const Study& study, const ClassTable& t
   std::vector<std::string> titles = detected_names(table);
   for (std::string& name : titles) name = class_title(study, name);
   return titles;
-}
-
-std::filesystem::path store_file(const std::filesystem::path& results) {
-  return std::filesystem::is_directory(results) ? results / "results.sqlite" : results;
-}
-
-HeldTasks held_tasks(const ResultStore& store, const TaskList& tasks) {
-  const auto builds = store.builds();
-  HeldTasks held;
-  for (std::size_t n = 0; n < tasks.size(); ++n) {
-    const auto trial = builds.find(tasks.key(n));
-    if (trial == builds.end()) continue;
-    ++held.all;
-    if (trial->second != build_identity()) ++held.of_other_builds;
-    held.builds.insert(trial->second);
-  }
-  return held;
 }
 
 StudySummary summarise_store(const std::filesystem::path& results, const SummaryOptions& options) {
@@ -209,9 +193,9 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
   std::unordered_set<std::string> keys;
   if (options.interim && held.all < tasks.size()) {
     keys = source->store.keys();
-    summary.interim = interim_note(held, tasks);
+    summary.interim = interim_note(held, tasks) + failed_text(*source, results);
   } else {
-    check_all_there(held, tasks, results);
+    check_all_there(held, *source, results);
   }
   LineReader reader(source, summary.table,
                     options.groups.empty() ? summary.groups() : options.groups);
@@ -234,8 +218,8 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
     summary.study.seeds = static_cast<int>(count(most));
   }
   if (summary.trials.empty())
-    throw Error(fmt::format("{}: no trial is there with both of its ceilings yet; wait, or go on",
-                            results.string()));
+    throw Error(fmt::format("{}: no trial is there with both of its ceilings yet{}; wait, or go on",
+                            results.string(), failed_text(*source, results)));
   return summary;
 }
 
@@ -289,7 +273,7 @@ Estimate estimate(const ResultLine& line, const ClassTable& table, std::string_v
   };
   std::vector<std::optional<double>> values;
   for (const TrialResult& result : line.results) values.push_back(value(result.counts));
-  return {value(line.pooled), summarise(values), values};
+  return {value(line.pooled), spread_of(metric, values), values};
 }
 
 }  // namespace mapscore::eval

@@ -67,6 +67,11 @@ struct Estimate {
   std::vector<std::optional<double>> by_seed = {};  ///< in the order of the line's seeds
 };
 
+/// The spread of a metric over the seeds, of which distances (`_m`) are at least 0 and all others
+/// from 0 to 1.
+[[nodiscard]] SeedSummary spread_of(std::string_view metric,
+                                    const std::vector<std::optional<double>>& by_seed);
+
 /// The results of one study in the order of its grid, complete unless `interim` says otherwise.
 /// Immutable.
 struct StudySummary {
@@ -89,40 +94,11 @@ struct StudySummary {
   [[nodiscard]] std::string lattice_note() const;
 };
 
-/// Checks by a study's lattice ceilings that its recording and truth belong together: true labels
-/// at the true pose must then give an almost perfect map (docs/ceilings.md).
-class LatticeCheck {
- public:
-  /// Neither precision nor recall of a sound recording is below this.
-  static constexpr double kLeast = 0.98;
-
-  /// The table is kept by reference.
-  explicit LatticeCheck(const ClassTable& table) : table_(table) {}
-
-  void add(const Counts& ceiling);
-  /// Its pooled figures.
-  void add(std::optional<double> precision, std::optional<double> recall);
-  /// What to tell the reader of the scores; empty where all is well.
-  [[nodiscard]] std::string note() const;
-
- private:
-  const ClassTable& table_;
-  double least_precision_ = 1.0, least_recall_ = 1.0;
-};
-
 /// Names of the detected classes, in the table's order.
 [[nodiscard]] std::vector<std::string> detected_names(const ClassTable& table);
 
 /// Their titles (class_title).
 [[nodiscard]] std::vector<std::string> detected_titles(const Study& study, const ClassTable& table);
-
-/// Which tasks of a plan a store holds.
-struct HeldTasks {
-  std::size_t all = 0;
-  std::size_t of_other_builds = 0;  ///< than the running program
-  std::set<std::string> builds;     ///< that made them; an empty one did not tell
-};
-[[nodiscard]] HeldTasks held_tasks(const ResultStore& store, const TaskList& tasks);
 
 /// What a summary is to hold.
 struct SummaryOptions {
@@ -154,8 +130,5 @@ struct SummaryOptions {
 /// such metric.
 [[nodiscard]] Estimate estimate(const ResultLine& line, const ClassTable& table,
                                 std::string_view group, const std::string& metric);
-
-/// results.sqlite of a results folder, or the file itself.
-[[nodiscard]] std::filesystem::path store_file(const std::filesystem::path& results);
 
 }  // namespace mapscore::eval

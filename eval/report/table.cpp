@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/report/axes.hpp"
+#include "eval/report/best_threshold.hpp"
 #include "files/suggestion.hpp"
 
 #include <fmt/format.h>
@@ -20,15 +21,19 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
   std::vector<std::string> caption{
       fmt::format("{}: {} classes; detected: {}", study.name, group,
                   fmt::join(detected_names(summary.table), ", ")),
-      fmt::format("voxels of {} m; {} seed{}; each {} scored; figures of counts pooled over seeds",
-                  study.voxel_m, study.seeds, study.seeds == 1 ? "" : "s",
-                  study.score.unit == ScoreUnit::map ? "map" : "frame"),
+      scoring_text(study) + "; figures of counts pooled over seeds",
       study.seeds < kSeedsForInterval
           ? fmt::format("F1 low, high: least and greatest of the seeds (fewer than {})",
                         kSeedsForInterval)
-          : fmt::format("F1 low, high: 95 % interval of the mean over seeds ({})", kIntervalMethod),
-      "AP: over all thresholds; F1 best: each seed at the threshold that is best on the others; "
-      "threshold: best on all seeds",
+          : fmt::format(
+                "F1 low, high: 95 % interval of the mean of the seeds' own F1, beside which the "
+                "pooled one may lie ({})",
+                kIntervalMethod),
+      study.seeds < kSeedsForBest
+          ? fmt::format("AP: over all thresholds; F1 best, threshold: need {} seeds", kSeedsForBest)
+          : fmt::format("AP: over all thresholds; F1 best: each seed at the threshold that is best "
+                        "on the other {}; threshold: best on all {} seeds",
+                        study.seeds - 1, study.seeds),
       "ceilings: lattice = true labels on the depth pixels, true pose; registration = the method "
       "at dose zero"};
   if (!summary.interim.empty()) caption.insert(caption.begin(), summary.interim);
@@ -79,6 +84,12 @@ void check_metric(const StudySummary& summary, const std::string& group,
   std::vector<std::string> names{kBestF1, kBestThreshold};
   for (const Metric& known : metrics) names.push_back(known.name);
   require_one_of(names, metric, fmt::format("no metric '{}' in this study", metric));
+}
+
+std::string scoring_text(const Study& study) {
+  return fmt::format("voxels of {:.6g} cm; {} seed{}; each {} scored", 100.0 * study.voxel_m,
+                     study.seeds, study.seeds == 1 ? "" : "s",
+                     study.score.unit == ScoreUnit::map ? "map" : "frame");
 }
 
 std::string column_of(const SweepAxis& axis, const std::vector<SweepAxis>& sweep) {

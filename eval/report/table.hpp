@@ -49,6 +49,9 @@ enum class Reader { terminal, program, paper };
 /// kBestF1 or kBestThreshold.
 void check_metric(const StudySummary& summary, const std::string& group, const std::string& metric);
 
+/// "voxels of 5 cm; 6 seeds; each map scored": what every caption of a study says.
+[[nodiscard]] std::string scoring_text(const Study& study);
+
 /// Column of a swept path: its last part, or all of it where two end alike.
 [[nodiscard]] std::string column_of(const SweepAxis& axis, const std::vector<SweepAxis>& sweep);
 

@@ -8,6 +8,7 @@
 #include "files/text_rows.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -27,24 +28,40 @@ std::optional<double> finite_number(const std::string& cell) {
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
-/// A whole number or a number as such, `-` and nothing as null, anything else as text.
-nlohmann::ordered_json json_of(const std::string& cell) {
-  if (cell == "-" || cell.empty()) return nullptr;
-  if (const auto whole = parse_whole(cell)) return *whole;
-  if (const auto number = finite_number(cell)) return *number;
-  return shown(cell);
+std::string json_string(const std::string& text) {
+  return nlohmann::json(shown(text)).dump();
 }
 
-nlohmann::ordered_json json_of(const Table& table) {
-  nlohmann::ordered_json object{{"caption", nlohmann::ordered_json::array()},
-                                {"rows", nlohmann::ordered_json::array()}};
-  for (const std::string& line : table.caption) object["caption"].push_back(shown(line));
+/// A whole number or a number as such, `-` and nothing as null, anything else as text. Numbers have
+/// their fewest digits, which nlohmann's do not: 0.457180744, not 0.45718074399999997.
+std::string json_of(const std::string& cell) {
+  if (cell == "-" || cell.empty()) return "null";
+  if (const auto whole = parse_whole(cell)) return fmt::format("{}", *whole);
+  if (const auto number = finite_number(cell)) return fmt::format("{}", *number);
+  return json_string(cell);
+}
+
+/// A list or an object, an item a line; `indent` is that of its end.
+std::string json_lines(char open, const std::vector<std::string>& items, char close,
+                       const std::string& indent) {
+  if (items.empty()) return {open, close};
+  const std::string start = '\n' + indent + "  ";
+  return fmt::format("{}{}{}\n{}{}", open, start, fmt::join(items, ',' + start), indent, close);
+}
+
+std::string json_of(const Table& table, const std::string& indent) {
+  std::vector<std::string> caption, rows;
+  for (const std::string& line : table.caption) caption.push_back(json_string(line));
   for (const auto& row : table.rows) {
-    nlohmann::ordered_json entry;
-    for (std::size_t i = 0; i < row.size(); ++i) entry[shown(table.columns[i])] = json_of(row[i]);
-    object["rows"].push_back(std::move(entry));
+    std::vector<std::string> entries;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      entries.push_back(json_string(table.columns[i]) + ": " + json_of(row[i]));
+    rows.push_back(json_lines('{', entries, '}', indent + "    "));
   }
-  return object;
+  return json_lines('{',
+                    {"\"caption\": " + json_lines('[', caption, ']', indent + "  "),
+                     "\"rows\": " + json_lines('[', rows, ']', indent + "  ")},
+                    '}', indent);
 }
 
 /// Characters of UTF-8, which all continue but for their first byte.
@@ -213,13 +230,13 @@ std::string to_csv(const Table& table) {
 }
 
 std::string to_json(const Table& table) {
-  return json_of(table).dump(2) + '\n';
+  return json_of(table, "") + '\n';
 }
 
 std::string to_json(const std::vector<Table>& tables) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Table& table : tables) list.push_back(json_of(table));
-  return list.dump(2) + '\n';
+  std::vector<std::string> items;
+  for (const Table& table : tables) items.push_back(json_of(table, "  "));
+  return json_lines('[', items, ']', "") + '\n';
 }
 
 std::string to_markdown(const Table& table) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -18,13 +19,21 @@ std::optional<double> in_unit(const ToleranceRow& row, const std::optional<doubl
   return dose ? std::optional(*dose * row.axis.at.front()) : std::nullopt;
 }
 
-/// Dose and interval; `format`: of the dose.
-std::string text_of(const ToleranceRow& row, const Crossing& of, const char* format) {
+/// Three digits, or all before the point: 7.12, 1000; `sign`: "+" or none.
+std::string dose_text(const ToleranceRow& row, const std::optional<double>& dose,
+                      const std::string& sign = "") {
+  const std::optional<double> shown = in_unit(row, dose);
+  const bool large = shown && std::abs(*shown) >= 999.5;
+  return cell_text(shown, "{:" + sign + (large ? ".0f}" : ".3g}"));
+}
+
+/// Dose, with the sign as above, and interval.
+std::string text_of(const ToleranceRow& row, const Crossing& of, const std::string& sign = "") {
   const std::string unit = row.axis.unit.empty() ? "" : " " + row.axis.unit;
   const auto end = [&](const std::optional<double>& dose) {
-    return dose ? cell_text(in_unit(row, dose), "{:.3g}") : "open";
+    return dose ? dose_text(row, dose) : "open";
   };
-  return fmt::format("{}{} [{}, {}]", cell_text(in_unit(row, of.dose), format), of.dose ? unit : "",
+  return fmt::format("{}{} [{}, {}]", dose_text(row, of.dose, sign), of.dose ? unit : "",
                      end(of.low), end(of.high));
 }
 
@@ -54,18 +63,18 @@ std::string ToleranceAim::text() const {
 std::string text_of(const ToleranceRow& row) {
   const Tolerance& of = row.tolerance;
   const std::string unit = row.axis.unit.empty() ? "" : " " + row.axis.unit;
-  const auto end = [&](double dose) { return cell_text(in_unit(row, dose), "{:.3g}") + unit; };
+  const auto end = [&](double dose) { return dose_text(row, dose) + unit; };
   if (of.verdict == ToleranceVerdict::above) return "> " + end(row.search.high);
   if (of.verdict == ToleranceVerdict::below) return "< " + end(row.search.low);
   if (of.verdict == ToleranceVerdict::not_monotone || of.verdict == ToleranceVerdict::undefined)
     return "-";
-  return text_of(row, {of.dose, of.low, of.high}, "{:.3g}");
+  return text_of(row, Crossing{of.dose, of.low, of.high});
 }
 
 std::string difference_text(const ToleranceRow& row, const ToleranceRow& from) {
   const Crossing of = difference_of(row.tolerance, from.tolerance);
   if (!of.dose && !of.low && !of.high) return "-";
-  return text_of(row, of, "{:+.3g}");
+  return text_of(row, of, "+");
 }
 
 Table tolerance_table(const Study& study, const ToleranceAim& aim, const std::string& reference,

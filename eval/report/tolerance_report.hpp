@@ -29,6 +29,7 @@ struct ToleranceAim {
 struct SecondFault {
   std::string path, value;  ///< leaf and canonical value
   FigureAxis axis;          ///< `at` and `values` hold that one value in the unit of figures
+  std::string least = {};   ///< canonical value of its least dose, from which losses are counted
 };
 
 /// The answer for one fault, method and class group.

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <unordered_map>
@@ -176,6 +177,15 @@ void refuse_recorded(const std::string& path) {
                 ": decides what is recorded; make one study for each of its values");
 }
 
+/// What of a cell without_faults leaves: cells that are alike in it have the same ceilings.
+decltype(Cell::doses) doses_of_ceilings(const Cell& cell) {
+  auto doses = cell.doses;
+  std::erase_if(doses, [](const auto& dose) {
+    return dose.first.starts_with("faults.") || dose.first.starts_with("localization.");
+  });
+  return doses;
+}
+
 /// The configurations of a method's trials at a cell.
 struct TrialConfigurations {
   std::size_t trial, registration_ceiling, lattice_ceiling;
@@ -185,11 +195,15 @@ struct TrialConfigurations {
 
 void check_pose_files(const Study& study) {
   PoseFiles files;
-  for (const Cell& cell : cells(study)) {
-    const Study config = resolve(study, cell);
+  const bool swept = std::ranges::any_of(study.sweep, [](const SweepAxis& axis) {
+    return axis.path.starts_with("localization.") || axis.path.starts_with("perception.");
+  });
+  const auto check_config = [&](const Study& config) {
     static_cast<void>(files.content(config));
     static_cast<void>(files.objects(config));
-  }
+  };
+  if (!swept) return check_config(study);  // every cell reads the same ones
+  for (const Cell& cell : cells(study)) check_config(resolve(study, cell));
 }
 
 Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
@@ -210,14 +224,19 @@ Plan plan_of(const Study& study, const std::string& recording_hash) {
   const auto add = [&](Study&& config, Labels labels) {
     return configurations.add(make_task(std::move(config), labels, recording_hash, files));
   };
+  std::map<decltype(Cell::doses), std::vector<TrialConfigurations>> ceilings;  // by method
   for (const Cell& cell : cells(study)) {
     configurations.next_cell();
     const Study resolved = resolve(study, cell);
-    for (const MethodSettings& method : study.methods) {
-      const Study config = with_method(resolved, method.name);
+    auto& of_cell = ceilings[doses_of_ceilings(cell)];
+    for (std::size_t m = 0; m < study.methods.size(); ++m) {
+      const Study config = with_method(resolved, study.methods[m].name);
       const std::size_t trial = add(Study(config), Labels::detected);
-      const std::size_t registration = add(without_faults(config), Labels::detected);
-      of_trials.push_back({trial, registration, add(for_lattice_ceiling(resolved), Labels::truth)});
+      if (m == of_cell.size()) {
+        const std::size_t registration = add(without_faults(config), Labels::detected);
+        of_cell.push_back({trial, registration, add(for_lattice_ceiling(resolved), Labels::truth)});
+      }
+      of_trials.push_back({trial, of_cell[m].registration_ceiling, of_cell[m].lattice_ceiling});
     }
   }
   const TaskList tasks(configurations.take(), study.seeds);

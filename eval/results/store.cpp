@@ -274,4 +274,8 @@ int ResultStore::merge(const ResultStore& other) {
   return sqlite3_total_changes(database_.get()) - before;
 }
 
+std::filesystem::path store_file(const std::filesystem::path& results) {
+  return std::filesystem::is_directory(results) ? results / "results.sqlite" : results;
+}
+
 }  // namespace mapscore::eval

@@ -125,4 +125,7 @@ class ResultStore {
   std::string build_;
 };
 
+/// results.sqlite of a results folder, or the file itself.
+[[nodiscard]] std::filesystem::path store_file(const std::filesystem::path& results);
+
 }  // namespace mapscore::eval

@@ -3,6 +3,7 @@
 
 #include "eval/results/task_list.hpp"
 
+#include "eval/results/build_identity.hpp"
 #include "eval/study/grid.hpp"
 #include "files/file_bytes.hpp"
 
@@ -59,6 +60,19 @@ Task TaskList::operator[](std::size_t position) const {
 std::string TaskList::key(std::size_t position) const {
   const auto [shared, seed_index] = member_at(position);
   return shared.key(seed_index);
+}
+
+HeldTasks held_tasks(const ResultStore& store, const TaskList& tasks) {
+  const auto builds = store.builds();
+  HeldTasks held;
+  for (std::size_t n = 0; n < tasks.size(); ++n) {
+    const auto trial = builds.find(tasks.key(n));
+    if (trial == builds.end()) continue;
+    ++held.all;
+    if (trial->second != build_identity()) ++held.of_other_builds;
+    held.builds.insert(trial->second);
+  }
+  return held;
 }
 
 }  // namespace mapscore::eval

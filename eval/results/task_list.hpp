@@ -3,11 +3,13 @@
 
 #pragma once
 
+#include "eval/results/store.hpp"
 #include "eval/study/study.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -83,5 +85,13 @@ class TaskList {
   std::shared_ptr<const std::vector<Configuration>> configurations_;
   std::size_t seeds_ = 0;
 };
+
+/// Which tasks of a plan a store holds.
+struct HeldTasks {
+  std::size_t all = 0;
+  std::size_t of_other_builds = 0;  ///< than the running program
+  std::set<std::string> builds;     ///< that made them; an empty one did not tell
+};
+[[nodiscard]] HeldTasks held_tasks(const ResultStore& store, const TaskList& tasks);
 
 }  // namespace mapscore::eval

@@ -62,7 +62,7 @@ double central_probability(double t, int degrees) {
 
 }  // namespace
 
-SeedSummary summarise(std::span<const std::optional<double>> values) {
+SeedSummary summarise(std::span<const std::optional<double>> values, const ValueLimits& limits) {
   std::vector<double> defined;
   for (const std::optional<double>& value : values) {
     if (value) defined.push_back(*value);
@@ -84,8 +84,8 @@ SeedSummary summarise(std::span<const std::optional<double>> values) {
   summary.sd = interval.sd;
   if (summary.seeds < kSeedsForInterval) return summary;
   summary.kind = SpreadKind::interval;
-  summary.low = interval.low;
-  summary.high = interval.high;
+  summary.low = std::max(interval.low, limits.low);
+  summary.high = std::min(interval.high, limits.high);
   return summary;
 }
 

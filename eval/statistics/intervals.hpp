@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -37,8 +38,16 @@ struct SeedSummary {
   std::optional<double> low, high;  ///< of the range or interval
 };
 
-/// Summary of one figure, one value a seed; nullopt where it is undefined.
-[[nodiscard]] SeedSummary summarise(std::span<const std::optional<double>> values);
+/// What a figure can be at all, and so its mean.
+struct ValueLimits {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+};
+
+/// Summary of one figure, one value a seed; nullopt where it is undefined. The interval is cut off
+/// at the limits, within which the mean lies, so that its coverage stays.
+[[nodiscard]] SeedSummary summarise(std::span<const std::optional<double>> values,
+                                    const ValueLimits& limits = {});
 
 /// What one value a seed says of the mean over all seeds.
 struct MeanInterval {

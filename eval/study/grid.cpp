@@ -11,7 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
+#include <unordered_set>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -41,8 +42,8 @@ std::string number_at(double unit, double low, double high) {
 }
 
 /// The value of a path at a place from 0 to 1; names and whole numbers have equal shares.
-std::string value_at(double unit, const SweepAxis& axis, bool whole) {
-  const auto numbers = numbers_of(axis);
+std::string value_at(double unit, const SweepAxis& axis, bool whole,
+                     const std::optional<std::vector<double>>& numbers) {
   if (!numbers)
     return axis.values[static_cast<std::size_t>(unit * static_cast<double>(axis.values.size()))];
   const double low = numbers->at(0), high = numbers->at(1);
@@ -53,15 +54,22 @@ std::string value_at(double unit, const SweepAxis& axis, bool whole) {
 /// Points that fall together stand once.
 std::vector<Cell> sampled(const Study& study) {
   std::vector<bool> whole;
-  for (const SweepAxis& axis : study.sweep) whole.push_back(is_whole_number(study, axis.path));
+  std::vector<std::optional<std::vector<double>>> numbers;
+  for (const SweepAxis& axis : study.sweep) {
+    whole.push_back(is_whole_number(study, axis.path));
+    numbers.push_back(numbers_of(axis));
+  }
   std::vector<Cell> points;
-  std::set<decltype(Cell::doses)> there;
+  std::unordered_set<std::string> there;
   for (const auto& point : unit_points(study.sampling, study.sweep.size(), study.seed)) {
     Cell cell;
-    for (std::size_t axis = 0; axis < point.size(); ++axis)
+    std::string values;
+    for (std::size_t axis = 0; axis < point.size(); ++axis) {
       cell.doses.emplace_back(study.sweep[axis].path,
-                              value_at(point[axis], study.sweep[axis], whole[axis]));
-    if (there.insert(cell.doses).second) points.push_back(std::move(cell));
+                              value_at(point[axis], study.sweep[axis], whole[axis], numbers[axis]));
+      values += cell.doses.back().second + '\n';
+    }
+    if (there.insert(std::move(values)).second) points.push_back(std::move(cell));
   }
   return points;
 }

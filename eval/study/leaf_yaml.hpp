@@ -72,7 +72,7 @@ struct Leaf<std::string> {
 template <>
 struct Leaf<AutoNumber> {
   [[nodiscard]] static AutoNumber read(const YamlValue& at, const Range& range) {
-    if (at.plain_scalar("a number or auto") == "auto") return {};
+    if (at.scalar("a number or auto") == "auto") return {};  // in quotes too, as JSON has words
     return {Leaf<double>::read(at, range)};
   }
   [[nodiscard]] static std::string text(const AutoNumber& number) {
@@ -101,7 +101,7 @@ template <class Enum>
 requires std::is_enum_v<Enum>
 struct Leaf<Enum> {
   [[nodiscard]] static Enum read(const YamlValue& at, const Range&) {
-    const std::string word = at.plain_scalar("one of " + type());
+    const std::string word = at.scalar("one of " + type());
     constexpr auto names = names_of(Enum{});
     for (std::size_t i = 0; i < names.size(); ++i)
       if (word == names[i]) return static_cast<Enum>(i);

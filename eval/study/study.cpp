@@ -16,6 +16,8 @@ void check_method_name(const YamlValue& at, const std::string& name) {
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
   if (name.empty() || name.find_first_not_of(kAllowed) != name.npos)
     at.fail(fmt::format("{} cannot name a method; use letters, digits, _ and -", yaml_text(name)));
+  if (name == "null" || name == "Null" || name == "NULL")
+    at.fail("null cannot name a method, since YAML reads it as nothing; write another name");
 }
 
 void set_leaf(Study& study, std::string_view path, const YamlValue& at) {
@@ -31,7 +33,7 @@ void set_leaves(Study& study, const std::vector<std::string>& overrides) {
     const std::size_t equals = override.find('=');
     if (equals == std::string::npos)
       throw Error("--set " + override + ": must be path=value, e.g. cameras.width_px=320");
-    set_leaf(study, override.substr(0, equals), override.substr(equals + 1));
+    set_leaf(study, whole_path(study, override.substr(0, equals)), override.substr(equals + 1));
   }
 }
 

@@ -172,9 +172,10 @@ struct Study {
 };
 
 /// Reads a study file. `overrides` are `path=value` texts of flags, applied after the file in their
-/// order; a value is YAML (`faults.pose.sigma_xy_m=0.02`, `sweep.voxel_m=[0.05, 0.1]`, `sweep={}`).
-/// Every value and every cell of the sweep is checked, and that trajectory, cameras and lidar do
-/// not stand beside a recording. Throws Error "FILE:LINE: key.path: what; mend".
+/// order; a value is YAML (`faults.pose.sigma_xy_m=0.02`, `sweep.voxel_m=[0.05, 0.1]`, `sweep={}`),
+/// a path may be short (whole_path). Every value and every cell of the sweep is checked, and that
+/// trajectory, cameras and lidar do not stand beside a recording. Throws Error "FILE:LINE:
+/// key.path: what; mend".
 [[nodiscard]] Study load_study(const std::filesystem::path& file,
                                const std::vector<std::string>& overrides = {});
 
@@ -188,12 +189,16 @@ struct Study {
 /// Error naming the path, and then leaves the study as it was.
 void set_leaf(Study& study, std::string_view path, const std::string& yaml_value);
 
-/// The same for `path=value` texts of flags, in their order.
+/// The same for `path=value` texts of flags, in their order; a path may be short (whole_path).
 void set_leaves(Study& study, const std::vector<std::string>& overrides);
 
 /// Every leaf that is set, by dotted path, as its canonical text, and every choice as its kind; not
 /// the sweep.
 [[nodiscard]] std::map<std::string, std::string> leaf_texts(const Study& study);
+
+/// The path of the only leaf that ends in ".NAME", where the first part of `name` is no key of a
+/// study; else `name` itself. Throws Error, with their paths, where several end so.
+[[nodiscard]] std::string whole_path(const Study& study, const std::string& name);
 
 /// Canonical text of the leaf at a dotted path; an unset optional leaf is "-". Throws as set_leaf.
 [[nodiscard]] std::string leaf_text(Study study, std::string_view path);

@@ -245,24 +245,25 @@ void check_sampling(const Study& study, const Blame& blame) {
 
 /// Cells are held in memory, trials are counted by an int.
 void check_size(const Study& study, const Blame& blame) {
-  constexpr std::size_t kMostCells = 1'000'000, kMostTrials = 1'000'000'000;
-  const auto points = static_cast<std::size_t>(points_of(study.sampling));
-  std::size_t cells = std::max<std::size_t>(1, points);
+  constexpr double kMostCells = 1e6, kMostTrials = 1e9;
+  const bool is_grid = points_of(study.sampling) == 0;
+  double cells = std::max(1, points_of(study.sampling));
   for (const SweepAxis& axis : study.sweep) {
     if (axis.values.empty()) blame("sweep." + axis.path, "has no values; write at least one");
     check_distinct(axis.values, "sweep." + axis.path, blame);
-    if (points == 0) cells *= axis.values.size();
-    if (cells > kMostCells)
-      blame("sweep." + axis.path,
-            fmt::format("the grid grows beyond {} cells; sweep fewer values, or write sampling: "
-                        "{{sobol: {{points: N}}}} and ranges",
-                        kMostCells));
+    if (is_grid) cells *= static_cast<double>(axis.values.size());
   }
-  const std::size_t trials = cells * study.methods.size() * static_cast<std::size_t>(study.seeds);
+  const double trials = cells * static_cast<double>(study.methods.size()) * study.seeds;
+  if (cells > kMostCells)
+    blame("sweep",
+          fmt::format("{} cells by {} methods and {} seeds are {} trials; at most {} cells "
+                      "are held in memory, so --yes does not help: sweep fewer values, or "
+                      "write sampling: {{sobol: {{points: N}}}} and ranges",
+                      cells, study.methods.size(), study.seeds, trials, kMostCells));
   if (trials > kMostTrials)
-    blame("seeds", fmt::format("{} cells by {} methods and {} seeds are more than {} trials; write "
-                               "fewer of them",
-                               cells, study.methods.size(), study.seeds, kMostTrials));
+    blame("seeds", fmt::format("{} cells by {} methods and {} seeds are {} trials, of at most {}; "
+                               "write fewer of them",
+                               cells, study.methods.size(), study.seeds, trials, kMostTrials));
 }
 
 void check_cell(const Study& study, const Cell& cell, const Blame& blame) {

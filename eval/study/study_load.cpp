@@ -78,6 +78,15 @@ class RawSweep {
   std::vector<Axis> axes_;
 };
 
+/// Makes a short path whole.
+void complete(Override& change, const Study& study) try {
+  const std::string before(change.path.starts_with(kSweepPrefix) ? kSweepPrefix : "");
+  change.path = before + whole_path(study, change.path.substr(before.size()));
+  change.at.path = change.path;
+} catch (const Error& error) {
+  throw Error(change.at.source + ": " + error.what());
+}
+
 void apply(const Override& change, Study& study, RawSweep& sweep) {
   if (change.path == kSweepKey) {
     sweep.replace_all(change.at);
@@ -105,7 +114,8 @@ YamlValue source_of(std::string_view path, const YamlValue& root,
 
 /// A recording is replayed as it is. Keys of the file stay where a flag alone names the recording,
 /// which then takes the place of what they would render.
-void refuse_beside_recording(const YamlValue& root, const std::vector<Override>& overrides) {
+void refuse_beside_recording(const Study& study, const YamlValue& root,
+                             const std::vector<Override>& overrides) {
   const auto is_of = [](const std::string& path, const std::string& key) {
     return path == key || path.starts_with(key + '.');
   };
@@ -119,6 +129,13 @@ void refuse_beside_recording(const YamlValue& root, const std::vector<Override>&
       if (is_of(change.path, key)) change.at.fail(kWhy);
     if (in_file && root.has(key)) find(root, key).fail(kWhy);
   }
+  const bool asked = (in_file && root.has("scene")) ||
+                     std::ranges::find(overrides, "scene", &Override::path) != overrides.end();
+  if (asked && !std::filesystem::exists(resolve_path(study, *study.scene)))
+    source_of("scene", root, overrides)
+        .fail(fmt::format("{} is not there; beside recording pictures show this scene: mend the "
+                          "path, or remove it",
+                          *study.scene));
 }
 
 }  // namespace
@@ -136,7 +153,10 @@ Study parse_study(const std::string& text, const std::filesystem::path& file,
   RawSweep sweep;
   for (const auto& [key, value] : root.entries())
     if (key == kSweepKey) sweep.replace_all(value);
-  for (const Override& change : overrides) apply(change, study, sweep);
+  for (Override& change : overrides) {
+    complete(change, study);
+    apply(change, study, sweep);
+  }
   refuse_swept(overrides, sweep);
   study.sweep = sweep.read(study);
   check(study, [&](std::string_view path, const std::string& problem) {
@@ -154,8 +174,9 @@ Study load_study(const std::filesystem::path& file, const std::vector<std::strin
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   Study study = parse_study(text, file, overrides);
   std::vector<Override> changes;
-  for (const std::string& one : overrides) changes.push_back(parse_override(one));
-  refuse_beside_recording(parse_yaml(text, name), changes);
+  for (const std::string& one : overrides)
+    complete(changes.emplace_back(parse_override(one)), study);
+  refuse_beside_recording(study, parse_yaml(text, name), changes);
   return study;
 }
 

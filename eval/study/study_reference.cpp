@@ -92,10 +92,12 @@ class Reference {
   std::string text_ =
       "# Keys of a study file\n\n"
       "Made by the program from the lists of fields of the parameters (core/parameters.hpp). A key "
-      "whose default is - may be left\nout. The dotted path of a key is what sweeps and "
-      "flags name it by; NAME is a method's name, PATH the path of a leaf. Defaults\nare those of "
-      "the default "
-      "preset and scan_model; another brings its own.\n\n"
+      "whose default is - may be left\nout. The dotted path of a key is what sweeps and flags name "
+      "it by; in a flag its end is enough where one key alone ends so.\nNAME is a method's name, "
+      "PATH "
+      "the path of a leaf. Defaults are those of the default preset and scan_model; another "
+      "brings\n"
+      "its own.\n\n"
       "| key | type | unit | default | range | meaning |\n"
       "| --- | --- | --- | --- | --- | --- |\n";
 };

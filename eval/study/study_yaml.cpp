@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include "core/error.hpp"
 #include "eval/study/study_tree.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace mapscore::eval {
@@ -78,7 +80,7 @@ class Dumper {
   }
 
   void line(std::string_view content) {
-    text_ += fmt::format("{:{}}{}\n", "", 2 * depth_, content);
+    text_.append(2 * static_cast<std::size_t>(depth_), ' ').append(content) += '\n';
   }
 
   bool for_key_;
@@ -102,7 +104,7 @@ void add_leaves(const std::string& path, const T& value,
                  child, leaves);
     });
   else if constexpr (!std::same_as<T, Sweep>)
-    if (const std::string text = Leaf<T>::text(value); text != "-") leaves[path] = text;
+    leaves[path] = Leaf<T>::text(value);
 }
 
 }  // namespace
@@ -110,7 +112,22 @@ void add_leaves(const std::string& path, const T& value,
 std::map<std::string, std::string> leaf_texts(const Study& study) {
   std::map<std::string, std::string> leaves;
   add_leaves("", study, leaves);
+  std::erase_if(leaves, [](const auto& leaf) { return leaf.second == "-"; });
   return leaves;
+}
+
+std::string whole_path(const Study& study, const std::string& name) {
+  const std::vector<std::string> first_keys = keys_of(study);
+  if (std::ranges::count(first_keys, split_path(name).first) > 0) return name;
+  std::map<std::string, std::string> leaves;
+  add_leaves("", study, leaves);
+  std::vector<std::string> paths;
+  for (const auto& [path, text] : leaves) paths.push_back(path);
+  const auto path = path_named(name, paths);
+  if (!path &&
+      std::ranges::any_of(paths, [&](const std::string& of) { return of.ends_with('.' + name); }))
+    throw Error(fmt::format("{}: may be several keys; {}", name, suggestion(name, paths)));
+  return path.value_or(name);
 }
 
 std::string to_yaml(const Study& study) {

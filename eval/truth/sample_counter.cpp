@@ -5,6 +5,8 @@
 
 #include "core/error.hpp"
 #include "core/geometry/depth_rays.hpp"
+#include "core/geometry/voxel_packer.hpp"
+#include "core/wide_vectors.hpp"
 
 #include <fmt/format.h>
 
@@ -20,16 +22,6 @@ namespace {
 constexpr std::size_t kFirstSlots = 1 << 12;
 constexpr int kFarthestSampleIndex = (1 << 20) - 1;
 
-/// floor(a) for |a| below 2^31; compiles to two instructions and vectorises, unlike std::floor on
-/// processors without SSE 4.1.
-std::int32_t floor_index(double a) {
-  const auto truncated = static_cast<std::int32_t>(a);
-  return truncated - (a < truncated);
-}
-
-/// In place of a packed key: no sample.
-constexpr std::uint64_t kNoSample = ~std::uint64_t{0};
-
 /// Smallest and largest raw depth value within the range.
 struct RawRange {
   explicit RawRange(const Calibration& calibration) {
@@ -43,28 +35,18 @@ struct RawRange {
   int low = 1, high = 65535;
 };
 
-// Compiled for several widths, of which the processor's is chosen when the program starts; no
-// result depends on the width: there are neither sums over pixels nor fused products.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-[[gnu::target_clones("default", "avx2", "avx512f")]]
-#endif
-void place_row(const std::uint16_t* depth, const DepthRays& rays, int v, const Pose& T_map_depth,
-               double edge_m, const RawRange& range, std::uint64_t* keys) {
-  const Eigen::Matrix3d R = T_map_depth.linear();
-  const Eigen::Vector3d t = T_map_depth.translation();
-  const int width = static_cast<int>(rays.x().size());
-  const double* ray_x = rays.x().data();
-  const double ray_y = rays.y()[v];
+/// Packed voxels of a row of the depth image, kNone where there is no sample.
+MAPSCORE_WIDE_VECTORS
+void pack_row(const std::uint16_t* depth, const double* ray_x, double ray_y, std::size_t width,
+              const VoxelPacker& packer, const RawRange& range, std::uint64_t* packed) {
+  const VoxelPacker pack = packer;
   const int low = range.low, high = range.high;
-  for (int u = 0; u < width; ++u) {
-    const double z = depth[u] / kDepthUnitsPerMetre;
-    const double x = z * ray_x[u];
-    const double y = z * ray_y;
-    const std::uint64_t key =
-        pack({floor_index((R(0, 0) * x + R(0, 1) * y + R(0, 2) * z + t.x()) / edge_m),
-              floor_index((R(1, 0) * x + R(1, 1) * y + R(1, 2) * z + t.y()) / edge_m),
-              floor_index((R(2, 0) * x + R(2, 1) * y + R(2, 2) * z + t.z()) / edge_m)});
-    keys[u] = depth[u] >= low && depth[u] <= high ? key : kNoSample;
+  for (std::size_t u = 0; u < width; ++u) {
+    const std::int32_t raw = depth[u];
+    const double z = raw / kDepthUnitsPerMetre;
+    const std::uint64_t voxel = pack(z * ray_x[u], z * ray_y, z);
+    const auto outside = static_cast<std::uint64_t>((raw < low) | (raw > high));
+    packed[u] = voxel | (std::uint64_t{0} - outside);
   }
 }
 
@@ -110,16 +92,27 @@ void SampleCounter::add(const Frame& frame, const Calibration& true_calibration,
   check(frame, true_calibration, T_map_depth, edge_m_);
   const DepthRays rays(true_calibration.depth);
   const RawRange range(true_calibration);
+  const VoxelPacker packer(T_map_depth, edge_m_);
   std::vector<std::uint64_t> keys(static_cast<std::size_t>(frame.depth.cols));
+  std::vector<std::size_t> places(keys.size(), 0);
   for (int v = 0; v < frame.depth.rows; ++v) {
     const std::uint16_t* label = frame.depth_label[v];
-    place_row(frame.depth[v], rays, v, T_map_depth, edge_m_, range, keys.data());
-    // Neighbours mostly share voxel and instance, so the table is asked once a run.
+    pack_row(frame.depth[v], rays.x().data(), rays.y()[static_cast<std::size_t>(v)], keys.size(),
+             packer, range, keys.data());
+    // Neighbours mostly share voxel and instance: the table is asked once a run, and first at the
+    // place that it gave for the pixel above.
     for (std::size_t u = 0; u < keys.size();) {
       const std::size_t first = u++;
       while (u < keys.size() && keys[u] == keys[first] && label[u] == label[first]) ++u;
-      if (keys[first] != kNoSample)
-        count(keys[first], table.class_of(label[first]), static_cast<std::uint32_t>(u - first));
+      if (keys[first] == VoxelPacker::kNone) continue;
+      const ClassId class_id = table.class_of(label[first]);
+      const auto samples = static_cast<std::uint32_t>(u - first);
+      Slot& above = slots_[places[first]];
+      if (above.samples > 0 && above.key == keys[first] && above.class_id == class_id)
+        above.samples += samples;
+      else
+        std::fill_n(places.begin() + static_cast<std::ptrdiff_t>(first), samples,
+                    count(keys[first], class_id, samples));
     }
   }
 }
@@ -147,14 +140,16 @@ std::vector<SampleCount> SampleCounter::counts() const {
   return counts;
 }
 
-void SampleCounter::count(std::uint64_t key, ClassId class_id, std::uint32_t samples) {
+std::size_t SampleCounter::count(std::uint64_t key, ClassId class_id, std::uint32_t samples) {
   if (2 * (used_ + 1) > slots_.size()) grow();
-  Slot& slot = slots_[position(key, class_id)];
+  const std::size_t place = position(key, class_id);
+  Slot& slot = slots_[place];
   if (slot.samples == 0) {
     slot = {key, 0, class_id};
     ++used_;
   }
   slot.samples += samples;
+  return place;
 }
 
 std::size_t SampleCounter::position(std::uint64_t key, ClassId class_id) const {

@@ -58,7 +58,8 @@ class SampleCounter {
     ClassId class_id = 0;
   };
 
-  void count(std::uint64_t key, ClassId class_id, std::uint32_t samples);
+  /// Returns the place of the slot.
+  std::size_t count(std::uint64_t key, ClassId class_id, std::uint32_t samples);
   [[nodiscard]] std::size_t position(std::uint64_t key, ClassId class_id) const;
   void grow();
 

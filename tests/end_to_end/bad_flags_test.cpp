@@ -46,7 +46,7 @@ TEST_F(BadFlags, OverridesThatAreWrong) {
   expect_refused(mapscore({"run", study(), "-o", results(), "--seed", "2"}), {"seed 2", "0 to 1"});
   expect_refused(mapscore({"run", study(), "-o", results(), "--method", "guess"}),
                  {"'guess'", "direct erosion"});
-  expect_refused(mapscore({"record", study(), "-o", path("new"), "--set", "scene=a.xml"}),
+  expect_refused(mapscore({"record", study(), "-o", path("new"), "--set", "scene=study.yaml"}),
                  {"recording: `record` renders", "leave it out"});
 }
 

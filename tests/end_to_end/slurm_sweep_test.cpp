@@ -228,6 +228,14 @@ TEST_F(SlurmSweep, ShardsSideBySideAndASweepThatTakesThemOver) {
   }
 }
 
+TEST_F(SlurmSweep, StatusTellsSetsOfShardsApart) {
+  for (const char* shard : {"1/3", "2/7", "3/7"})
+    expect_done(mapscore({"sweep", study(), "-o", results(), "-q", "--shard", shard}));
+  EXPECT_THAT(mapscore({"status", results()}).out,
+              AllOf(HasSubstr("\n3 shards: 1 finished, 2 not begun\n"),
+                    HasSubstr("\n7 shards: 2 finished, 5 not begun\n")));
+}
+
 TEST_F(SlurmSweep, AShardLeavesOutWhatTheFolderHolds) {
   expect_done(mapscore({"sweep", study(), "-o", results(), "-q", "--set", "seeds=1"}));
   const Outcome first = mapscore({"sweep", study(), "-o", results(), "--shard", "1/2"});

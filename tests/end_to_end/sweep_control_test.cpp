@@ -69,6 +69,10 @@ TEST_F(SweepControl, ADryRunCountsAndWritesNothing) {
   EXPECT_THAT(sweep({"--dry_run", "--set", "seeds=3", "--shard", "2/2"}).out,
               HasSubstr("5 missing, 5 in shard 2/2"));
   EXPECT_THAT(sweep({"--dry_run"}).out, HasSubstr("time: none"));
+  // Direct reads no radius: 4 trials of its own, 12 of erosion, 2 lattice ceilings.
+  EXPECT_THAT(sweep({"--dry_run", "--set", "sweep.radius_px=[1, 2, 3]"}).out,
+              AllOf(HasSubstr("6 cells x 2 methods x 2 seeds = 24 trials, 18 with ceilings, as"),
+                    HasSubstr("that differ in nothing their method reads are one")));
   EXPECT_TRUE(bytes_of(path("results/results.sqlite")) == store);
 }
 
@@ -165,7 +169,12 @@ TEST_F(SweepControl, AFailingTrialCostsThatTrialAlone) {
   expect_done(failed);
   EXPECT_THAT(failed.out,
               AllOf(HasSubstr("failed"), HasSubstr("short.txt"), Not(HasSubstr("done"))));
-  expect_refused(mapscore({"table", results()}), {"1 of", "not there yet"});
+  expect_refused(mapscore({"table", results()}),
+                 {"1 of", "not there yet; 1 of them failed, the first: ", "short.txt",
+                  "--state failed` lists them"});
+  const Outcome interim = mapscore({"table", results(), "--interim"});
+  expect_done(interim);
+  EXPECT_THAT(interim.out, AllOf(HasSubstr("INTERIM: "), HasSubstr("1 of them failed")));
   const std::string key = failed.out.substr(failed.out.find('\n') + 1, 32);
   expect_refused(mapscore({"run", results(), "--trial", key}), {"short.txt"});
 }
@@ -199,7 +208,8 @@ TEST_F(SweepControl, InterimTablesAndFiguresAreMarked) {
   EXPECT_THAT(table.out,
               AllOf(HasSubstr("INTERIM: "), HasSubstr(" of 10 trials and ceilings are there"),
                     HasSubstr("seeds there")));
-  expect_done(mapscore({"figures", results(), "--interim", "--no_pictures"}));
+  expect_done(mapscore(
+      {"figures", results(), "--interim", "--no_pictures", "--trial", "magnitude_m=0.030"}));
   EXPECT_THAT(bytes_of(path("results/interim_figures/table.txt")), HasSubstr("INTERIM"));
   EXPECT_THAT(bytes_of(path("results/interim_figures/accuracy_by_dose.gp")), HasSubstr("INTERIM"));
   EXPECT_FALSE(std::filesystem::exists(path("results/figures")));
@@ -225,6 +235,46 @@ TEST_F(SweepControl, CtrlCOfATolerance) {
   EXPECT_THAT(stopped.err, HasSubstr("the same command goes on"));
 }
 
+TEST_F(SweepControl, AStudyOfWhichEveryTrialFailedSaysSo) {
+  make_one_trial_fail();
+  const std::vector<std::string> flags{"--set", "sweep.localization.trajectory=[short.txt]"};
+  EXPECT_EQ(sweep(flags).exit_code, 1) << "its ceilings stand";
+  for (const char* flag : {"--interim", "--tidy"})
+    expect_refused(mapscore({"table", results(), flag}),
+                   {"1 of them failed, the first: ", "short.txt", "--state failed"});
+}
+
+TEST_F(SweepControl, SaysWhereNothingDetectedIsVisible) {
+  replace("tiny/recording.yaml", "instances:\n",
+          "  - {id: 3, name: \"lamp\", colour: \"00FF00\", detect: false}\ninstances:\n");
+  const Outcome done = sweep({"--set", "detect=[lamp]"});
+  expect_done(done);
+  const std::string note = "no truth voxel of a detected class was visible in any trial";
+  EXPECT_THAT(done.err, HasSubstr(note));
+  EXPECT_THAT(mapscore({"table", results()}).out, HasSubstr(note));
+  EXPECT_THAT(mapscore({"table", results(), "--columns", "method"}).out, HasSubstr(note));
+  EXPECT_THAT(sweep().err, Not(HasSubstr(note)));
+}
+
+TEST_F(SweepControl, AClassWithACommaCanBeChosen) {
+  replace("tiny/recording.yaml", "instances:\n",
+          "  - {id: 3, name: \"door,double\", colour: \"00FF00\", detect: true}\ninstances:\n");
+  expect_done(sweep({"-q"}));
+  const Outcome table = mapscore({"table", results(), "--class", "door\\,double,pooled"});
+  expect_done(table);
+  EXPECT_THAT(table.out, AllOf(HasSubstr("door,double"), HasSubstr("pooled")));
+  const Outcome run = mapscore({"run", study(), "--set", "detect=[\"door,double\", crate]",
+                                "--method", "direct", "-o", path("run"), "-q"});
+  expect_done(run);
+  EXPECT_THAT(run.out, HasSubstr("door\\,double"));
+}
+
+TEST_F(SweepControl, RunOfResultsSaysHowToNameATrial) {
+  expect_done(sweep({"-q"}));
+  expect_refused(mapscore({"run", results()}), {"mapscore trials ", "--trial KEY"});
+  EXPECT_THAT(mapscore({"help", "run"}).out, HasSubstr("STUDY or RESULTS"));
+}
+
 TEST_F(SweepControl, HelpOfAVerb) {
   const Outcome help = mapscore({"help", "sweep"});
   expect_done(help);
@@ -238,6 +288,8 @@ TEST_F(SweepControl, FiguresRefuseATrialThatIsNoneBeforeTheyDraw) {
   expect_refused(mapscore({"figures", results(), "--seed", "7"}), {"seed 7", "0 to 1"});
   expect_refused(mapscore({"figures", results(), "--method", "none"}), {"method none"});
   expect_refused(mapscore({"figures", results(), "--trial", "voxel_m=1"}), {"does not sweep it"});
+  expect_refused(mapscore({"figures", results(), "--trial", "magnitude_m=0.5"}),
+                 {"faults.misregistration.magnitude_m: the study has no value 0.5", "0.03"});
   EXPECT_FALSE(std::filesystem::exists(path("results/figures")));
 }
 

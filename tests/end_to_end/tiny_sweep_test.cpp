@@ -6,6 +6,8 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
 namespace mapscore::testing {
 namespace {
 
@@ -16,6 +18,15 @@ using ::testing::Not;
 class TinySweep : public TinyStudy {
  protected:
   TinySweep() { expect_done(mapscore({"sweep", study(), "-o", results(), "-q"})); }
+
+  /// Exchanges a colour image for another, which no method here reads.
+  void change_recording() const {
+    std::set<std::filesystem::path> images;
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / "tiny/color"))
+      images.insert(entry.path());
+    std::filesystem::copy_file(*images.begin(), *images.rbegin(),
+                               std::filesystem::copy_options::overwrite_existing);
+  }
 };
 
 TEST_F(TinySweep, PrintsAndChecksItsScores) {
@@ -31,6 +42,38 @@ TEST_F(TinySweep, PrintsAndChecksItsScores) {
   const Outcome moved = mapscore({"check", path("moved"), "--baseline", baseline});
   EXPECT_EQ(moved.exit_code, 3) << moved.err;
   EXPECT_THAT(moved.out, HasSubstr("nothing could be compared"));
+}
+
+TEST_F(TinySweep, UpdateSaysWhatTheOldBaselineDifferedIn) {
+  const std::vector<std::string> update{"check", results(), "--baseline", path("baseline.json"),
+                                        "--update"};
+  expect_refused(mapscore({"check", results(), "--baseline", path("baseline.json")}),
+                 {"baseline.json: is not there; make it with", "--update"});
+  expect_done(mapscore(update));
+  change_recording();
+  expect_done(mapscore({"sweep", study(), "-o", results(), "-q"}));
+  const Outcome recording = mapscore(update);
+  expect_done(recording);
+  EXPECT_THAT(recording.err, HasSubstr("baseline.json written; the old one: recording "));
+  EXPECT_THAT(recording.out, HasSubstr("figures hold; another recording; changed: 0 of"));
+  expect_done(mapscore({"sweep", study(), "-o", results(), "-q", "--set", "voxel_m=0.1"}));
+  const Outcome settings = mapscore(update);
+  expect_done(settings);
+  EXPECT_THAT(settings.err,
+              HasSubstr("written; the old one: not comparable: voxel_m 0.05 -> 0.1\n"));
+}
+
+TEST_F(TinySweep, ComparesTwoRecordingsWhereItIsTold) {
+  change_recording();
+  expect_done(mapscore({"sweep", study(), "-o", path("after"), "-q"}));
+  std::vector<std::string> compare{"compare", "--before", results(), "--after", path("after")};
+  expect_refused(mapscore(compare), {"recording ", "--any_recording"});
+  compare.emplace_back("--any_recording");
+  const Outcome compared = mapscore(compare);
+  expect_done(compared);
+  EXPECT_THAT(compared.out, HasSubstr("recording "));
+  expect_refused(mapscore({"compare", results(), "direct", "erosion", "--any_recording"}),
+                 {"--any_recording is for --before and --after"});
 }
 
 TEST_F(TinySweep, CheckSaysWhichFigureIsMissing) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace mapscore {
 namespace {
@@ -52,6 +53,17 @@ TEST(Suggestion, StandsBehindTheProblemOfANameThatIsNotThere) {
   testing::expect_error("no method 'errosion'; did you mean 'erosion'?", [] {
     require_one_of({"direct", "erosion"}, "errosion", "no method 'errosion'");
   });
+}
+
+TEST(PathNamed, TakesWholePathsAndEndsThatAreUnique) {
+  const std::vector<std::string> paths{"a.x.magnitude_m", "a.y.magnitude_m", "a.y.angle_deg", "y"};
+  EXPECT_EQ(path_named("a.x.magnitude_m", paths), paths[0]);
+  EXPECT_EQ(path_named("y.magnitude_m", paths), paths[1]);
+  EXPECT_EQ(path_named("angle_deg", paths), paths[2]);
+  EXPECT_EQ(path_named("y", paths), paths[3]);
+  EXPECT_EQ(path_named("magnitude_m", paths), std::nullopt) << "two end so";
+  EXPECT_EQ(path_named("le_deg", paths), std::nullopt) << "no whole part";
+  EXPECT_EQ(suggestion("magnitude_m", paths), "write one of a.x.magnitude_m, a.y.magnitude_m");
 }
 
 }  // namespace

@@ -14,6 +14,18 @@ namespace {
 
 using testing::expect_error;
 
+/// Plain words are read without the parser.
+TEST(YamlValueOfAFlag, IsWhatTheParserReads) {
+  for (const char* text :
+       {"0.05", "1e-05", "walk", "a/b.txt", "true", "..", "0x1F", "-0.5", "-.inf", "null", "Null",
+        "~", "\"0.05\"", "'a'", "[1, 2]", "a b", "1."}) {
+    const YAML::Node parsed = YAML::Load(text), read = parse_yaml_value(text, "", "").node;
+    EXPECT_EQ(read.Type(), parsed.Type()) << text;
+    EXPECT_EQ(read.Tag() == "!", parsed.Tag() == "!") << text;
+    EXPECT_EQ(read.Scalar(), parsed.Scalar()) << text;
+  }
+}
+
 TEST(YamlValue, LinesAreThoseOfKeysInEntriesAndElseOfValues) {
   const YamlValue root = parse_yaml("a:\n  b:\n    3\nlist:\n  - x\n", "f");
   EXPECT_EQ(root.at("a").at("b").line, 3);

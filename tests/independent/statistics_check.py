@@ -181,6 +181,11 @@ def check_json(findings, text, rows, where):
                                 float(value) if numbers else None if told is None and value == "-" else value)
 
 
+def shares_spread(values):
+    """Of figures from 0 to 1, at which the interval is cut off."""
+    return tuple(end and min(max(end, 0.0), 1.0) for end in spread(values))
+
+
 def check_table(findings, tidy, text, group):
     """`mapscore table`: ratios of counts pooled over the seeds, F1's spread by seed, ceilings."""
     everything = range(tidy.seeds)
@@ -193,7 +198,7 @@ def check_table(findings, tidy, text, group):
         for column, (role, metric) in CEILINGS.items():
             findings.hold(f"{where}: {column}", row[column], tidy.ratios(role, method, dose, group, everything)[metric])
         defined = [value for value in tidy.by_seed(method, dose, group, "f1") if value is not None]
-        for end, value in zip(("low", "high"), spread(defined), strict=True):
+        for end, value in zip(("low", "high"), shares_spread(defined), strict=True):
             findings.hold(f"{where}: F1 {end}", row[f"F1 {end}"], value, 2 * DIGIT)
 
 
@@ -207,7 +212,7 @@ def check_curves(findings, tidy, folder):
             if columns != "# x value low high registration_ceiling lattice_ceiling":
                 raise ValueError(f"{name}: unknown columns, {columns}")
             for dose, line in zip(DOSES_M, lines, strict=True):
-                low, high = spread([v for v in tidy.by_seed(method, dose, group, metric) if v is not None])
+                low, high = shares_spread([v for v in tidy.by_seed(method, dose, group, metric) if v is not None])
                 expected = {"x": 1000 * dose, "low": low, "high": high}
                 for column, role in CURVES.items():
                     pooled = tidy.ratios(role, method, dose, group, range(tidy.seeds))

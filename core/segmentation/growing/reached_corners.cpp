@@ -3,6 +3,8 @@
 
 #include "core/segmentation/growing/reached_corners.hpp"
 
+#include "core/wide_vectors.hpp"
+
 #include <cmath>
 #include <cstddef>
 
@@ -15,9 +17,7 @@ struct Coordinates {
   std::size_t count;
 };
 
-// Without branches, so that the loop becomes wide vectors; each function that is called from
-// outside is compiled for several widths, of which the processor's is chosen when the program
-// starts. No result depends on the width: there are neither sums over points nor fused products.
+// Without branches, so that the loop becomes wide vectors in the functions that are called.
 
 template <class Scalar>
 [[gnu::always_inline]] inline void find_corners(Coordinates points, const LatticeBox& lattice,
@@ -88,33 +88,25 @@ template <class Scalar>
   }
 }
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-[[gnu::target_clones("default", "avx2", "avx512f")]]
-#endif
+MAPSCORE_WIDE_VECTORS
 void find_nearest_double(Coordinates p, const LatticeBox& box, double radius_squared,
                          std::uint32_t* nearest) {
   find_nearest(p, box, radius_squared, nearest);
 }
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-[[gnu::target_clones("default", "avx2", "avx512f")]]
-#endif
+MAPSCORE_WIDE_VECTORS
 void find_corners_double(Coordinates p, const LatticeBox& box, double radius_squared,
                          std::uint32_t* cubes, std::uint8_t* corners) {
   find_corners(p, box, radius_squared, cubes, corners);
 }
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-[[gnu::target_clones("default", "avx2", "avx512f")]]
-#endif
+MAPSCORE_WIDE_VECTORS
 void find_nearest_float(Coordinates p, const LatticeBox& box, float radius_squared,
-                         std::uint32_t* nearest) {
+                        std::uint32_t* nearest) {
   find_nearest(p, box, radius_squared, nearest);
 }
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-[[gnu::target_clones("default", "avx2", "avx512f")]]
-#endif
+MAPSCORE_WIDE_VECTORS
 void find_corners_float(Coordinates p, const LatticeBox& box, float radius_squared,
                         std::uint32_t* cubes, std::uint8_t* corners) {
   find_corners(p, box, radius_squared, cubes, corners);

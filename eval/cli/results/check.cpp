@@ -5,6 +5,7 @@
 #include "eval/cli/results/frame_trace.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/verbs.hpp"
+#include "eval/report/comparable.hpp"
 #include "eval/report/regression_report.hpp"
 #include "eval/results/build_identity.hpp"
 #include "files/suggestion.hpp"
@@ -29,10 +30,8 @@ struct CheckFlags {
 
 /// Results that the code under test did not make say nothing of it.
 void refuse_other_builds(const StudySummary& summary, const CheckFlags& flags) {
-  if (summary.builds.size() > 1)
-    throw Error(fmt::format("{}: its trials were made by {} builds; sweep again with one",
-                            flags.results, summary.builds.size()));
-  const std::string build = summary.builds.empty() ? "" : *summary.builds.begin();
+  check_one_build(summary, flags.results);
+  const std::string& build = *summary.builds.begin();
   if (!flags.any_build && build != build_identity())
     throw Error(fmt::format(
         "{}: its trials were made by {}, this is build {}; sweep again with this program, or give "
@@ -85,8 +84,8 @@ std::optional<FrameTrace> trace_of(const Baseline& baseline, const Judgement& ju
 }
 
 /// Prints how the results stand to the baseline and gives the exit code.
-int report(const Baseline& now, const Tolerances& allowed, const CheckFlags& flags) {
-  const Baseline baseline = read_baseline(flags.baseline);
+int report(const Baseline& baseline, const Baseline& now, const Tolerances& allowed,
+           const CheckFlags& flags) {
   check_tolerances(allowed, baseline);
   Judgement judgement =
       judge(baseline, now, metrics_in(baseline, flags), allowed, flags.any_recording);
@@ -96,15 +95,21 @@ int report(const Baseline& now, const Tolerances& allowed, const CheckFlags& fla
   return judgement.fell() ? kFell : 0;
 }
 
-/// Prints what it changes, where the old baseline compares, and writes the new one.
-void update(Baseline now, const Tolerances& allowed, const CheckFlags& flags) {
+/// Prints what it changes, where the old baseline compares, also on another recording, and writes
+/// the new one; says what the old one differed in.
+void update(Baseline now, const Tolerances& allowed, CheckFlags flags) {
+  flags.any_recording = true;
   std::string note;
   bool frames = flags.frames;
   if (std::filesystem::exists(flags.baseline)) try {
-      frames = frames || !read_baseline(flags.baseline).yields.empty();
-      static_cast<void>(report(now, allowed, flags));
+      const Baseline old = read_baseline(flags.baseline);
+      frames = frames || !old.yields.empty();
+      if (old.recording_hash != now.recording_hash)
+        note = fmt::format("; the old one: recording {} -> {}", old.recording_hash.substr(0, 8),
+                           now.recording_hash.substr(0, 8));
+      static_cast<void>(report(old, now, allowed, flags));
     } catch (const Error& error) {
-      note = fmt::format("; the old one: {}", shown(error.what()));
+      note += fmt::format("; the old one: {}", shown(error.what()));
     }
   if (frames) now.yields = yields_of_store(flags.results);
   write_baseline(now, flags.baseline);
@@ -116,7 +121,7 @@ int check(const CheckFlags& flags) try {
   const StudySummary summary = summarise_store(flags.results);
   refuse_other_builds(summary, flags);
   const Baseline now = baseline_of(summary);
-  if (!flags.update) return report(now, allowed, flags);
+  if (!flags.update) return report(read_baseline(flags.baseline), now, allowed, flags);
   update(now, allowed, flags);
   return 0;
 } catch (const Error& error) {
@@ -135,10 +140,8 @@ void add_check(CLI::App& program, int& exit_code) {
                    "How much worse a figure may get, absolutely: NUMBER, METRIC=NUMBER or "
                    "CLASS/METRIC=NUMBER, by repeating the flag [0.002]")
       ->allow_extra_args(false);
-  verb->add_option("--metric", flags->metrics,
-                   "Figures, by commas [precision,recall,f1,iou,f1_t1,f_2cm]")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_list(*verb, "--metric", flags->metrics,
+           "Figures, by commas [precision,recall,f1,iou,f1_t1,f_2cm]");
   add_format_flag(*verb, flags->format, kReportFormats);
   verb->add_flag("--update", flags->update,
                  "Write the baseline from these results, after what that changes");
@@ -152,7 +155,8 @@ void add_check(CLI::App& program, int& exit_code) {
   verb->add_flag("--any_build", flags->any_build,
                  "Take results that another build of mapscore made");
   verb->add_flag("--any_recording", flags->any_recording,
-                 "Compare with results on another recording, as another machine renders it");
+                 "Compare with results on another recording, as another machine renders it; always "
+                 "with --update");
   verb->footer(
       "Exit codes: 0 nothing got worse, 1 something did, 2 not comparable or wrong input, 3 "
       "nothing\n"

@@ -22,6 +22,8 @@ void print_comparison(const CompareFlags& flags) {
   const bool of_methods = flags.before.empty() && flags.after.empty() && !flags.question.b.empty();
   if (!of_results && !of_methods)
     throw Error("compare: give RESULTS A B, or --before RESULTS --after RESULTS");
+  if (of_methods && flags.question.any_recording)
+    throw Error("compare: --any_recording is for --before and --after; RESULTS have one recording");
   const auto summary = [&](const std::string& results) {
     return summarise_store(results, {{flags.question.group}, false});
   };
@@ -43,10 +45,9 @@ void add_compare(CLI::App& program) {
   verb->add_option("--before", flags->before, "Results of all methods before a change");
   verb->add_option("--after", flags->after,
                    "Results after it: on the same recording, with the same seed");
-  verb->add_option("--metric", flags->question.metrics,
-                   "Figures, by commas or by repeating the flag [f1]")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  verb->add_flag("--any_recording", flags->question.any_recording,
+                 "Results before and after may be of two recordings, as two machines render one");
+  add_list(*verb, "--metric", flags->question.metrics, "Figures, by commas [f1]");
   verb->add_option("--group", flags->question.group,
                    "pooled, macro, or the name of a detected class [pooled]");
   add_format_flag(*verb, flags->format, {"text", "csv", "json", "markdown", "tex"});

@@ -13,6 +13,7 @@
 #include "eval/report/pictures/caption.hpp"
 #include "eval/report/pictures/contact_sheet.hpp"
 #include "eval/report/pictures/pictures.hpp"
+#include "eval/report/selection.hpp"
 #include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"
 #include "files/text.hpp"
@@ -20,6 +21,7 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mapscore::eval {
@@ -36,14 +38,19 @@ struct FiguresFlags {
   ViewFlag view;
 };
 
-PictureChoice choice_of(const FiguresFlags& flags) {
+PictureChoice choice_of(const FiguresFlags& flags, const Study& study) {
   PictureChoice choice = flags.choice;
   for (const std::string& dose : flags.trial) {
     const std::size_t equals = dose.find('=');
     if (equals == std::string::npos)
       throw Error("--trial " + dose +
                   ": must be path=value, e.g. faults.misregistration.magnitude_m=0.02");
-    choice.doses.emplace_back(dose.substr(0, equals), dose.substr(equals + 1));
+    std::string path = dose.substr(0, equals), value = dose.substr(equals + 1);
+    if (const auto axis = swept_axis(study, path)) {
+      path = study.sweep[*axis].path;
+      value = canonical_value(study, path, value);
+    }
+    choice.doses.emplace_back(std::move(path), std::move(value));  // refused where not swept
   }
   choice.view = flags.view.view();
   return choice;
@@ -78,10 +85,11 @@ void draw_from_recording(const FiguresFlags& flags, const PictureChoice& choice,
 }
 
 void figures(const FiguresFlags& flags) {
-  const PictureChoice choice = choice_of(flags);
   const FigureStyle style = flags.style.style();
   const fs::path file = store_file(flags.results);
-  check_choice(read_study(ResultStore::open_existing(file), file.parent_path()).study, choice);
+  const Study study = read_study(ResultStore::open_existing(file), file.parent_path()).study;
+  const PictureChoice choice = choice_of(flags, study);
+  check_choice(study, choice);
   const StudySummary summary = summarise_store(flags.results, {{}, flags.interim});
   const fs::path folder =
       !flags.folder.empty()
@@ -102,7 +110,8 @@ void add_figures(CLI::App& program) {
   verb->add_option("-o,--output", flags->folder,
                    "Folder of the pictures [RESULTS/figures, or RESULTS/interim_figures]");
   verb->add_option("--trial", flags->trial,
-                   "Dose whose maps are drawn, path=value of a swept path; may be repeated [the "
+                   "Dose whose maps are drawn, path=value of a swept path or of its end; may be "
+                   "repeated [the "
                    "middle of each]")
       ->allow_extra_args(false);
   verb->add_option("--method", flags->choice.method, "Draw the map of this method alone [all]");
@@ -122,7 +131,7 @@ void add_figures(CLI::App& program) {
       "All numbers of all trials: `mapscore table RESULTS --tidy`.\n"
       "Examples:\n"
       "  mapscore figures results/demo\n"
-      "  mapscore figures results/demo -o paper --trial faults.misregistration.magnitude_m=0.04\n"
+      "  mapscore figures results/demo -o paper --trial magnitude_m=0.04\n"
       "  mapscore figures results/demo --view 4 1 2.2 5.5 3 0.8\n"
       "  mapscore figures results/person --no_pictures\n"
       "  mapscore figures results/demo -o paper --width_mm 85 --grey --no_caption  # one column\n"

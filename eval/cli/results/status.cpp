@@ -8,6 +8,7 @@
 #include "eval/cli/verbs.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/results/plan.hpp"
+#include "eval/results/searched_trials.hpp"
 #include "eval/results/shards.hpp"
 #include "eval/results/study_store.hpp"
 #include "eval/results/sweep_status.hpp"
@@ -22,6 +23,8 @@
 #include <ctime>
 #include <iostream>
 #include <map>
+#include <set>
+#include <span>
 #include <unordered_set>
 
 namespace mapscore::eval {
@@ -78,6 +81,33 @@ std::string store_text(const fs::path& file, const ResultStore& store, const Stu
   return text;
 }
 
+/// What tolerance searches asked for, by fault and method; empty where none did.
+std::string searched_text(const fs::path& file, const ResultStore& store) {
+  const std::vector<SearchedTrial> trials = searched_trials(store);
+  const auto held = store.keys();
+  if (trials.empty())  // as of a mapscore that did not note them
+    return store.text("study").empty()
+               ? fmt::format("{}: {} trials, no study swept\n", shown(file), held.size())
+               : "";
+  std::map<std::string, std::pair<int, int>> searches;  // done, asked for
+  int done = 0;
+  for (const auto& [key, spec] : trials) {
+    std::string search;
+    for (const auto& [path, value] : spec.cell.doses)
+      search += (search.empty() ? "" : " against ") + path;
+    auto& [of_search, asked] = searches[search + ", " + spec.method];
+    ++asked;
+    if (!held.contains(key)) continue;
+    ++of_search;
+    ++done;
+  }
+  std::string text = fmt::format("{}: {} of {} trials of `mapscore tolerance` done\n", shown(file),
+                                 done, trials.size());
+  for (const auto& [search, count] : searches)
+    text += fmt::format("  {}: {} of {}\n", shown(search), count.first, count.second);
+  return text;
+}
+
 /// What a shard says of itself: finished, stopped, running, or silent where it was killed or its
 /// host is out of touch.
 std::string state_of(const ShardFolder& shard, const std::optional<SweepStatus>& status) {
@@ -91,12 +121,16 @@ std::string state_of(const ShardFolder& shard, const std::optional<SweepStatus>&
   return running ? "running" : "silent";
 }
 
-/// How shards stand: how many in each state, and a line for some that have not finished.
-std::string shards_text(const std::vector<ShardFolder>& shards) {
+/// How the shards of one set stand, all of so many: how many in each state, and a line for some
+/// that have not finished.
+std::string shards_text(std::span<const ShardFolder> shards) {
   constexpr int kNamed = 10;
+  const int of = shards.front().shards;
   std::map<std::string, int> states;
+  std::set<int> begun;
   std::string lines;
   for (int unfinished = 0; const ShardFolder& shard : shards) {
+    begun.insert(shard.shard);
     const auto status = read_status(shard.folder);
     const std::string state = state_of(shard, status);
     ++states[state];
@@ -108,9 +142,23 @@ std::string shards_text(const std::vector<ShardFolder>& shards) {
                            status->missing, status->failed, utc(status->updated_s));
     lines += '\n';
   }
-  std::string text = "shards:";
+  std::string text = fmt::format("{} shards:", of);
   for (const auto& [state, count] : states) text += fmt::format(" {} {}", count, shown(state));
+  if (const auto others = of - static_cast<int>(begun.size()); others > 0)
+    text += fmt::format(", {} not begun", others);
   return text + '\n' + lines;
+}
+
+/// Of each set of shards by itself; they stand in the order of their sets.
+std::string sets_text(const std::vector<ShardFolder>& shards) {
+  std::string text;
+  for (auto set = shards.begin(); set != shards.end();) {
+    const auto end = std::find_if(
+        set, shards.end(), [&](const ShardFolder& other) { return other.shards != set->shards; });
+    text += shards_text({set, end});
+    set = end;
+  }
+  return text;
 }
 
 /// How many tasks of its study the stores of a folder hold together, its own and those of shards.
@@ -146,18 +194,24 @@ void print_status(const StatusFlags& flags) {
   const bool running = FolderLock(folder, WhenTaken::go_on).taken();
   if (fs::exists(file)) {
     const ResultStore store = ResultStore::open_existing(file);
-    const StudyRecord record = read_study(store, folder);
-    std::cout << store_text(file, store, record,
-                            plan_of(record.study, record.recording_hash).tasks);
+    if (!store.text("study").empty()) {
+      const StudyRecord record = read_study(store, folder);
+      std::cout << store_text(file, store, record,
+                              plan_of(record.study, record.recording_hash).tasks);
+    }
+    std::cout << searched_text(file, store);
   }
   if (const OtherStores stores = shard_stores(folder); !stores.empty())
     std::cout << together_text(folder, stores);
-  if (!shards.empty()) std::cout << shards_text(shards);
+  if (!shards.empty()) std::cout << sets_text(shards);
   const auto jobs = read_slurm_jobs(folder);
   if (jobs) std::cout << jobs_text(*jobs);
-  if (const auto status = read_status(folder))
+  const auto status = read_status(folder);
+  if (running && (!status || status->state != "running"))
+    std::cout << "in use by a tolerance search, or a sweep that begins\n";
+  if (status)
     std::cout << text_of(*status, running);
-  else if (shards.empty() && !jobs)
+  else if (shards.empty() && !jobs && !running)
     std::cout << "no sweep has left its status here\n";
 }
 
@@ -169,7 +223,8 @@ void add_status(CLI::App& program) {
   verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
   verb->footer(
       "Works beside a running sweep, and after one that has ended, was stopped or killed. Counts\n"
-      "the shards of a sweep that was shared out, and its jobs in Slurm's queue.\n"
+      "the shards of a sweep that was shared out, its jobs in Slurm's queue, and the trials of\n"
+      "tolerance searches.\n"
       "Examples:\n"
       "  mapscore status results/demo\n"
       "  watch mapscore status results/demo");

@@ -37,19 +37,18 @@ void print_table(const TableFlags& flags) {
 }
 
 void add_pivot(CLI::App& verb, TableFlags& flags) {
-  const auto names = [&](const char* flag, std::vector<std::string>& list, const char* help) {
-    return verb.add_option(flag, list, help)->delimiter(',')->allow_extra_args(false);
-  };
   verb.add_option("--where", flags.selection.where,
-                  "Only at path=value of a swept path; may be repeated")
+                  "Only at path=value of a swept path or of its end; may be repeated")
       ->allow_extra_args(false);
-  names("--method", flags.selection.methods, "Only these methods, by commas [all]");
-  auto* metric = names("--metric", flags.question.metrics, "Figures, by commas [f1]");
-  auto* rows = names("--rows", flags.question.rows,
-                     "What varies over the rows: swept paths, method, class, metric, by commas "
-                     "[what is not in the columns]");
-  auto* columns = names("--columns", flags.question.columns,
-                        "What varies over the columns [what is not in the rows, or metric]");
+  add_list(verb, "--method", flags.selection.methods, "Only these methods, by commas [all]");
+  auto* metric = add_list(verb, "--metric", flags.question.metrics, "Figures, by commas [f1]");
+  auto* rows =
+      add_list(verb, "--rows", flags.question.rows,
+               "What varies over the rows: swept paths (over ranges: point), method, class, "
+               "metric, by commas "
+               "[what is not in the columns]");
+  auto* columns = add_list(verb, "--columns", flags.question.columns,
+                           "What varies over the columns [what is not in the rows, or metric]");
   auto* spread = verb.add_flag("--spread", flags.question.spread,
                                "Low and high beside each figure (csv and json always have them)");
   verb.add_flag("--tidy", flags.tidy, "Everything as tidy CSV: a row a trial, class and metric")
@@ -67,9 +66,8 @@ void add_table(CLI::App& program) {
   const auto [verb, flags] =
       add_verb<TableFlags>(program, "table", "Print the scores of a swept study", print_table);
   verb->add_option("RESULTS", flags->results, "Results folder, or its results.sqlite")->required();
-  verb->add_option("--class", flags->question.groups,
-                   "pooled, macro, or the name of a detected class; may be repeated [pooled]")
-      ->allow_extra_args(false);
+  add_list(*verb, "--class", flags->question.groups,
+           "pooled, macro, or names of detected classes, by commas [pooled]");
   add_format_flag(*verb, flags->format, {"text", "csv", "json", "markdown", "tex"});
   add_pivot(*verb, *flags);
   add_interim_flag(*verb, flags->interim);
@@ -82,7 +80,7 @@ void add_table(CLI::App& program) {
       "  mapscore table results/demo --interim          while the sweep runs\n"
       "  mapscore table results/demo --class chair --format csv\n"
       "  mapscore table results/demo --columns method --metric f1 --format tex > f1.tex\n"
-      "  mapscore table results/demo --where faults.misregistration.magnitude_m=0.01 \\\n"
+      "  mapscore table results/demo --where magnitude_m=0.01 \\\n"
       "      --rows class --columns method,metric --metric precision,recall --format markdown\n"
       "  mapscore table results/demo --tidy > demo.csv");
 }

@@ -4,10 +4,15 @@
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/report/trial_list.hpp"
+#include "eval/results/searched_trials.hpp"
 #include "eval/results/study_store.hpp"
 
+#include <algorithm>
 #include <array>
 #include <iostream>
+#include <unordered_set>
+#include <utility>
+#include <vector>
 
 namespace mapscore::eval {
 namespace {
@@ -18,31 +23,67 @@ struct TrialsFlags {
   std::string results, state, format = "text";
 };
 
+/// A trial and how it stands.
+struct TrialRow {
+  std::string key, role;
+  TrialSpec spec;
+};
+
+/// Those of the study that was swept last, if any was, then those of tolerance searches alone.
+std::vector<TrialRow> rows_of(const ResultStore& store, const std::filesystem::path& folder) {
+  std::vector<TrialRow> rows;
+  std::unordered_set<std::string> listed;
+  const auto add = [&](TrialRow row) {
+    if (listed.insert(row.key).second) rows.push_back(std::move(row));
+  };
+  const std::vector<SearchedTrial> searched = searched_trials(store);
+  if (searched.empty() || !store.text("study").empty()) {
+    const StudyRecord record = read_study(store, folder);
+    const Plan plan = plan_of(record.study, record.recording_hash);
+    visit_tasks(plan, [&](const ListedTask& task) {
+      add({plan.tasks.key(task.task), name_of(task.role), task.spec});
+      return true;
+    });
+  }
+  for (const auto& [key, spec] : searched) add({key, "tolerance", spec});
+  return rows;
+}
+
+/// Swept and searched paths, in the order of their first use.
+std::vector<std::string> paths_of(const std::vector<TrialRow>& rows) {
+  std::vector<std::string> paths;
+  for (const TrialRow& row : rows)
+    for (const auto& [path, value] : row.spec.cell.doses)
+      if (std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
+  return paths;
+}
+
 void print_trials(const TrialsFlags& flags) {
   const std::filesystem::path file = store_file(flags.results);
   const ResultStore store = ResultStore::open_existing(file);
-  const StudyRecord record = read_study(store, file.parent_path());
-  const Plan plan = plan_of(record.study, record.recording_hash);
+  const std::vector<TrialRow> rows = rows_of(store, file.parent_path());
+  const std::vector<std::string> paths = paths_of(rows);
   const auto held = store.keys();
   const auto failures = store.failures();
   Table table;
   table.columns = {"key", "role", "method", "seed", "state"};
-  for (const SweepAxis& axis : record.study.sweep) table.columns.push_back(axis.path);
+  table.columns.insert(table.columns.end(), paths.begin(), paths.end());
   table.columns.emplace_back("reason");
-  visit_tasks(plan, [&](const ListedTask& listed) {
-    const std::string key = plan.tasks.key(listed.task);
+  for (const auto& [key, role, spec] : rows) {
     const auto failure = failures.find(key);
     const char* state = held.contains(key)          ? kStates[0]
                         : failure != failures.end() ? kStates[1]
                                                     : kStates[2];
-    if (!flags.state.empty() && flags.state != state) return true;
-    std::vector<std::string> row{key, name_of(listed.role), listed.spec.method,
-                                 std::to_string(listed.spec.seed_index), state};
-    for (const auto& [path, value] : listed.spec.cell.doses) row.push_back(value);
+    if (!flags.state.empty() && flags.state != state) continue;
+    std::vector<std::string> row{key, role, spec.method, std::to_string(spec.seed_index), state};
+    for (const std::string& path : paths) {
+      const auto dose =
+          std::ranges::find(spec.cell.doses, path, [](const auto& of) { return of.first; });
+      row.push_back(dose == spec.cell.doses.end() ? "-" : dose->second);
+    }
     row.push_back(state == kStates[1] ? failure->second : "-");
     table.rows.push_back(std::move(row));
-    return true;
-  });
+  }
   std::cout << formatted(table, flags.format);
 }
 
@@ -57,7 +98,9 @@ void add_trials(CLI::App& program) {
       ->check(CLI::IsMember(kStates));
   add_format_flag(*verb, flags->format);
   verb->footer(
-      "A ceiling that several cells share stands at the first of them. A failed trial says why.\n"
+      "A ceiling that several cells share stands at the first of them; behind them stand the "
+      "trials\n"
+      "of tolerance searches that are of no sweep. A failed trial says why.\n"
       "Examples:\n"
       "  mapscore trials results/demo\n"
       "  mapscore trials results/demo --state failed\n"

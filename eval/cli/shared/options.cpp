@@ -35,11 +35,11 @@ std::size_t terminal_width() {
 
 }  // namespace
 
-void StudyFlags::add_to(CLI::App& verb) {
-  verb.add_option("STUDY", file, "Study file (YAML); docs/study_reference.md lists its keys")
-      ->required();
+void StudyFlags::add_to(CLI::App& verb, const char* shown_as, const char* help) {
+  verb.add_option("STUDY", file, help)->required()->option_text(shown_as);
   verb.add_option("--set", overrides,
-                  "Override a key: --set faults.pose.sigma_xy_m=0.02; may be repeated")
+                  "Override a key, by its path or the end of it where one alone ends so: --set "
+                  "faults.pose.sigma_xy_m=0.02; may be repeated")
       ->allow_extra_args(false);
   verb.add_option("-o,--output", results, "Folder of the results [results/NAME]");
 }
@@ -91,6 +91,26 @@ std::optional<sim::View> ViewFlag::view() const {
 void add_format_flag(CLI::App& verb, std::string& format, const std::vector<std::string>& formats) {
   verb.add_option("--format", format, fmt::format("{} [{}]", fmt::join(formats, ", "), format))
       ->check(CLI::IsMember(formats));
+}
+
+CLI::Option* add_list(CLI::App& verb, const char* flag, std::vector<std::string>& names,
+                      const std::string& help) {
+  const auto take = [&names](const std::vector<std::string>& pieces) {
+    std::string name;
+    for (const std::string& piece : pieces) {
+      name += piece;
+      if (name.ends_with('\\')) {
+        name.back() = ',';
+      } else {
+        if (std::ranges::count(names, name) == 0) names.push_back(name);
+        name.clear();
+      }
+    }
+    if (!name.empty()) names.push_back(name);
+  };
+  return verb.add_option_function<std::vector<std::string>>(flag, take, help)
+      ->delimiter(',')
+      ->allow_extra_args(false);
 }
 
 void add_interim_flag(CLI::App& verb, bool& interim) {

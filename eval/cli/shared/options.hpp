@@ -26,7 +26,8 @@ struct StudyFlags {
   std::vector<std::string> overrides;  ///< path=value
   std::string results;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& verb, const char* shown_as = "STUDY",
+              const char* help = "Study file (YAML); docs/study_reference.md lists its keys");
   [[nodiscard]] Study load() const { return load_study(file, overrides); }
   /// `-o`, or results/NAME below the working folder.
   [[nodiscard]] std::filesystem::path results_folder(const Study& study) const {
@@ -66,6 +67,11 @@ void add_format_flag(CLI::App& verb, std::string& format,
 [[nodiscard]] std::string formatted(const Table& table, const std::string& format);
 /// A program for csv and json, a paper for markdown and tex.
 [[nodiscard]] Reader reader_of(const std::string& format);
+
+/// Adds a flag that takes several names, by commas or by repeating it; a comma within a name is
+/// written \, and a name that is given twice counts once.
+CLI::Option* add_list(CLI::App& verb, const char* flag, std::vector<std::string>& names,
+                      const std::string& help);
 
 /// `--interim`: an unfinished sweep is taken as far as it is.
 void add_interim_flag(CLI::App& verb, bool& interim);

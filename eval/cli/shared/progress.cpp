@@ -3,11 +3,14 @@
 
 #include "eval/cli/shared/progress.hpp"
 
+#include "eval/render/replay_check.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <iostream>
 #include <utility>
 
 namespace mapscore::eval {
@@ -50,6 +53,22 @@ std::string Progress::line(std::int64_t done, std::int64_t total, double seconds
   if (done == 0) return text;
   const double left = seconds * static_cast<double>(total - done) / static_cast<double>(done);
   return text + fmt::format(", {} left", duration_text(left));
+}
+
+StoppedRecording::StoppedRecording(int by)
+    : std::runtime_error(
+          "stopped while the recording was made; no trial is lost, the same command makes the "
+          "recording anew and goes on"),
+      signal(by) {}
+
+Recording shown_recording(const char* verb, const Study& study,
+                          const std::filesystem::path& results, int jobs, bool quiet) {
+  ShownRecording display(quiet);
+  Recording recording = recording_of(study, results, jobs, display.progress());
+  for (const std::string& note :
+       {note_on_baked(recording.info()), note_on_scene(study, recording.info())})
+    if (!note.empty()) std::cerr << verb << ": " << note << '\n';
+  return recording;
 }
 
 }  // namespace mapscore::eval

@@ -3,12 +3,15 @@
 
 #pragma once
 
+#include "eval/cli/shared/stop_signal.hpp"
 #include "eval/render/study_recording.hpp"
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace mapscore::eval {
@@ -39,7 +42,15 @@ class Progress {
   bool open_line_ = false;
 };
 
-/// Shows how a recording is made: the drive, then its images.
+/// A signal asked to stop while a recording was made; what() tells the user how to go on.
+struct StoppedRecording : std::runtime_error {
+  explicit StoppedRecording(int by);
+
+  int signal;
+};
+
+/// Shows how a recording is made: the drive, then its images. From its first step on the first
+/// Ctrl-C ends it in order, by StoppedRecording.
 class ShownRecording {
  public:
   explicit ShownRecording(bool quiet) : quiet_(quiet) {}
@@ -54,12 +65,20 @@ class ShownRecording {
   /// A line's clock starts with it.
   void show(std::optional<Progress>& line, const char* what, const char* unit, int done,
             int total) {
+    if (!stop_) stop_.emplace();
+    if (const int signal = stop_->taken()) throw StoppedRecording(signal);
     if (!line) line.emplace(what, unit, quiet_);
     line->show(done, total);
   }
 
   bool quiet_;
+  std::optional<StopSignal> stop_;
   std::optional<Progress> drive_, images_;
 };
+
+/// The recording of a study, made with such a display where it is not there; says on standard error
+/// what is baked into it. `verb`: who says so.
+[[nodiscard]] Recording shown_recording(const char* verb, const Study& study,
+                                        const std::filesystem::path& results, int jobs, bool quiet);
 
 }  // namespace mapscore::eval

@@ -101,20 +101,20 @@ class CauseFigure {
                        kGreys[static_cast<std::size_t>(&cause - side.causes.data())]);
   }
 
-  /// One scale for all panels of a side.
+  /// One scale for all panels of a side; over 1, where shares end, only the label inside.
   [[nodiscard]] std::string y_settings(double greatest) const {
-    double headroom = layout_.columns().size() > 1 ? 1.2 : 1.02;  // for the label inside
-    if (sheet_.style.width_mm) headroom = std::max(headroom, 1.0 / (0.93 - kHeadRow * head_rows_));
+    const bool labelled = layout_.columns().size() > 1;
+    double headroom = labelled ? 1.2 : 1.0;
+    if (labelled && sheet_.style.width_mm)
+      headroom = std::max(headroom, 1.0 / (0.93 - kHeadRow * head_rows_));
     const double top =
-        std::clamp(std::ceil(20.0 * headroom * greatest) / 20.0, 0.05, std::max(1.2, headroom));
-    return fmt::format("set yrange [0:{:.2f}]; set ytics {}", top,
-                       top > 0.5   ? 0.2
-                       : top > 0.2 ? 0.1
-                       : top > 0.1 ? 0.05
-                                   : 0.02);
+        std::clamp(std::ceil(20.0 * std::max(1.02, headroom) * greatest) / 20.0, 0.05, headroom);
+    const double step = top > 0.5 ? 0.2 : top > 0.2 ? 0.1 : top > 0.1 ? 0.05 : 0.02;
+    return fmt::format("set yrange [0:{:.2f}]; set ytics 0,{},1{}", top, step,
+                       top > 1.0 ? "; set border 1; set arrow 1 from graph 0, first 0 to graph 0, "
+                                   "first 1 nohead lc rgb '#444444' lw 0.7"
+                                 : "");
   }
-
-  [[nodiscard]] bool tics_from_data() const { return !layout_.named() && !sheet_.style.width_mm; }
 
   /// The value of the second axis, in print broken to the panel's width.
   [[nodiscard]] std::string head_label(std::string head) {
@@ -128,40 +128,25 @@ class CauseFigure {
                        font_pt);
   }
 
-  /// Doses are written from the data file; names so that they have room.
-  [[nodiscard]] std::string x_tics() {
-    if (tics_from_data()) return "set xtics autofreq norotate";
-    const auto places = static_cast<double>(layout_.x().values.size() + 1);
-    const NameTics tics =
-        name_tics(layout_.x().values, sheet_.panel_width_in / places, sheet_.style);
-    sheet_.x_tics_in = tics.height_in;
-    return tics.setting;
-  }
-
   void add_panel(const Side& side, std::size_t column, const std::vector<Curve>& curves,
                  const std::string& title, const std::string& y_label, bool last_row) {
     Panel panel{title, last_row && !layout_.bars() ? layout_.x().title() : "", y_label};
-    const bool empty = add_block(side, column, curves) == 0;  // gnuplot finds no range by itself
-    panel.settings = {
-        "set style data histograms",
-        "set style histogram rowstacked",
-        fmt::format("set style {}", std::string(fill()).replace(0, 2, "fill")),
-        "set boxwidth 0.75",
-        empty ? fmt::format("set xrange [-1:{}]", layout_.x().values.size()) : "set xrange [*:*]",
-        x_tics()};
+    add_block(side, column, curves);
+    panel.settings = x_settings(sheet_, axis_of_names("", layout_.x().values), 1.0);
+    panel.settings.insert(panel.settings.end(),
+                          {"set style data histograms", "set style histogram rowstacked",
+                           fmt::format("set style {}", std::string(fill()).replace(0, 2, "fill")),
+                           "set boxwidth 0.75"});
     if (const std::string& head = layout_.columns()[column]; !head.empty())
       panel.settings.push_back(head_label(head));
     for (std::size_t c = 0; c < side.causes.size(); ++c)
-      panel.elements.push_back(fmt::format("data index {} using {}{} {} notitle", sheet_.blocks - 1,
-                                           c + 2, tics_from_data() ? ":xtic(1)" : "",
-                                           ink(side, side.causes[c])));
+      panel.elements.push_back(fmt::format("data index {} using {} {} notitle", sheet_.blocks - 1,
+                                           c + 2, ink(side, side.causes[c])));
     sides_.push_back(side.whole == kSides.front().whole ? 0 : 1);
     sheet_.panels.push_back(std::move(panel));
   }
 
-  /// Returns how many bars have a height.
-  std::size_t add_block(const Side& side, std::size_t column, const std::vector<Curve>& curves) {
-    std::size_t bars = 0;
+  void add_block(const Side& side, std::size_t column, const std::vector<Curve>& curves) {
     const std::string& head = layout_.columns()[column];
     std::string names = layout_.x().name;
     for (const Cause& cause : side.causes) names += fmt::format(" \"{}\"", cause.name);
@@ -171,12 +156,10 @@ class CauseFigure {
         names);
     for (std::size_t x = 0; x < layout_.x().at.size(); ++x)
       for (const Curve& curve : curves)
-        if (const auto trial = layout_.trial(curve, column, x)) bars += add_bar(side, x, *trial);
-    return bars;
+        if (const auto trial = layout_.trial(curve, column, x)) add_bar(side, x, *trial);
   }
 
-  /// Whether the bar has a height: its whole is not 0.
-  bool add_bar(const Side& side, std::size_t x, std::size_t trial) {
+  void add_bar(const Side& side, std::size_t x, std::size_t trial) {
     const ClassCounts counts = pooled_counts(summary_.trials[trial], summary_.table);
     sheet_.data += gnuplot_column(layout_.x().values[x]);
     double height = 0.0;
@@ -188,7 +171,6 @@ class CauseFigure {
     sheet_.data += '\n';
     double& greatest = greatest_[side.whole == kSides.front().whole ? 0 : 1];
     greatest = std::max(greatest, height);
-    return counts.*side.whole > 0;
   }
 
   const StudySummary& summary_;

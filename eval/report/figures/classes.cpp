@@ -128,11 +128,9 @@ class ClassBars {
   [[nodiscard]] std::vector<std::string> settings() {
     std::vector<std::string> names;
     for (const SemanticClass* c : classes_) names.push_back(class_title(summary_.study, c->name));
-    const NameTics tics =
-        name_tics(names, sheet_.panel_width_in / static_cast<double>(names.size()), sheet_.style);
-    sheet_.x_tics_in = tics.height_in;
-    return {fmt::format("set xrange [-0.55:{}]", static_cast<double>(names.size()) - 0.45),
-            tics.setting, "set yrange [0:1.03]; set ytics 0.2"};
+    std::vector<std::string> settings = x_settings(sheet_, axis_of_names("class", names), 0.55);
+    settings.emplace_back("set yrange [0:1.03]; set ytics 0.2");
+    return settings;
   }
 
   [[nodiscard]] std::optional<std::size_t> trial(const std::string& method,

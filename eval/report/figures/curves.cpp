@@ -24,8 +24,8 @@ constexpr double kNamePlace = 0.7;
 constexpr const char* kLatticeStyle = "lw 1.2 dt (6,4) lc rgb '#000000'";
 
 std::string source_of(const Study& study) {
-  if (study.scene) return std::filesystem::path(*study.scene).filename().string();
-  return study.recording ? std::filesystem::path(*study.recording).filename().string() : study.name;
+  const auto& source = study.recording ? study.recording : study.scene;
+  return source ? std::filesystem::path(*source).filename().string() : study.name;
 }
 
 /// The elements of `plot` that show one curve in one panel.
@@ -38,8 +38,7 @@ CurveMarks as_line(const Curve& curve, const std::string& of) {
   return {fmt::format("{} using 1:5 with lines lw 1.2 dt (1,3) {} notitle", of, ink),
           fmt::format("{} using 1:6 with lines {} notitle", of, kLatticeStyle),
           fmt::format("{} using 1:2:3:4 with yerrorbars pt 1 ps 0 lw 0.8 {} notitle", of, ink),
-          fmt::format("{} using 1:2 with linespoints pt {} ps 0.9 lw 1.4 dt {} {} notitle", of,
-                      curve.point, curve.dash, ink)};
+          curve.marked_line(of + " using 1:2", 1.2)};
 }
 
 /// The spread as vectors: gnuplot cuts a hole in the bar for the point of yerrorbars.
@@ -55,26 +54,28 @@ CurveMarks as_bars(const Curve& curve, const std::string& of) {
 /// Over a name, the curve's point beside those of the others and under its own ceiling.
 CurveMarks as_points(const Curve& curve, const std::string& of, double offset, double place) {
   const std::string ink = fmt::format("lc rgb '{}'", curve.colour);
-  return {fmt::format("{} using ($1{:+.4f}):5:({:.4f}):(0) with vectors nohead lw 1.4 dt (1,2) {} "
-                      "notitle",
-                      of, offset - 0.5 * place, place, ink),
-          fmt::format("{} using ($1-{}):6:({}):(0) with vectors nohead {} notitle", of,
-                      0.5 * kNamePlace, kNamePlace, kLatticeStyle),
-          fmt::format("{} using ($1{:+.4f}):2:3:4 with yerrorbars pt 1 ps 0 lw 0.8 {} notitle", of,
-                      offset, ink),
-          fmt::format("{} using ($1{:+.4f}):2 with points pt {} ps 0.9 {} notitle", of, offset,
-                      curve.point, ink)};
+  return {
+      fmt::format("{} using ($1{:+.4f}):5:({:.4f}):(0) with vectors nohead lw 1.4 dt (1,2) {} "
+                  "notitle",
+                  of, offset - 0.5 * place, place, ink),
+      fmt::format("{} using ($1-{}):6:({}):(0) with vectors nohead {} notitle", of,
+                  0.5 * kNamePlace, kNamePlace, kLatticeStyle),
+      fmt::format("{} using ($1{:+.4f}):2:3:4 with yerrorbars pt 1 ps 0 lw 0.8 {} notitle", of,
+                  offset, ink),
+      fmt::format("{} using ($1{:+.4f}):2 with points {} notitle", of, offset, curve.mark(1.2))};
 }
 
-/// Which methods leave points of curves out, since their maps hold no voxel of a detected class.
+/// Which methods leave points of curves out, since their maps hold no voxel of a detected class
+/// though some are visible.
 std::string empty_maps_caption(const StudySummary& summary) {
   std::string text;
   for (const MethodSettings& method : summary.study.methods) {
     std::size_t points = 0, empty = 0;
     for (const ResultLine& line : summary.trials) {
       if (line.method != method.name) continue;
+      const ClassCounts counts = pooled_counts(line, summary.table);
       ++points;
-      empty += pooled_counts(line, summary.table).predicted == 0 ? 1 : 0;
+      empty += counts.predicted == 0 && counts.visible > 0 ? 1 : 0;
     }
     if (empty > 0)
       text += fmt::format(" {} maps nothing{}.", method_title(summary.study, method.name),
@@ -98,7 +99,7 @@ class CurveFigure {
 
   /// `column`: of StudyLayout::columns().
   void add(const CurveScore& score, std::size_t column, Panel panel) {
-    panel.settings = x_settings();
+    panel.settings = x_settings(sheet_, layout_.x(), layout_.bars() ? 0.7 : 0.5);
     std::set<std::string> drawn_ceilings;
     std::vector<std::string> ceilings, spreads, lines;
     const std::string& head = layout_.columns()[column];
@@ -137,17 +138,6 @@ class CurveFigure {
   }
 
  private:
-  [[nodiscard]] std::vector<std::string> x_settings() {
-    const FigureAxis& x = layout_.x();
-    if (x.numeric) return number_settings(x, sheet_.panel_width_in);
-    const double padding = layout_.bars() ? 0.7 : 0.5;
-    const double places = x.at.back() - x.at.front() + 2.0 * padding;
-    const NameTics tics = name_tics(x.values, sheet_.panel_width_in / places, sheet_.style);
-    sheet_.x_tics_in = std::max(sheet_.x_tics_in, tics.height_in);
-    return {fmt::format("set xrange [{}:{}]", x.at.front() - padding, x.at.back() + padding),
-            tics.setting};
-  }
-
   /// Texts of both columns of ceilings, registration first, to draw equal ones once.
   std::pair<std::string, std::string> add_points(const CurveScore& score, std::size_t column,
                                                  const Curve& curve) {
@@ -178,9 +168,7 @@ class CurveFigure {
   void add_legend() {
     if (!layout_.bars())
       for (const Curve& curve : layout_.curves())
-        sheet_.add_legend(fmt::format("{} pt {} ps 0.9 lw 1.4 dt {} lc rgb '{}'",
-                                      layout_.named() ? "points" : "linespoints", curve.point,
-                                      layout_.named() ? "1" : curve.dash.c_str(), curve.colour),
+        sheet_.add_legend(layout_.named() ? "points " + curve.mark(1.2) : curve.legend(),
                           curve.name);
     sheet_.add_legend(std::string(layout_.bars() ? "points pt 2 ps 2 " : "lines ") + kLatticeStyle,
                       "lattice ceiling");
@@ -217,11 +205,18 @@ FigureSheet curve_figure(const StudySummary& summary, const StudyLayout& layout,
   return figure.finish(caption);
 }
 
-std::vector<std::string> number_settings(const FigureAxis& x, double width_in) {
+std::vector<std::string> x_settings(FigureSheet& sheet, const FigureAxis& x, double padding) {
   const auto [low, high] = std::minmax_element(x.at.begin(), x.at.end());
-  const double padding = *high > *low ? kXPadding * (*high - *low) : 0.5;
-  return {fmt::format("set xrange [{:.9g}:{:.9g}]", *low - padding, *high + padding),
-          fmt::format("set xtics {:.9g}", tic_step(*high - *low, width_in))};
+  const double length = *high - *low;
+  if (x.numeric) padding = length > 0.0 ? kXPadding * length : 0.5;
+  const std::string range =
+      fmt::format("set xrange [{:.9g}:{:.9g}]", *low - padding, *high + padding);
+  if (x.numeric)
+    return {range, fmt::format("set xtics {:.9g}", tic_step(length, sheet.panel_width_in))};
+  const NameTics tics =
+      name_tics(x.values, sheet.panel_width_in / (length + 2.0 * padding), sheet.style);
+  sheet.x_tics_in = std::max(sheet.x_tics_in, tics.height_in);
+  return {range, tics.setting};
 }
 
 std::string score_settings(double least) {
@@ -238,13 +233,11 @@ std::string study_caption(const StudySummary& summary) {
   const Study& study = summary.study;
   // Said where the ruler itself does not fit.
   const std::string note = summary.lattice_note();
-  return fmt::format("{}{}: {}; voxels of {:.6g} cm; detected: {}; each {} scored; {} seed{}.{}{}",
+  return fmt::format("{}{}: {}; {}; detected: {}.{}{}",
                      summary.interim.empty() ? "" : summary.interim + ". ", study.name,
-                     source_of(study), 100.0 * study.voxel_m,
+                     source_of(study), scoring_text(study),
                      fmt::join(detected_titles(study, summary.table), ", "),
-                     study.score.unit == ScoreUnit::map ? "fused map" : "frame", study.seeds,
-                     study.seeds == 1 ? "" : "s", empty_maps_caption(summary),
-                     note.empty() ? "" : " Note: " + note + '.');
+                     empty_maps_caption(summary), note.empty() ? "" : " Note: " + note + '.');
 }
 
 std::string spread_caption(const Study& study, const char* marks) {

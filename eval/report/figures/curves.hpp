@@ -35,8 +35,10 @@ inline constexpr const char* kCeilingsCaption =
     "Lattice ceiling: true labels on the depth pixels, true pose. Registration ceiling: the same "
     "method with every fault at zero.";
 
-/// `set` lines of an axis of numbers.
-[[nodiscard]] std::vector<std::string> number_settings(const FigureAxis& x, double width_in);
+/// `set` lines of the x axis of a panel: of numbers, or of names with so many of their places,
+/// which are 1 wide, beside the first and the last. Makes room for the names in the sheet.
+[[nodiscard]] std::vector<std::string> x_settings(FigureSheet& sheet, const FigureAxis& x,
+                                                  double padding);
 
 /// `set` line of an axis of scores from the least one to 1.
 [[nodiscard]] std::string score_settings(double least);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -25,11 +26,24 @@ constexpr double kLegendRow_in = 0.17, kCaptionRow_in = 0.125, kLegendEntry_in =
 /// A panel in print: its greatest height over its width, and its least height.
 constexpr double kTallest = 0.8, kLowest_in = 0.85;
 
-/// Letters between the quotes that follow `title`, in an element of the legend.
-std::size_t title_length(const std::string& element) {
-  constexpr std::string_view kTitle = "title '";
-  const std::size_t at = element.find(kTitle);
-  return at == std::string::npos ? 0 : element.rfind('\'') - at - kTitle.size();
+/// A text's letters of UTF-8.
+std::vector<std::string> letters_of(const std::string& text) {
+  std::vector<std::string> letters;
+  for (const char byte : text)
+    if (letters.empty() || (static_cast<unsigned char>(byte) & 0xc0u) != 0x80)
+      letters.emplace_back(1, byte);
+    else
+      letters.back() += byte;
+  return letters;
+}
+
+/// Of a letter over the mean one: capitals and others are broader, CJK is square.
+double breadth(const std::string& letter) {
+  constexpr std::string_view kBroad = "mw%@&";
+  if (letter.size() > 2) return 1.9;
+  const bool broad =
+      (letter[0] >= 'A' && letter[0] <= 'Z') || kBroad.find(letter[0]) != kBroad.npos;
+  return broad ? 1.5 : letter.size() > 1 ? 1.2 : 1.0;
 }
 
 /// Whether a panel that is not the first of its row has numbers at its left.
@@ -109,6 +123,30 @@ class Arrangement {
   std::vector<std::string> y_labels_;
 };
 
+/// The sheet as arranged() has it, but for its legend.
+FigureSheet in_width(const FigureSheet& sheet) {
+  if (!sheet.style.width_mm) return sheet;
+  FigureSheet fitted = sheet;
+  const double gap_in = has_numbers_inside(sheet) ? kGapWithNumbers_in : kGap_in;
+  fitted.columns = sheet.style.columns(sheet.columns, sheet.least_panel_in, gap_in);
+  fitted.panel_width_in = sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in, gap_in);
+  const double width = fitted.panel_width_in;
+  fitted.panel_height_in =
+      sheet.to_scale ? sheet.panel_height_in * width / sheet.panel_width_in
+                     : std::min(sheet.panel_height_in, std::max(kLowest_in, kTallest * width));
+  if (fitted.columns < sheet.columns)
+    fitted.panels = Arrangement(sheet, static_cast<std::size_t>(fitted.columns)).panels();
+  const auto fit = [](std::string& text, double room_in, double font_pt) {
+    text = fmt::to_string(fmt::join(wrapped(text, room_in, font_pt), "\n"));
+  };
+  for (Panel& panel : fitted.panels) {
+    fit(panel.title, width + kGap_in, kTitle_pt);
+    fit(panel.x_label, width + kGap_in, kFont_pt);
+    fit(panel.y_label, fitted.panel_height_in + kGap_in + fitted.x_tics_in, kFont_pt);
+  }
+  return fitted;
+}
+
 }  // namespace
 
 double text_width_in(std::size_t letters, double font_pt) {
@@ -134,26 +172,26 @@ std::vector<std::string> wrapped(const std::string& text, double width_in, doubl
   return lines;
 }
 
+std::string shortened(const std::string& text, double width_in, double font_pt) {
+  const std::vector<std::string> letters = letters_of(text);
+  double breadths = 0.0;
+  for (const std::string& letter : letters) breadths += breadth(letter);
+  const double most = width_in / text_width_in(1, font_pt);
+  if (breadths <= most) return text;
+  const std::string ellipsis = "\u2026";
+  breadths += breadth(ellipsis);
+  std::size_t head = letters.size() / 2, tail = head;  // the tail's first letter
+  while (breadths > most && (head > 0 || tail < letters.size()))
+    breadths -= breadth(head > letters.size() - tail ? letters[--head] : letters[tail++]);
+  const std::span all(letters);
+  return fmt::format("{}{}{}", fmt::join(all.first(head), ""), ellipsis,
+                     fmt::join(all.subspan(tail), ""));
+}
+
 FigureSheet arranged(const FigureSheet& sheet) {
-  if (!sheet.style.width_mm) return sheet;
-  FigureSheet fitted = sheet;
-  const double gap_in = has_numbers_inside(sheet) ? kGapWithNumbers_in : kGap_in;
-  fitted.columns = sheet.style.columns(sheet.columns, sheet.least_panel_in, gap_in);
-  fitted.panel_width_in = sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in, gap_in);
-  const double width = fitted.panel_width_in;
-  fitted.panel_height_in =
-      sheet.to_scale ? sheet.panel_height_in * width / sheet.panel_width_in
-                     : std::min(sheet.panel_height_in, std::max(kLowest_in, kTallest * width));
-  if (fitted.columns < sheet.columns)
-    fitted.panels = Arrangement(sheet, static_cast<std::size_t>(fitted.columns)).panels();
-  const auto fit = [](std::string& text, double room_in, double font_pt) {
-    text = fmt::to_string(fmt::join(wrapped(text, room_in, font_pt), "\n"));
-  };
-  for (Panel& panel : fitted.panels) {
-    fit(panel.title, width + kGap_in, kTitle_pt);
-    fit(panel.x_label, width + kGap_in, kFont_pt);
-    fit(panel.y_label, fitted.panel_height_in + kGap_in + fitted.x_tics_in, kFont_pt);
-  }
+  FigureSheet fitted = in_width(sheet);
+  const double room_in = Geometry(fitted).width_in() - kLegendEntry_in;
+  for (FigureKey& key : fitted.legend) key.title = shortened(key.title, room_in, kFont_pt);
   return fitted;
 }
 
@@ -169,7 +207,8 @@ Geometry::Geometry(const FigureSheet& sheet)
   if (sheet.style.caption)
     caption_ = wrapped(sheet.caption, width_in_ - 0.2, sheet.style.small_pt());
   std::size_t longest = 0;
-  for (const std::string& entry : sheet.legend) longest = std::max(longest, title_length(entry));
+  for (const FigureKey& key : sheet.legend)
+    longest = std::max(longest, letters_of(key.title).size());
   const double entry_in = kLegendEntry_in + text_width_in(longest, kFont_pt);
   const int entries = static_cast<int>(sheet.legend.size());
   const int columns = std::clamp(static_cast<int>(width_in_ / entry_in), 1, std::max(1, entries));

@@ -20,8 +20,12 @@ inline constexpr double kPointsPerInch = 72.0;
 [[nodiscard]] std::vector<std::string> wrapped(const std::string& text, double width_in,
                                                double font_pt);
 
+/// The text, where it is wider than that, with an ellipsis in the place of its middle.
+[[nodiscard]] std::string shortened(const std::string& text, double width_in, double font_pt);
+
 /// The sheet as its style's width asks: as many columns of panels as fit, those that do not below,
 /// with their titles and axes, and texts broken to the room they have. Without a width the sheet.
+/// In both no entry of the legend is wider than the sheet.
 [[nodiscard]] FigureSheet arranged(const FigureSheet& sheet);
 
 /// Where everything lies on an arranged sheet, which must outlive it. Lengths in inches from the

@@ -171,7 +171,8 @@ class HeatMap {
         sheet_.data += fmt::format("{:.9g} {:.9g} {}\n", grid.x[ix], grid.y[iy],
                                    figure_number(grid.at(ix, iy)));
     elements.push_back(picture(name, grid) + " using 1:2:3 with image notitle");
-    elements.push_back(measured + " using 1:2 with points pt 7 ps 0.2 lc rgb '#000000' notitle");
+    elements.push_back(measured +
+                       " using 1:2 with points pt 7 ps 0.4 lw 0.5 lc rgb '#000000' notitle");
     add_lines(name, grid, elements);
   }
 

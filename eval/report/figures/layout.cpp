@@ -40,12 +40,10 @@ std::vector<std::string> tail_texts(const std::vector<FigureAxis>& axes) {
 }
 
 FigureAxis axis_of_methods(const Study& study) {
-  FigureAxis axis{"method", "", false, {}, {}, "method"};
-  for (const MethodSettings& method : study.methods) {
-    axis.at.push_back(static_cast<double>(axis.at.size()));
-    axis.values.push_back(method_title(study, method.name));
-  }
-  return axis;
+  std::vector<std::string> titles;
+  for (const MethodSettings& method : study.methods)
+    titles.push_back(method_title(study, method.name));
+  return axis_of_names("method", std::move(titles));
 }
 
 /// At most so many positions of `all`, from the first to the last; one: the middle.
@@ -110,8 +108,17 @@ std::string Curve::line() const {
   return fmt::format("lw 1.4 dt {} lc rgb '{}'", dash, colour);
 }
 
-std::string Curve::line_with_points(double size) const {
-  return fmt::format("pt {} ps {} {}", point, size, line());
+std::string Curve::mark(double size) const {
+  return fmt::format("pt {} ps {} lw 0.5 lc rgb '{}'", point, size, colour);
+}
+
+std::string Curve::marked_line(const std::string& data, double size) const {
+  return fmt::format("{0} with lines {1} notitle, {0} with points {2} notitle", data, line(),
+                     mark(size));
+}
+
+std::string Curve::legend() const {
+  return fmt::format("linespoints pt {} ps 0.9 {}", point, line());
 }
 
 Curve curve_of(const Study& study, const std::string& method, std::size_t n,

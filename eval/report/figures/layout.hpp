@@ -27,8 +27,13 @@ struct Curve {
 
   /// "lw 1.4 dt 1 lc rgb '#0072B2'".
   [[nodiscard]] std::string line() const;
-  /// The same with its marks: "pt 7 ps 0.8 lw 1.4 ...".
-  [[nodiscard]] std::string line_with_points(double size) const;
+  /// Of its marks: "pt 7 ps 0.8 lw 0.5 lc rgb '#0072B2'", a thin line, since gnuplot's PDF notches
+  /// discs and cuts the corners of triangles that are drawn with a broad one.
+  [[nodiscard]] std::string mark(double size) const;
+  /// Element of `plot`: `data` ("data index 0 using 1:2") as the line and the marks on it.
+  [[nodiscard]] std::string marked_line(const std::string& data, double size) const;
+  /// Of `linespoints`, for the legend.
+  [[nodiscard]] std::string legend() const;
 };
 
 /// The n-th colour of the figures: #rrggbb of Okabe and Ito's palette, over again after seven.

@@ -79,7 +79,7 @@ class ScatterFigure {
   }
 
   void add_row(const SampledAxis& axis) {
-    const std::vector<std::string> settings = x_settings(axis.shown());
+    const std::vector<std::string> settings = x_settings(sheet_, axis.shown(), 0.5);
     for (const auto& [metric, title] : scores_) {
       const bool first = metric == scores_.front().first;
       Panel panel{title, axis.shown().title(), first ? "score" : "", first, settings};
@@ -92,8 +92,7 @@ class ScatterFigure {
 
   [[nodiscard]] FigureSheet finish() {
     for (Panel& panel : sheet_.panels) panel.settings.push_back(score_settings(least_));
-    for (const Curve& curve : curves_)
-      sheet_.add_legend("linespoints " + curve.line_with_points(0.6), curve.name);
+    for (const Curve& curve : curves_) sheet_.add_legend(curve.legend(), curve.name);
     sheet_.caption =
         study_caption(summary_) +
         fmt::format(
@@ -106,15 +105,6 @@ class ScatterFigure {
  private:
   [[nodiscard]] std::size_t points() const {
     return summary_.trials.size() / std::max<std::size_t>(1, summary_.study.methods.size());
-  }
-
-  std::vector<std::string> x_settings(const FigureAxis& x) {
-    if (x.numeric) return number_settings(x, sheet_.panel_width_in);
-    const NameTics tics = name_tics(
-        x.values, sheet_.panel_width_in / static_cast<double>(x.values.size()), sheet_.style);
-    sheet_.x_tics_in = std::max(sheet_.x_tics_in, tics.height_in);
-    return {fmt::format("set xrange [-0.5:{}]", static_cast<double>(x.values.size()) - 0.5),
-            tics.setting};
   }
 
   XY points_of_method(const SampledAxis& axis, const std::string& method,
@@ -139,15 +129,15 @@ class ScatterFigure {
   void add_method(Panel& panel, const std::string& what, const XY& marks, const Curve& curve,
                   bool numeric) {
     if (marks.empty()) return;
-    panel.elements.push_back(fmt::format("{} using 1:2 with points {} notitle", block(what, marks),
-                                         curve.line_with_points(0.35)));
+    panel.elements.push_back(
+        fmt::format("{} using 1:2 with points {} notitle", block(what, marks), curve.mark(0.8)));
     XY means = means_by_x(marks);  // names, and few whole numbers
     if (numeric && 2 * means.size() > marks.size())
       means = running_mean(marks, window_of(points()));
     if (means.empty()) return;
     panel.elements.push_back(
         fmt::format("{} using 1:2 with {} notitle", block(what + "; mean", means),
-                    numeric ? "lines " + curve.line() : "points " + curve.line_with_points(1.2)));
+                    numeric ? "lines " + curve.line() : "points " + curve.mark(1.4)));
   }
 
   const StudySummary& summary_;

@@ -4,6 +4,7 @@
 #include "eval/report/figures/script.hpp"
 
 #include "core/error.hpp"
+#include "eval/report/figures/font.hpp"
 #include "eval/report/figures/geometry.hpp"
 #include "eval/report/figures/gnuplot.hpp"
 #include "files/file_bytes.hpp"
@@ -76,6 +77,7 @@ std::string header_of(const FigureSheet& sheet, const Geometry& geometry) {
       "  set multiplot\n"
       "  set border 3 lc rgb '#444444' lw 0.7\n"
       "  set tics nomirror scale 0.5 textcolor rgb '#222222'\n"
+      "  set format x '%g'\n"
       "  set grid lc rgb '#D0D0D0' lw 0.4 dt 1\n"
       "  unset key\n",
       sheet.name, terminals(sheet, geometry));
@@ -113,13 +115,14 @@ std::string legend_and_caption(const FigureSheet& sheet, const Geometry& geometr
     text += fmt::format(
         "  set label {} at screen 0.5,{:.5f} center font ',{}' textcolor rgb '#333333'\n",
         gnuplot_quoted(caption[line]), geometry.caption_line(line), sheet.style.small_pt());
-  return text +
-         plot_command(sheet.legend.empty() ? std::vector<std::string>{"NaN notitle"}
-                                           : sheet.legend) +
-         "  unset label\n";
+  std::vector<std::string> keys;
+  for (const FigureKey& key : sheet.legend)
+    keys.push_back(fmt::format("NaN with {} title {}", key.plotting, gnuplot_quoted(key.title)));
+  if (keys.empty()) keys.emplace_back("NaN notitle");
+  return text + plot_command(keys) + "  unset label\n";
 }
 
-std::string script_of(const FigureSheet& asked) {
+std::string all_letters_script(const FigureSheet& asked) {
   const FigureSheet sheet = arranged(asked);
   const Geometry geometry(sheet);
   std::string script = header_of(sheet, geometry);
@@ -131,6 +134,14 @@ std::string script_of(const FigureSheet& asked) {
             "  unset multiplot\n  set output\n  reset\n  set encoding utf8\n  set datafile "
             "missing '-'\n}\n";
   return sheet.style.grey ? greyed(std::move(script)) : script;
+}
+
+/// The script that gnuplot can draw; letters that it cannot are said once, below.
+std::string script_of(FigureSheet sheet) {
+  const std::string whole = all_letters_script(sheet);
+  if (drawable(whole) == whole) return whole;
+  sheet.caption += " ?: letters that the fonts here do not have.";
+  return drawable(all_letters_script(sheet));
 }
 
 /// gnuplot leaves a picture cut short where the disk is full, and is content.
@@ -163,7 +174,7 @@ std::string FigureSheet::start_block(const std::string& what, const std::string&
 }
 
 void FigureSheet::add_legend(const std::string& with, const std::string& title) {
-  legend.push_back(fmt::format("NaN with {} title {}", with, gnuplot_quoted(title)));
+  legend.push_back({with, title});
 }
 
 void make_folder(const fs::path& folder) {

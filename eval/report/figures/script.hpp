@@ -20,6 +20,12 @@ struct Panel {
   std::vector<std::string> elements = {};  ///< of `plot`; the data file is `data`; none: a gap
 };
 
+/// One entry of a figure's legend.
+struct FigureKey {
+  std::string plotting;  ///< `with` of `plot NaN with`
+  std::string title;     ///< shortened where it is wider than the figure
+};
+
 /// A figure: panels in rows and columns, the legend and a caption below them.
 struct FigureSheet {
   std::string name;  ///< of its files, without a suffix
@@ -30,14 +36,13 @@ struct FigureSheet {
   double least_panel_in = kLeastPanel_in;  ///< with a width in print fewer columns, not narrower
   bool to_scale = false;                   ///< in print keep the panel's height to its width
   std::vector<Panel> panels;               ///< row by row; the last row may be short
-  std::vector<std::string> legend;         ///< elements of `plot` that only show in the legend
-  std::string caption;                     ///< wrapped to the width
-  std::string data;                        ///< text of the data file
-  int blocks = 0;                          ///< of the data
+  std::vector<FigureKey> legend;
+  std::string caption;  ///< wrapped to the width
+  std::string data;     ///< text of the data file
+  int blocks = 0;       ///< of the data
 
   /// Starts a block of the data file; returns `data index N`.
   std::string start_block(const std::string& what, const std::string& names);
-  /// `with`: of `plot NaN with`.
   void add_legend(const std::string& plotting, const std::string& title);
 };
 

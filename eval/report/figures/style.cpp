@@ -25,6 +25,8 @@ constexpr std::array<std::string_view, 8> kGreyDashes{
     "(8,3,4,3)", "(14,3,2,2,2,3)", "(20,3,6,3)", "(8,2,3,2,3,2)"};
 /// gnuplot's patterns: solid, none, hatched, hatched the other way, crossed, and denser ones.
 constexpr std::array<int, 8> kPatterns{3, 0, 4, 5, 1, 2, 6, 7};
+/// Hatched and crossed alone.
+constexpr std::array<int, 6> kBandPatterns{4, 5, 6, 7, 1, 2};
 
 }  // namespace
 
@@ -67,6 +69,12 @@ std::string bar_fill(std::size_t n, const FigureStyle& style) {
   return style.grey
              ? fmt::format("fs pattern {} border lc rgb '#000000'", kPatterns[n % kPatterns.size()])
              : "fs solid 0.85 noborder";
+}
+
+std::string band_fill(std::size_t n, const std::string& colour, const FigureStyle& style) {
+  if (!style.grey) return fmt::format("fc rgb '{}' fs transparent solid 0.2 noborder", colour);
+  return fmt::format("fc rgb '#AAAAAA' fs transparent pattern {} noborder",
+                     kBandPatterns[n % kBandPatterns.size()]);
 }
 
 std::string greyed(std::string script) {

@@ -51,6 +51,10 @@ inline constexpr double kNarrow_in = 1.4;
 [[nodiscard]] std::string grey_dash(std::size_t n);
 /// gnuplot's fill style of the n-th kind of bar: in colour solid, else one of eight patterns.
 [[nodiscard]] std::string bar_fill(std::size_t n, const FigureStyle& style);
+/// Of the n-th band behind curves: faint in its curve's colour; without colours hatched, each of
+/// six its own way, in one tone.
+[[nodiscard]] std::string band_fill(std::size_t n, const std::string& colour,
+                                    const FigureStyle& style);
 
 /// A script with every `rgb '#rrggbb'` as the grey of its luma (ITU-R BT.601).
 [[nodiscard]] std::string greyed(std::string script);

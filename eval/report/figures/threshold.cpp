@@ -49,8 +49,7 @@ class ThresholdFigure {
     sheet_.least_panel_in = kLeastInRow_in;
     sheet_.panel_width_in = sheet_.style.panel_width_in(sheet_.columns, sheet_.least_panel_in);
     sheet_.panel_height_in = kThresholdHeight_in;
-    for (const Curve& curve : layout.curves())
-      sheet_.add_legend("linespoints " + curve.line_with_points(0.8), curve.name);
+    for (const Curve& curve : layout.curves()) sheet_.add_legend(curve.legend(), curve.name);
   }
 
   /// Both axes from 0 to 1.
@@ -120,8 +119,7 @@ FigureSheet precision_recall_figure(const StudySummary& summary, const StudyLayo
     figure.write(figure_number(recall(counts)) + ' ' + figure_number(precision(counts)));
     panel.elements.push_back(fmt::format("{} using 1:2 with lines {} notitle", line, curve.line()));
     panel.elements.push_back(
-        fmt::format("{} using 1:2 with points pt {} ps 1.1 lc rgb '{}' notitle", mark, curve.point,
-                    curve.colour));
+        fmt::format("{} using 1:2 with points {} notitle", mark, curve.mark(1.3)));
   };
   figure.add_row(figure.unit_panel("recall", "precision"), true, fill);
   return figure.finish(
@@ -147,13 +145,12 @@ FigureSheet reliability_figure(const StudySummary& summary, const StudyLayout& l
                                    figure_number(ratio(bin.voxels, voxels)),
                                    figure_number(bin.mean_probability),
                                    figure_number(bin.share_true)));
-        panel.elements.push_back(fmt::format("{} using 5:6 with linespoints {} notitle", block,
-                                             curve.line_with_points(0.8)));
+        panel.elements.push_back(curve.marked_line(block + " using 5:6", 1.0));
         const double offset = 0.1 / kReliabilityBins + (static_cast<double>(c) + 0.5) * bar;
         bars.push_back(
             layout.style().grey
-                ? fmt::format("{} using ($1+{}):4 with linespoints {} notitle", block,
-                              0.5 / kReliabilityBins, curve.line_with_points(0.8))
+                ? curve.marked_line(
+                      fmt::format("{} using ($1+{}):4", block, 0.5 / kReliabilityBins), 1.0)
                 : fmt::format("{} using ($1+{:.5f}):4:({:.5f}) with boxes fs solid 1 noborder lc "
                               "rgb '{}' notitle",
                               block, offset, bar, curve.colour));

@@ -4,7 +4,6 @@
 #include "eval/report/figures/tolerance_figure.hpp"
 
 #include "eval/report/figures/curves.hpp"
-#include "eval/report/figures/layout.hpp"
 
 #include <fmt/format.h>
 
@@ -21,8 +20,13 @@ constexpr double kLeastTolerance_in = 1.0;  ///< two have room in a column, with
 /// Trials and curve of one search, and the marks of its answer.
 class SearchMarks {
  public:
-  SearchMarks(FigureSheet& sheet, Panel& panel, const ToleranceRow& row, Curve curve)
-      : sheet_(sheet), panel_(panel), row_(row), look_(std::move(curve)) {}
+  SearchMarks(FigureSheet& sheet, Panel& panel, const ToleranceRow& row,
+              const ToleranceLayout& layout)
+      : sheet_(sheet),
+        panel_(panel),
+        row_(row),
+        place_(layout.curve(row.method)),
+        look_(layout.curves[place_]) {}
 
   void add() {
     add_answer();
@@ -38,14 +42,12 @@ class SearchMarks {
         fmt::format("{}; {}; {}; {}", row_.axis.title(), row_.group, look_.name, what), columns);
   }
 
-  /// A band open at one side reaches to the end of the range.
   void add_answer() {
     const Tolerance& of = row_.tolerance;
-    if (of.low && of.high)
+    if (const auto interval = interval_shown(row_))
       panel_.settings.push_back(fmt::format(
-          "set object rectangle from first {:.9g}, graph 0 to first {:.9g}, graph 1 behind fc rgb "
-          "'{}' fs transparent solid 0.2 noborder",
-          in_unit(*of.low), in_unit(*of.high), look_.colour));
+          "set object rectangle from first {:.9g}, graph 0 to first {:.9g}, graph 1 behind {}",
+          interval->first, interval->second, band_fill(place_, look_.colour, sheet_.style)));
     if (of.dose)
       panel_.settings.push_back(fmt::format(
           "set arrow from first {0:.9g}, graph 0 to first {0:.9g}, graph 1 nohead back lw 1 dt {2} "
@@ -59,8 +61,7 @@ class SearchMarks {
       sheet_.data += fmt::format("{:.9g} {} {}\n", in_unit(row_.trials[seed].dose),
                                  figure_number(row_.trials[seed].score), seed);
     panel_.elements.push_back(
-        fmt::format("{} using 1:2 with points pt {} ps 0.35 lc rgb '{}' notitle", block,
-                    look_.point, look_.colour));
+        fmt::format("{} using 1:2 with points {} notitle", block, look_.mark(0.8)));
   }
 
   void add_curve(const DoseCurve& curve) {
@@ -90,11 +91,12 @@ class SearchMarks {
   FigureSheet& sheet_;
   Panel& panel_;
   const ToleranceRow& row_;
-  Curve look_;
+  std::size_t place_;  ///< of its curve
+  const Curve& look_;
 };
 
-Panel panel_of(const Study& study, const ToleranceAim& aim, const ToleranceRow& row) {
-  return {class_title(study, row.group),
+Panel panel_of(const std::string& title, const ToleranceAim& aim, const ToleranceRow& row) {
+  return {title,
           row.axis.title(),
           (aim.target ? "" : "change of ") + metric_text(aim.metric, Reader::paper),
           true,
@@ -107,15 +109,14 @@ Panel panel_of(const Study& study, const ToleranceAim& aim, const ToleranceRow& 
 }
 
 /// `set` lines of a panel: as many numbers as have room beside and below the trials of its rows.
-std::string tics_of(const ToleranceRow& row, const std::vector<ToleranceRow>& rows,
-                    double width_in) {
+std::string tics_of(const TolerancePanel& panel, double width_in) {
+  const ToleranceRow& row = *panel.rows.front();
   double least = row.search.target, greatest = row.search.target;
-  for (const ToleranceRow& other : rows)
-    if (other.path == row.path && other.group == row.group)
-      for (const DoseTrial& trial : other.trials) {
-        least = std::min(least, trial.score.value_or(least));
-        greatest = std::max(greatest, trial.score.value_or(greatest));
-      }
+  for (const ToleranceRow* other : panel.rows)
+    for (const DoseTrial& trial : other->trials) {
+      least = std::min(least, trial.score.value_or(least));
+      greatest = std::max(greatest, trial.score.value_or(greatest));
+    }
   const double doses = (row.search.high - row.search.low) * row.axis.at.front();
   return fmt::format("set xtics {:.9g}; set ytics {:.9g}", tic_step(doses, width_in),
                      tic_step(greatest - least, kNarrow_in));
@@ -123,39 +124,71 @@ std::string tics_of(const ToleranceRow& row, const std::vector<ToleranceRow>& ro
 
 }  // namespace
 
+ToleranceLayout::ToleranceLayout(const Study& study, const std::vector<ToleranceRow>& rows,
+                                 const FigureStyle& style) {
+  const auto several = [&](std::string ToleranceRow::*name) {
+    return std::ranges::any_of(
+        rows, [&](const ToleranceRow& row) { return row.*name != rows.front().*name; });
+  };
+  const bool faults = several(&ToleranceRow::path), groups = several(&ToleranceRow::group);
+  for (const ToleranceRow& row : rows) {
+    const auto fits = [&](const TolerancePanel& panel) {
+      return panel.rows.front()->path == row.path && panel.rows.front()->group == row.group;
+    };
+    auto panel = std::ranges::find_if(panels, fits);
+    if (panel == panels.end()) {
+      const std::string group = groups ? class_title(study, row.group) : "";
+      panels.push_back({(faults ? row.axis.name : "") + (faults && groups ? ", " : "") + group});
+      panel = panels.end() - 1;
+    }
+    panel->rows.push_back(&row);
+    if (std::ranges::find(curves, row.method, &Curve::method) == curves.end())
+      curves.push_back(curve_of(study, row.method, curves.size(), style));
+  }
+}
+
+std::size_t ToleranceLayout::curve(const std::string& method) const {
+  return static_cast<std::size_t>(std::ranges::find(curves, method, &Curve::method) -
+                                  curves.begin());
+}
+
+FigureSheet ToleranceLayout::sheet(const std::string& name, const FigureStyle& style,
+                                   double least_panel_in, double gap_in) const {
+  FigureSheet sheet;
+  sheet.name = name;
+  sheet.style = style;
+  sheet.least_panel_in = least_panel_in;
+  sheet.columns = static_cast<int>(std::min<std::size_t>(3, panels.size()));
+  sheet.panel_width_in = style.panel_width_in(sheet.columns, least_panel_in, gap_in);
+  for (const Curve& curve : curves) sheet.add_legend(curve.legend(), curve.name);
+  return sheet;
+}
+
+std::optional<std::pair<double, double>> interval_shown(const ToleranceRow& row) {
+  const Tolerance& of = row.tolerance;
+  if (of.verdict != ToleranceVerdict::found && of.verdict != ToleranceVerdict::open)
+    return std::nullopt;
+  const double unit = row.axis.at.front();
+  return std::pair(of.low.value_or(row.search.low) * unit,
+                   of.high.value_or(row.search.high) * unit);
+}
+
 FigureSheet tolerance_figure(const Study& study, const ToleranceAim& aim,
                              const std::vector<ToleranceRow>& rows, const FigureStyle& style) {
-  FigureSheet sheet;
-  sheet.name = "tolerance";
-  sheet.style = style;
-  sheet.least_panel_in = kLeastTolerance_in;
-  std::map<std::pair<std::string, std::string>, std::size_t> panels;  // by fault and group
-  std::vector<const ToleranceRow*> firsts;                            // of each panel
-  std::map<std::string, Curve> curves;                                // by method
-  for (const ToleranceRow& row : rows) {
-    const auto [panel, is_new] = panels.try_emplace({row.path, row.group}, sheet.panels.size());
-    if (is_new) {
-      sheet.panels.push_back(panel_of(study, aim, row));
-      firsts.push_back(&row);
-    }
-    const auto [curve, is_new_method] =
-        curves.try_emplace(row.method, curve_of(study, row.method, curves.size(), style));
-    if (is_new_method)
-      sheet.add_legend("linespoints " + curve->second.line_with_points(0.6), curve->second.name);
-    SearchMarks(sheet, sheet.panels[panel->second], row, curve->second).add();
+  const ToleranceLayout layout(study, rows, style);
+  FigureSheet sheet = layout.sheet("tolerance", style, kLeastTolerance_in, kGapWithNumbers_in);
+  for (const TolerancePanel& shown : layout.panels) {
+    Panel panel = panel_of(shown.title, aim, *shown.rows.front());
+    if (sheet.panels.size() % static_cast<std::size_t>(sheet.columns) != 0) panel.y_label.clear();
+    for (const ToleranceRow* row : shown.rows) SearchMarks(sheet, panel, *row, layout).add();
+    panel.settings.push_back(tics_of(shown, sheet.panel_width_in));
+    sheet.panels.push_back(std::move(panel));
   }
-  sheet.columns = static_cast<int>(std::min<std::size_t>(3, sheet.panels.size()));
-  for (std::size_t n = 0; n < sheet.panels.size(); ++n)
-    if (n % static_cast<std::size_t>(sheet.columns) != 0) sheet.panels[n].y_label.clear();
-  sheet.panel_width_in =
-      sheet.style.panel_width_in(sheet.columns, sheet.least_panel_in, kGapWithNumbers_in);
-  for (std::size_t n = 0; n < sheet.panels.size(); ++n)
-    sheet.panels[n].settings.push_back(tics_of(*firsts[n], rows, sheet.panel_width_in));
   sheet.add_legend("lines lw 0.8 dt (4,3) lc rgb '#444444'", "target");
   sheet.caption = fmt::format(
       "{}: largest dose at which {}, voxels of {:.6g} cm. Points: trials, each of its own seed; "
       "curve: what the tolerance is read from; vertical line and band: tolerance and its 95 % "
-      "interval.",
+      "interval, to the end of the range where it is open.",
       study.name, aim.text(), 100.0 * study.voxel_m);
   return sheet;
 }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <mutex>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,25 @@ namespace {
 
 /// Items that a job takes at once: enough to be worth it, few enough to share evenly.
 constexpr std::size_t kRunItems = 4096;
+
+/// Distances that were asked for before: maps of one lattice mostly have the same voxels. Safe to
+/// use from several threads.
+class KnownDistances {
+ public:
+  double get(const VoxelKey& key, const auto& measure) {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (const auto found = known_.find(key); found != known_.end()) return found->second;
+    }
+    const double distance = measure();
+    const std::scoped_lock lock(mutex_);
+    return known_.emplace(key, distance).first->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<VoxelKey, double> known_;
+};
 
 /// Tally of `count` items, counted run by run on `jobs` threads. `make_counter()` gives each job
 /// its own counter, called as counter(item, tally) with items in ascending order. Tallies are
@@ -88,9 +108,12 @@ ClassDistances class_distances(const std::vector<PreparedShape>& pieces, const C
 }
 
 CubeDistance cube_distance(ClassDistances surfaces, double edge_m) {
-  return [surfaces = std::move(surfaces), edge_m](const VoxelKey& key, ClassId class_id) {
-    const VoxelKey next{key.i + 1, key.j + 1, key.k + 1};
-    return (*surfaces.at(class_id))(Box(low_corner_of(key, edge_m), low_corner_of(next, edge_m)));
+  auto known = std::make_shared<std::vector<KnownDistances>>(surfaces.size());
+  return [surfaces = std::move(surfaces), known, edge_m](const VoxelKey& key, ClassId class_id) {
+    return known->at(class_id).get(key, [&] {
+      const VoxelKey next{key.i + 1, key.j + 1, key.k + 1};
+      return (*surfaces[class_id])(Box(low_corner_of(key, edge_m), low_corner_of(next, edge_m)));
+    });
   };
 }
 

@@ -21,10 +21,10 @@ TEST(VoxelIndex, NumbersVoxelsInTheOrderOfTheirFirstAsking) {
     VoxelKey key{near(), near(), near()};
     if (n % 10 == 0) key.i += n % 20 == 0 ? (1 << 20) - 31 : -(1 << 20) + 30;
     const auto known = expected.find(key);
-    EXPECT_EQ(index.find(key), known == expected.end() ? VoxelIndex::kNone : known->second);
+    EXPECT_EQ(index.find(pack(key)), known == expected.end() ? VoxelIndex::kNone : known->second);
     if (n % 2 == 0) continue;
     const auto next = static_cast<std::uint32_t>(expected.size());
-    EXPECT_EQ(index.number(key), expected.try_emplace(key, next).first->second);
+    EXPECT_EQ(index.number(pack(key)), expected.try_emplace(key, next).first->second);
   }
   ASSERT_EQ(index.keys().size(), expected.size());
   EXPECT_GT(expected.size(), 15000u);

@@ -127,6 +127,18 @@ TEST_F(Baked, FaultsAreNotAddedToThoseThatAreBaked) {
   EXPECT_EQ(note_on_baked(info), "");
 }
 
+TEST_F(Baked, AnotherSceneBesideARecordingIsSaid) {
+  RecordingInfo info = recording().info();
+  info.scene = "cottage.xml";
+  Study study = study_of("");
+  study.recording = "there";
+  study.scene = "homes/cottage.xml";
+  EXPECT_EQ(note_on_scene(study, info), "");
+  study.scene = "home.xml";
+  EXPECT_THAT(note_on_scene(study, info),
+              ::testing::HasSubstr("home.xml is not the scene that was recorded, cottage.xml"));
+}
+
 TEST_F(Baked, AConfusionMatrixOfAnotherSizeIsRefusedBeforeTheFirstFrame) {
   const auto matrix = [](const char* text) {
     return study_of("faults: {labels: {confusion_matrix: " + std::string(text) + "}}\n");

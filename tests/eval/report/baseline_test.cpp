@@ -131,7 +131,7 @@ TEST_F(BaselineFile, ReadsBackWhatWasWritten) {
 }
 
 TEST_F(BaselineFile, IsRefusedWhenMissingOrBroken) {
-  expect_refused("no baseline of this mapscore; write it anew with");
+  expect_refused("is not there; make it with `mapscore check RESULTS --baseline FILE --update`");
   write("what,class,metric,value\n");
   expect_refused("no baseline of this mapscore");
   write_baseline(baseline_of(plain_summary()), file());
@@ -167,7 +167,7 @@ TEST_F(BaselineFile, IsRefusedWhenMissingOrBroken) {
   forged("\"role\":\"trial\"", "\"role\":\"trail\"");
   expect_refused("unknown role");
   write(good.substr(0, good.size() / 2));
-  expect_refused("no baseline of this mapscore");
+  expect_refused("no baseline of this mapscore; write it anew with");
 }
 
 TEST_F(BaselineFile, IsNotWrittenWhereItCanNotBe) {

@@ -37,16 +37,17 @@ TEST(BestThreshold, IsChosenOnTheOtherSeeds) {
   EXPECT_EQ(best.pooled.threshold, 0.9);
 }
 
-TEST(BestThreshold, IsUndefinedForOneSeed) {
-  const BestThreshold best = best_threshold(std::span(kSeeds).first(1));
-  ASSERT_EQ(best.by_seed.size(), 1u);
+TEST(BestThreshold, IsUndefinedWhereOneSeedAloneWouldChoose) {
+  const BestThreshold best = best_threshold(std::span(kSeeds).first(2));
+  ASSERT_EQ(best.by_seed.size(), 2u);
   EXPECT_EQ(best.by_seed[0].f1, std::nullopt);
   EXPECT_EQ(best.pooled.f1, std::nullopt);
   EXPECT_EQ(best.pooled.threshold, std::nullopt);
 }
 
 TEST(BestThreshold, WithoutAVoxelInTheOthersNothingIsPredicted) {
-  const std::array<ClassCurve, 2> seeds{seed_of(5, 5, 5), ClassCurve{10, 0, {}}};
+  const ClassCurve none{10, 0, {}};
+  const std::array<ClassCurve, 3> seeds{seed_of(5, 5, 5), none, none};
   const BestThreshold best = best_threshold(seeds);
   EXPECT_EQ(best.by_seed[0].threshold, std::nullopt);
   EXPECT_EQ(best.by_seed[0].f1, 0.0);

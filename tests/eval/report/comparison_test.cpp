@@ -79,7 +79,7 @@ TEST(ComparisonTable, ShowsBothMeansTheIntervalAndP) {
                                          "0.0000", "95% interval", "-", "-", "10"));
   EXPECT_THAT(caption_of(table),
               AllOf(HasSubstr("synthetic: erosion - direct, cup classes; detected: cup, chair\n"),
-                    HasSubstr("10 seeds, paired seed by seed"),
+                    HasSubstr("10 seeds; each map scored; paired seed by seed"),
                     HasSubstr("95 % interval of the mean difference"),
                     HasSubstr("not corrected for 2 rows; p (Holm): corrected"),
                     HasSubstr("least p possible with 10 pairs: 0.0020; p (Holm): 0.0039")));
@@ -116,6 +116,8 @@ TEST(ComparisonTable, PrintsUndefinedFiguresAsDashes) {
     for (TrialResult& result : line.results) result.counts.at(1) = ClassCounts{};
   const Table table = comparison_table(summary, {"direct", "erosion", "cup"});
   EXPECT_THAT(table.rows[0], ElementsAre("0", "f1", "-", "-", "-", "-", "-", "-", "-", "-", "0"));
+  EXPECT_THAT(table.caption,
+              ::testing::Contains(HasSubstr("p: none; no row has seeds that differ")));
 }
 
 TEST(ComparisonTable, HasNineDigitsForPrograms) {
@@ -221,6 +223,19 @@ TEST(BeforeAfter, TellsWhichSettingsDiffer) {
   EXPECT_THAT(table.caption, ::testing::Contains("settings: voxel_m 0.05 -> 0.1"));
 }
 
+TEST(BeforeAfter, TakesTwoRecordingsWhereItIsTold) {
+  StudySummary after = changed_summary(10);
+  after.recording_hash = "other";
+  after.study.scene = "other.xml";
+  ComparisonQuestion question{"", "", "cup", {"precision"}};
+  question.any_recording = true;
+  const Table table = before_after_table(testing::summary_of(10), after, question);
+  EXPECT_THAT(table.caption, ::testing::IsSupersetOf({"recording recordin -> other",
+                                                      "settings: scene room.xml -> other.xml"}));
+  EXPECT_EQ(table.rows,
+            before_after_table(testing::summary_of(10), changed_summary(10), question).rows);
+}
+
 TEST(BeforeAfter, RefusesWhatDoesNotPair) {
   const StudySummary before = testing::summary_of(3);
   const auto expect_refused = [&](const std::string& why, auto change) {
@@ -232,7 +247,8 @@ TEST(BeforeAfter, RefusesWhatDoesNotPair) {
   expect_refused("recording recordin -> other",
                  [](StudySummary& s) { s.recording_hash = "other"; });
   expect_refused("so no draws pair", [](StudySummary& s) { s.study.seed = 77; });
-  expect_refused("after were made by 2 builds", [](StudySummary& s) { s.builds.insert("third"); });
+  expect_refused("results after: its trials were made by 2 builds",
+                 [](StudySummary& s) { s.builds.insert("third"); });
   expect_refused("no method at the same doses", [](StudySummary& s) {
     for (ResultLine& line : s.trials) line.method += " renamed";
   });

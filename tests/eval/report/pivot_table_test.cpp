@@ -114,7 +114,28 @@ TEST(PivotTable, OfAnUnfinishedSweepWhatIsNotThereIsUndefined) {
   EXPECT_THAT(table.rows[0], ElementsAre("0", "0", "-", "0.935"));
 }
 
-TEST(PivotTable, OfPointsOverRangesThereIsNone) {
+// Cups of direct at point c: 0.02 (1 + c) false, of erosion 0.04 more.
+TEST(PivotTable, OfPointsOverRangesAllPathsAreOneDimension) {
+  Study study = synthetic_study({"direct", "erosion"}, {kShiftDoses, kMountAngles}, 1);
+  study.sampling = Sobol{3};  // at (0, 0), (0.005, 0.5) and (0.0075, 0.25)
+  const StudySummary summary = synthetic_summary(std::move(study));
+  const Table methods = pivot_table(summary, asked({}, {"method"}));
+  EXPECT_THAT(methods.columns, ElementsAre("magnitude_m", "angle_deg", "direct", "erosion"));
+  EXPECT_EQ(methods.keys, 2u);
+  ASSERT_THAT(methods.rows, SizeIs(3));
+  EXPECT_THAT(methods.rows[1], ElementsAre("0.005", "0.5", "0.960", "0.920"));
+  const Table metric_alone = pivot_table(summary, asked({}, {}));
+  EXPECT_THAT(metric_alone.columns, ElementsAre("magnitude_m", "angle_deg", "method", "precision"));
+  EXPECT_THAT(metric_alone.rows, SizeIs(6));
+  const Table points = pivot_table(selected(summary, {{"magnitude_m=0.005"}, {}}),
+                                   asked({"method"}, {"point"}), Reader::paper);
+  EXPECT_THAT(points.columns, ElementsAre("method", "5, 0.5"));
+  EXPECT_THAT(points.caption, Contains("columns: misregistration (mm), mount error angle (deg)"));
+  expect_error("point has 3 values and no place in the table; add it to --rows or --columns",
+               [&] { (void)pivot_table(summary, asked({"method"}, {"metric"})); });
+}
+
+TEST(PivotTable, OfPointsOverRangesAPathHasNoPlace) {
   Study study = synthetic_study({"direct"}, {kShiftDoses}, 1);
   study.sampling = Sobol{3};  // at 0, 0.005 and 0.0075
   const StudySummary summary = synthetic_summary(std::move(study));
@@ -122,7 +143,8 @@ TEST(PivotTable, OfPointsOverRangesThereIsNone) {
   expect_error("has no such value; there are: 0, 0.005, 0.0075", [&] {
     (void)selected(summary, {{"magnitude_m=0.01"}, {}});
   });
-  expect_error("ask for --tidy", [&] { (void)pivot_table(summary, asked({}, {"method"})); });
+  expect_error("magnitude_m: points over ranges share no values; ask for `point`",
+               [&] { (void)pivot_table(summary, asked({"magnitude_m"}, {"method"})); });
 }
 
 TEST(PivotTable, RefusesWhatIsNotThereWithTheNearest) {

@@ -271,6 +271,18 @@ TEST(Tolerances, TheMostSpecialOneHolds) {
   EXPECT_EQ(allowed.of("chair", "f1"), 0.04);
   for (const char* bad : {"nan", "f1=", "=0.1", "f1=2", "-0.1", "x"})
     expect_error("--allow", [&] { (void)parse_tolerances({bad}); });
+  expect_error("--allow f1: stands there twice", [] {
+    (void)parse_tolerances({"f1=0.1", "f1=0.2"});
+  });
+}
+
+TEST(Tolerances, AClassMayHoldSlashesAndEqualsSigns) {
+  const Tolerances allowed =
+      parse_tolerances({"lamp/desk/f1=0.02", "lamp/desk/=0.03", "a=b/f1=0.04", "a/b=1/=0.05"});
+  EXPECT_EQ(allowed.of("lamp/desk", "f1"), 0.02);
+  EXPECT_EQ(allowed.of("lamp/desk", "iou"), 0.03);
+  EXPECT_EQ(allowed.of("a=b", "f1"), 0.04);
+  EXPECT_EQ(allowed.of("a/b=1", "f1"), 0.05);
 }
 
 class RegressionReport : public ::testing::Test {
@@ -294,6 +306,18 @@ TEST_F(RegressionReport, NamesMethodMetricClassCellAndCause) {
   EXPECT_THAT(text, HasSubstr("figures got worse"));
   EXPECT_THAT(text, HasSubstr("changed: 10 of "));
   EXPECT_THAT(text, Not(HasSubstr("direct")));
+}
+
+TEST_F(RegressionReport, ALongOneBeginsWithTheClasses) {
+  const std::string text = report("text");
+  EXPECT_TRUE(text.starts_with("class   figures worse  cells worse  worst change  metric")) << text;
+  // Recall, F1 and IoU of erosion at one of two doses.
+  EXPECT_THAT(text,
+              ::testing::ContainsRegex("\nchair +3 of [0-9]+ +1 of 2 +-0.0[0-9]+ +(iou|recall) "
+                                       "+erosion +magnitude_m=0.01\n"));
+  EXPECT_THAT(text, Not(HasSubstr("\ncup ")));
+  std::erase_if(judgement_.figures, [](const JudgedFigure& f) { return f.group != "chair"; });
+  EXPECT_TRUE(report("text").starts_with("verdict")) << "a handful of rows";
 }
 
 TEST_F(RegressionReport, NamesTheFramesThatLostMost) {

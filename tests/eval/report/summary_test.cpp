@@ -92,6 +92,15 @@ TEST_F(Summary, FiguresOfAGroupThatWasNotAskedForAreFormedLater) {
   });
 }
 
+TEST(Spread, IsCutOffAtWhatAMetricCanBe) {
+  std::vector<std::optional<double>> values(9, 1.0);
+  values.emplace_back(0.5);
+  EXPECT_EQ(spread_of("f1", values).high, 1.0);
+  EXPECT_GT(spread_of("accuracy_mean_m", values).high.value(), 1.0);
+  for (auto& value : values) value = 1.0 - *value;
+  EXPECT_EQ(spread_of("accuracy_mean_m", values).low, 0.0);
+}
+
 TEST_F(Summary, AnInterimOneHasTheLinesThatAreThereWithTheirCeilings) {
   sweep(1, 3);
   expect_error("no trial is there with both of its ceilings yet", [&] {

@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 using testing::summary_of;
 
@@ -23,10 +24,10 @@ TEST(ScoreTable, HasARowForEveryMethodAtEveryCell) {
   ASSERT_THAT(table.rows, SizeIs(4));
   // Cups at cell 1 of direct: 100 predicted a seed, 4 and 5 false; 200 visible a seed, 20 missed.
   // P = 191/200, R = 0.9, F = 2PR/(P+R), IoU = 360/(400 + 9); at dose zero P = 0.98, lattice P = 1.
-  // F of the seeds: P = 0.96 and 0.95. At 0.9 all is right: AP = R, F = 2R/(1+R).
+  // F of the seeds: P = 0.96 and 0.95. At 0.9 all is right: AP = R. Two seeds choose no threshold.
   EXPECT_THAT(table.rows[2],
-              ElementsAre("0.01", "direct", "0.955", "0.900", "0.927", "0.880", "0.900", "0.947",
-                          "0.900", "0.924", "0.929", "0.938", "1.000", "0.900"));
+              ElementsAre("0.01", "direct", "0.955", "0.900", "0.927", "0.880", "0.900", "-", "-",
+                          "0.924", "0.929", "0.938", "1.000", "0.900"));
 }
 
 TEST(ScoreTable, AProgramGetsNineDigitsAndWhatTheSpreadIs) {
@@ -56,9 +57,20 @@ TEST(ScoreTable, SaysWhatItStandsOn) {
     return text;
   };
   EXPECT_THAT(caption(2), HasSubstr("detected: cup, chair\n"));
-  EXPECT_THAT(caption(2), HasSubstr("voxels of 0.05 m; 2 seeds; each map scored"));
+  EXPECT_THAT(caption(2), HasSubstr("voxels of 5 cm; 2 seeds; each map scored"));
   EXPECT_THAT(caption(2), HasSubstr("least and greatest of the seeds (fewer than 10)"));
+  EXPECT_THAT(caption(2), HasSubstr("F1 best, threshold: need 3 seeds"));
   EXPECT_THAT(caption(10), HasSubstr("95 % interval"));
+  EXPECT_THAT(caption(10), HasSubstr("best on the other 9; threshold: best on all 10 seeds"));
+}
+
+TEST(ScoreTable, SaysWhereNothingIsVisible) {
+  StudySummary summary = summary_of(1);
+  const std::string note = "no truth voxel of a detected class was visible";
+  EXPECT_THAT(summary.lattice_note(), Not(HasSubstr(note)));
+  for (ResultLine& line : summary.lattice_ceilings)
+    for (ClassCounts& counts : line.pooled) counts.visible = 0;
+  EXPECT_THAT(score_table(summary, "pooled").caption, ::testing::Contains(HasSubstr(note)));
 }
 
 Table small_table() {
@@ -93,6 +105,10 @@ TEST(Table, AsJsonNamesEveryCellAndKeepsNumbersNumbers) {
   EXPECT_EQ(to_json({{"c"}, {"b", "a"}, {{"1", "x2"}}}),
             "{\n  \"caption\": [\n    \"c\"\n  ],\n  \"rows\": [\n    {\n      \"b\": 1,\n"
             "      \"a\": \"x2\"\n    }\n  ]\n}\n");
+  // Of which nlohmann writes 17 digits.
+  EXPECT_THAT(to_json({{}, {"a"}, {{"0.457180744"}, {"0.643908859"}}}),
+              ::testing::AllOf(HasSubstr("\"a\": 0.457180744\n"), HasSubstr("0.643908859\n")));
+  EXPECT_EQ(to_json(Table{}), "{\n  \"caption\": [],\n  \"rows\": []\n}\n");
   const std::string json = to_json(
       {{}, {"a", "b", "c", "d", "e", "f"}, {{"+0.0623", "-", "", "-1e-05", "nan", "[0, 1]"}}});
   for (const char* cell : {"\"a\": 0.0623,", "\"b\": null,", "\"c\": null,", "\"d\": -1e-05,",

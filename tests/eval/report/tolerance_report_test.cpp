@@ -32,6 +32,10 @@ TEST(ToleranceReport, SaysDosesInTheUnitOfFigures) {
   EXPECT_EQ(text_of(row_of(open, std::nullopt, 0.018, std::nullopt)), "- [18, open]");
   EXPECT_EQ(text_of(row_of(above, std::nullopt, 0.04, std::nullopt)), "> 40 mm");
   EXPECT_EQ(text_of(row_of(below, std::nullopt, std::nullopt, 0.0)), "< 0 mm");
+  EXPECT_EQ(text_of(row_of(found, 1.2341, 0.9994, 12.0)), "1234 mm [999, 12000]");
+  ToleranceRow far = row_of(above, std::nullopt, 1.0, std::nullopt);
+  far.search.high = 1.0;
+  EXPECT_EQ(text_of(far), "> 1000 mm");
   EXPECT_EQ(text_of(row_of(not_monotone, std::nullopt, 0.01, 0.02)), "-");
 }
 

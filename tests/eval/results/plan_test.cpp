@@ -257,31 +257,32 @@ PlainPlan plain_plan_of(const Study& study) {
 TEST(Plan, CountsOutTheTasksOfThePlainOne) {
   const std::filesystem::path configs = std::filesystem::path(MAPSCORE_SOURCE_DIR) / "configs";
   for (const char* name : {"demo", "covariance", "crf", "paper_fusion_labels", "paper_fusion_pose",
-                           "person_offset", "segmentation_person"}) {
-    const Study study = load_study(configs / (std::string(name) + ".yaml"), {"seeds=3"});
-    const PlainPlan plain = plain_plan_of(study);
-    const Plan plan = plan_of(study, "recording");
-    ASSERT_EQ(plan.tasks.size(), plain.tasks.size()) << name;
-    ASSERT_EQ(plan.trials.size(), plain.trials.size()) << name;
-    for (std::size_t n = 0; n < plain.tasks.size(); ++n) {
-      const Task task = plan.tasks[n];
-      ASSERT_EQ(task.key, plain.tasks[n].key) << name << " task " << n;
-      ASSERT_EQ(plan.tasks.key(n), task.key);
-      ASSERT_EQ(task.description, plain.tasks[n].description);
-      ASSERT_EQ(task.config.methods, plain.tasks[n].config.methods);
-      ASSERT_EQ(task.labels, plain.tasks[n].labels);
-      ASSERT_EQ(task.seed_index, plain.tasks[n].seed_index);
-      ASSERT_EQ(plan.tasks.seed_index(n), task.seed_index);
-      ASSERT_EQ(plan.tasks.config(n), task.config);
+                           "person_offset", "segmentation_person"})
+    for (const char* more : {"seeds=3", "sweep.voxel_m=[0.05, 0.1]"}) {  // which ceilings have too
+      const Study study = load_study(configs / (std::string(name) + ".yaml"), {"seeds=3", more});
+      const PlainPlan plain = plain_plan_of(study);
+      const Plan plan = plan_of(study, "recording");
+      ASSERT_EQ(plan.tasks.size(), plain.tasks.size()) << name;
+      ASSERT_EQ(plan.trials.size(), plain.trials.size()) << name;
+      for (std::size_t n = 0; n < plain.tasks.size(); ++n) {
+        const Task task = plan.tasks[n];
+        ASSERT_EQ(task.key, plain.tasks[n].key) << name << " task " << n;
+        ASSERT_EQ(plan.tasks.key(n), task.key);
+        ASSERT_EQ(task.description, plain.tasks[n].description);
+        ASSERT_EQ(task.config.methods, plain.tasks[n].config.methods);
+        ASSERT_EQ(task.labels, plain.tasks[n].labels);
+        ASSERT_EQ(task.seed_index, plain.tasks[n].seed_index);
+        ASSERT_EQ(plan.tasks.seed_index(n), task.seed_index);
+        ASSERT_EQ(plan.tasks.config(n), task.config);
+      }
+      for (std::size_t n = 0; n < plain.trials.size(); ++n) {
+        const PlannedTrial trial = plan.trials[n];
+        ASSERT_EQ((std::array{trial.task, trial.registration_ceiling, trial.lattice_ceiling}),
+                  plain.trials[n])
+            << name << " trial " << n;
+        ASSERT_EQ(trial.spec, trials(study)[n]);
+      }
     }
-    for (std::size_t n = 0; n < plain.trials.size(); ++n) {
-      const PlannedTrial trial = plan.trials[n];
-      ASSERT_EQ((std::array{trial.task, trial.registration_ceiling, trial.lattice_ceiling}),
-                plain.trials[n])
-          << name << " trial " << n;
-      ASSERT_EQ(trial.spec, trials(study)[n]);
-    }
-  }
 }
 
 TEST(Plan, OfAKeyIsTheHashOfTheDescriptionWithTheSeedsIndex) {

@@ -74,6 +74,19 @@ TEST(Intervals, OneSeedHasNoDeviationAndNoneHasNothing) {
   EXPECT_EQ(summarise(none).mean, std::nullopt);
 }
 
+TEST(Intervals, AreCutOffAtWhatAFigureCanBe) {
+  std::vector<std::optional<double>> values(9, 1.0);
+  values.emplace_back(0.5);
+  const SeedSummary free = summarise(values), share = summarise(values, {0.0, 1.0});
+  EXPECT_GT(free.high.value(), 1.0);
+  EXPECT_EQ(share.high, 1.0);
+  EXPECT_EQ(share.low, free.low);
+  EXPECT_EQ(share.mean, free.mean);
+  for (auto& value : values) value = 1.0 - *value;
+  EXPECT_LT(summarise(values).low.value(), 0.0);
+  EXPECT_EQ(summarise(values, {0.0, 1.0}).low, 0.0);
+}
+
 TEST(StudentT, QuantilesEqualThePublishedTable) {
   struct Row {
     int degrees;

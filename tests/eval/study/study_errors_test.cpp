@@ -182,13 +182,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"sweep_cell", "sweep: {cameras.range_min_m: [1, 5], cameras.range_max_m: [8, 4]}\n",
                 "6: sweep: with cameras.range_min_m = 5, cameras.range_max_m = 4, "
                 "cameras.range_min_m: 5 is not below range_max_m, 4; write a lesser number"},
-        BadLine{"sweep_huge",
-                "sweep:\n  voxel_m: " + numbers(1001) + "\n  map_yaw_deg: " + numbers(1000) + "\n",
-                "8: sweep.map_yaw_deg: the grid grows beyond 1000000 cells; sweep fewer values, or "
-                "write sampling: {sobol: {points: N}} and ranges"},
+        BadLine{
+            "sweep_huge",
+            "sweep:\n  voxel_m: " + numbers(1001) + "\n  map_yaw_deg: " + numbers(1000) + "\n",
+            "6: sweep: 1001000 cells by 2 methods and 1 seeds are 2002000 trials; at most 1000000 "
+            "cells are held in memory, so --yes does not help: sweep fewer values, or write "
+            "sampling: {sobol: {points: N}} and ranges"},
         BadLine{"huge_study", "seeds: 100000\nsweep:\n  map_yaw_deg: " + numbers(5001) + "\n",
-                "6: seeds: 5001 cells by 2 methods and 100000 seeds are more than 1000000000 "
-                "trials; write fewer of them"}),
+                "6: seeds: 5001 cells by 2 methods and 100000 seeds are 1000200000 trials, of at "
+                "most 1000000000; write fewer of them"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(BadStudyFile, OfASceneWithoutOneBesideARecording) {
@@ -225,6 +227,9 @@ TEST(BadStudyFile, WithAMethodWithoutSegmentation) {
 TEST(BadStudyFile, WithAMethodNameThatIsNoPartOfAPath) {
   EXPECT_EQ(refusal("recording: a\nmethods: {a.b: {segmentation: {direct: {}}}}\n"),
             "demo.yaml:2: methods.a.b: a.b cannot name a method; use letters, digits, _ and -");
+  EXPECT_THAT(refusal("recording: a\nmethods: {\"null\": {segmentation: {direct: {}}}}\n"),
+              ::testing::HasSubstr("null cannot name a method"))
+      << "a store could not be read again";
 }
 
 TEST(BadStudyFile, ThatIsNotYaml) {

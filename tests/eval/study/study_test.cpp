@@ -9,10 +9,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <variant>
 
@@ -96,6 +92,24 @@ TEST(Study, MinimalFileTakesDefaults) {
   expected.trajectory.waypoints_m_deg = {{0.5, 0.5, 0}};
   expected.methods = {{"direct", Direct{}, {}}};
   EXPECT_EQ(study, expected);
+}
+
+TEST(Study, FlagsTakeTheEndOfAPathWhereItIsUnique) {
+  const Study study = parse(kMinimal, {"sigma_xy_m=0.02", "misregistration.magnitude_m=0.01",
+                                       "speed_mps=0.7", "sweep.mount.magnitude_m=[0, 0.1]"});
+  EXPECT_EQ(study, parse(kMinimal,
+                         {"faults.pose.sigma_xy_m=0.02", "faults.misregistration.magnitude_m=0.01",
+                          "trajectory.speed_mps=0.7", "sweep.faults.mount.magnitude_m=[0, 0.1]"}));
+  mapscore::testing::expect_error(
+      "flag magnitude_m=1: magnitude_m: may be several keys; write one of "
+      "faults.misregistration.magnitude_m, faults.mount.magnitude_m",
+      [] { (void)parse(kMinimal, {"magnitude_m=1"}); });
+  mapscore::testing::expect_error(
+      "faults.mount.magnitude_m: is swept; set sweep.faults.mount.magnitude_m=[...]", [] {
+        (void)parse(kMinimal, {"sweep.mount.magnitude_m=[0, 0.1]", "mount.magnitude_m=1"});
+      });
+  mapscore::testing::expect_error("unknown key 'sigma'",
+                                  [] { (void)parse(kMinimal, {"sigma=1"}); });
 }
 
 TEST(Study, ReadsLeavesOfEveryTypeFromALongFile) {
@@ -218,6 +232,21 @@ TEST(Study, AFlagMayGiveWhatTheFileLacks) {
   EXPECT_EQ(parse(no_scene, {"scene=a=b.xml"}).scene, "a=b.xml");
 }
 
+/// JSON is YAML, and has words in quotes.
+TEST(Study, MayBeWrittenAsJson) {
+  const Study study = parse(
+      R"({"scene": "room.xml", "trajectory": {"waypoints_m_deg": [[0.5, 0.5, 0]]},
+          "methods": {"direct": {"segmentation": {"direct": {}}, "place": "voxels"}},
+          "faults": {"depth": {"preset": "astra"}, "pose": {"kind": "walk"}},
+          "score": {"unit": "frame", "threshold": "auto"}, "detect": "all",
+          "sweep": {"faults.pose.kind": ["white", "walk"], "voxel_m": [0.05, 0.1]}})");
+  EXPECT_EQ(study, parse("scene: room.xml\ntrajectory: {waypoints_m_deg: [[0.5, 0.5, 0]]}\n"
+                         "methods: {direct: {segmentation: direct, place: voxels}}\n"
+                         "faults: {depth: {preset: astra}, pose: {kind: walk}}\n"
+                         "score: {unit: frame, threshold: auto}\ndetect: all\n"
+                         "sweep: {faults.pose.kind: [white, walk], voxel_m: [0.05, 0.1]}\n"));
+}
+
 TEST(Study, ARecordingNeedsNeitherSceneNorTrajectory) {
   const Study study = parse("recording: somewhere\nmethods: {d: {segmentation: {direct: {}}}}\n");
   EXPECT_EQ(study.recording, "somewhere");
@@ -267,64 +296,6 @@ TEST(Study, KnowsWhichLeavesDecideTheRecording) {
   EXPECT_TRUE(decides_recording("cameras.width_px"));
   EXPECT_TRUE(decides_recording("scene"));
   EXPECT_FALSE(decides_recording("voxel_m"));
-}
-
-TEST(Study, LoadsAFileFromDisk) {
-  const auto folder = std::filesystem::temp_directory_path() / "mapscore_study_test";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "kitchen.yaml") << kMinimal;
-  const Study study = load_study(folder / "kitchen.yaml");
-  EXPECT_EQ(study.name, "kitchen");
-  EXPECT_EQ(study.base_folder, folder);
-  std::filesystem::remove_all(folder);
-}
-
-/// The recording is replayed as it is; a flag may put one in the place of what is rendered.
-TEST(Study, RefusesWhatCannotActBesideARecording) {
-  const auto folder = std::filesystem::temp_directory_path() / "mapscore_study_recording_test";
-  std::filesystem::create_directories(folder);
-  const std::string methods = "methods: {d: {segmentation: {direct: {}}}}\n";
-  const auto load = [&](const std::string& text, const std::vector<std::string>& flags) {
-    std::ofstream(folder / "study.yaml") << text + methods;
-    return load_study(folder / "study.yaml", flags);
-  };
-  const std::string rendered = "scene: a.xml\ntrajectory: {waypoints_m_deg: [[0, 0, 0]]}\n";
-  EXPECT_EQ(load(rendered, {"recording=there"}).recording, "there");
-  const std::string why = "cannot act beside recording";
-  for (const char* key :
-       {"trajectory: {max_frames: 2}\n", "cameras: {width_px: 64}\n", "lidar: {}\n"})
-    mapscore::testing::expect_error(
-        why, [&] { (void)load(std::string("recording: there\n") + key, {}); });
-  mapscore::testing::expect_error(
-      why, [&] { (void)load("recording: there\n", {"cameras.width_px=64"}); });
-  mapscore::testing::expect_error(why, [&] {
-    (void)load(rendered, {"recording=there", "trajectory.max_frames=2"});
-  });
-  const Study stored = load(rendered, {"recording=there"});
-  EXPECT_EQ(parse_study(to_yaml(stored), folder / "study.yaml"), stored) << "a store is read again";
-  std::filesystem::remove_all(folder);
-}
-
-/// MAPSCORE_UPDATE_DOCS=1 in the environment writes the page anew.
-TEST(StudyReference, IsThePageInDocs) {
-  const std::filesystem::path page =
-      std::filesystem::path(MAPSCORE_SOURCE_DIR) / "docs/study_reference.md";
-  if (std::getenv("MAPSCORE_UPDATE_DOCS") != nullptr) std::ofstream(page) << config_reference();
-  std::ifstream stream(page);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  EXPECT_EQ(text, config_reference()) << "run with MAPSCORE_UPDATE_DOCS=1 to write it anew";
-}
-
-TEST(StudyReference, NamesTypeUnitDefaultAndRange) {
-  const std::string reference = config_reference();
-  EXPECT_THAT(reference, HasSubstr("| `voxel_m` | number | m | 0.05 | above 0, up to 10 |"));
-  EXPECT_THAT(reference, HasSubstr("| `methods.NAME.segmentation.erosion.radius_px` | whole number "
-                                   "| px | 5 |"));
-  EXPECT_THAT(reference, HasSubstr("| `faults.labels.score_concentration` | number |  | 10 |"));
-  EXPECT_THAT(reference, HasSubstr("| `faults.labels.score_mean` | number |  | - |"));
-  EXPECT_THAT(reference, HasSubstr("| `faults.labels.confusion_matrix` | list of list of number |  "
-                                   "| [] |"));
-  EXPECT_THAT(reference, HasSubstr("| `faults.pose.kind` | white, walk, constant |  | white |"));
 }
 
 }  // namespace

@@ -213,10 +213,12 @@ TEST_F(FiguresTest, MethodsThatMapNothingAreDrawnAndNamed) {
        {one_axis(1), synthetic_summary(synthetic_study({"direct", "erosion"}, {}, 1)),
         synthetic_summary(synthetic_study({"direct"}, {kShift, kTurn}, 1))}) {
     StudySummary summary = like;
+    Counts nothing(4);
+    nothing[1].visible = nothing[2].visible = 200;
     for (ResultLine& line : summary.trials) {
       if (line.method != "direct") continue;
-      line.pooled = Counts(4);
-      for (TrialResult& result : line.results) result.counts = Counts(4);
+      line.pooled = nothing;
+      for (TrialResult& result : line.results) result.counts = nothing;
     }
     EXPECT_GE(draw_figures(summary, folder_).size(), 12u);
     const FigureSheet sheet = accuracy_figure(summary, StudyLayout(summary));
@@ -224,15 +226,27 @@ TEST_F(FiguresTest, MethodsThatMapNothingAreDrawnAndNamed) {
   }
 }
 
+TEST_F(FiguresTest, WhereNothingIsVisibleNoMethodIsBlamed) {
+  StudySummary summary = one_axis(1);
+  for (auto* lines : {&summary.trials, &summary.registration_ceilings, &summary.lattice_ceilings})
+    for (ResultLine& line : *lines) {
+      line.pooled = Counts(4);
+      for (TrialResult& result : line.results) result.counts = Counts(4);
+    }
+  const std::string caption = accuracy_figure(summary, StudyLayout(summary)).caption;
+  EXPECT_THAT(caption, HasSubstr("Note: no truth voxel of a detected class was visible"));
+  EXPECT_THAT(caption, Not(HasSubstr("maps nothing")));
+  EXPECT_FALSE(draw_figures(summary, folder_).empty());
+}
+
 TEST_F(FiguresTest, ALowLatticeCeilingIsSaidBelow) {
   StudySummary summary = one_axis(1);
   EXPECT_THAT(accuracy_figure(summary, StudyLayout(summary)).caption,
               HasSubstr("Note: the lattice ceiling falls to a precision of 0.980"));
-  for (ResultLine& line : summary.lattice_ceilings)
-    for (TrialResult& result : line.results) {
-      result.counts[1] = testing::synthetic_counts(0.0, 0.0);
-      result.counts[2] = testing::synthetic_counts(0.02, 0.02);
-    }
+  for (ResultLine& line : summary.lattice_ceilings) {
+    line.pooled[1] = testing::synthetic_counts(0.0, 0.0);
+    line.pooled[2] = testing::synthetic_counts(0.02, 0.02);
+  }
   EXPECT_THAT(accuracy_figure(summary, StudyLayout(summary)).caption,
               ::testing::Not(HasSubstr("Note:")));
 }

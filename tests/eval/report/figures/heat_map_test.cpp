@@ -91,8 +91,8 @@ TEST_F(FiguresTest, TwoDosesMakeAHeatMapOfEachMethod) {
   ASSERT_EQ(measured.size(), 6u);
   EXPECT_EQ(measured[4], "20 0.5 0.844970414");
   // F1 of all: 0.902 (direct, no dose) to 0.835: lines of 0.82 to 0.92, by 0.02.
-  EXPECT_THAT(sheet->legend.front(), HasSubstr("title 'F1 = 0.82'"));
-  EXPECT_THAT(sheet->legend.back(), HasSubstr("title 'F1 = 0.92'"));
+  EXPECT_EQ(sheet->legend.front().title, "F1 = 0.82");
+  EXPECT_EQ(sheet->legend.back().title, "F1 = 0.92");
   for (const std::string& line : block(sheet->data, "# direct; lines of equal f1")) {
     const std::string level = line.substr(line.rfind(' ') + 1);
     EXPECT_TRUE(level == "0.86" || level == "0.88" || level == "0.9") << line;
@@ -153,8 +153,8 @@ TEST_F(FiguresTest, TitlesStandForNames) {
   summary.study.methods[1].title = "Erosion, 5 px";
   summary.study.class_titles["cup"] = "mug";
   const FigureSheet accuracy = accuracy_figure(summary, StudyLayout(summary));
-  EXPECT_THAT(accuracy.legend[1], HasSubstr("title 'Erosion, 5 px'"));
-  EXPECT_THAT(accuracy.caption, HasSubstr("detected: mug, chair;"));
+  EXPECT_EQ(accuracy.legend[1].title, "Erosion, 5 px");
+  EXPECT_THAT(accuracy.caption, HasSubstr("detected: mug, chair."));
   const auto by_class = class_figure(summary, StudyLayout(summary));
   EXPECT_EQ(by_class->panels[0].title, "mug");
   StudySummary bars = synthetic_summary(synthetic_study({"direct", "erosion"}, {}, 1));

@@ -46,7 +46,7 @@ TEST_F(FiguresTest, ClassesOverANamedAxisAreGroupedBars) {
       block(sheet->data, "# direct; recall; depth camera = ideal"),
       ElementsAre("-0.2667 \"cup\" 0.9 0.9 0.9 0.9 0.9", "0.7333 \"chair\" 0.8 0.8 0.8 0.8 0.8"));
   EXPECT_EQ(sheet->panels[3].y_label, "erosion");
-  EXPECT_THAT(sheet->legend, ::testing::Contains(HasSubstr("title 'kinect v1'")));
+  EXPECT_THAT(sheet->legend, ::testing::Contains(::testing::Field(&FigureKey::title, "kinect v1")));
   EXPECT_FALSE(class_figure(summary, StudyLayout(summary))) << "would show the same once more";
 }
 
@@ -83,13 +83,17 @@ TEST_F(FiguresTest, NoLineIsDrawnBetweenNames) {
       synthetic_summary(synthetic_study({"direct", "erosion"}, {kCamera}, 2));
   const FigureSheet sheet = accuracy_figure(summary, StudyLayout(summary));
   EXPECT_EQ(sheet.name, "accuracy_by_preset");
-  for (const std::vector<std::string>& texts : {sheet.panels[0].elements, sheet.legend})
-    for (const std::string& text : texts) EXPECT_THAT(text, Not(HasSubstr("linespoints")));
+  for (const std::string& text : sheet.panels[0].elements)
+    EXPECT_THAT(text, Not(HasSubstr("linespoints")));
+  for (const FigureKey& key : sheet.legend)
+    EXPECT_THAT(key.plotting, Not(HasSubstr("linespoints")));
   // Beside each other: two curves share a width of 0.7.
-  EXPECT_EQ(sheet.panels[0].elements.end()[-2],
-            "data index 0 using ($1-0.1750):2 with points pt 7 ps 0.9 lc rgb '#0072B2' notitle");
-  EXPECT_EQ(sheet.panels[0].elements.back(),
-            "data index 1 using ($1+0.1750):2 with points pt 5 ps 0.9 lc rgb '#D55E00' notitle");
+  EXPECT_EQ(
+      sheet.panels[0].elements.end()[-2],
+      "data index 0 using ($1-0.1750):2 with points pt 7 ps 1.2 lw 0.5 lc rgb '#0072B2' notitle");
+  EXPECT_EQ(
+      sheet.panels[0].elements.back(),
+      "data index 1 using ($1+0.1750):2 with points pt 5 ps 1.2 lw 0.5 lc rgb '#D55E00' notitle");
 }
 
 TEST_F(FiguresTest, AllNamesHaveAPanelOverTheThreshold) {

@@ -23,6 +23,7 @@ namespace mapscore::eval {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ElementsAre;
 using testing::FiguresTest;
 using ::testing::HasSubstr;
 using testing::kDraws;
@@ -91,6 +92,38 @@ TEST_F(FiguresTest, InPrintEveryPanelKeepsItsPlaceUnderItsTitleAndBesideItsAxis)
   EXPECT_EQ(print.panels[6].title, "depth camera =\nkinect v1");
   for (std::size_t i = 0; i < print.panels.size(); ++i)
     EXPECT_EQ(print.panels[i].x_label, i == 5 || i == 10 ? "misregistratio\nn (mm)" : "") << i;
+}
+
+/// A broad line about a small filled mark cuts its corners in a PDF.
+TEST_F(FiguresTest, MarksHaveThinLinesAndNumbersNoRoomForASign) {
+  const std::regex mark("with points pt (?:[4-9]|1[0-5]) ps [0-9.]+ ([^,]*)");
+  for (const StudySummary& summary : layouts()) {
+    fs::remove_all(folder_);
+    for (const fs::path& file : draw_figures(summary, folder_, column_style())) {
+      const std::string script = text_of(fs::path(file).replace_extension(".gp"));
+      EXPECT_THAT(script, HasSubstr("set format x '%g'")) << file;
+      for (std::sregex_iterator at(script.begin(), script.end(), mark), end; at != end; ++at)
+        EXPECT_THAT((*at)[1].str(), HasSubstr("lw 0.5 ")) << file;
+    }
+  }
+}
+
+/// Shares end at 1: only a label inside reaches above, and neither axis nor tics with it.
+TEST_F(FiguresTest, TheAxisOfCausesEndsAtOne) {
+  const std::regex range(
+      "set yrange \\[0:([0-9.]+)\\]; set ytics 0,0.2,1(; set border 1; set arrow)?");
+  for (StudySummary summary : layouts()) {
+    for (ResultLine& line : summary.trials)
+      for (ClassCounts& of_class : line.pooled) of_class = testing::synthetic_counts(1.0, 1.0);
+    const bool labelled = summary.study.sweep.size() > 1;
+    const FigureSheet sheet = causes_figure(summary, StudyLayout(summary, column_style()));
+    for (const Panel& panel : sheet.panels) {
+      std::smatch found;
+      ASSERT_TRUE(std::regex_search(panel.settings.back(), found, range));
+      EXPECT_EQ(std::stod(found[1]) > 1.0, labelled);
+      EXPECT_EQ(found[2].length() > 0, labelled);
+    }
+  }
 }
 
 TEST_F(FiguresTest, WithoutAWidthNothingIsArranged) {
@@ -202,22 +235,80 @@ TEST(FigureStyle, AFontThatIsNotInstalledIsFoundOut) {
   EXPECT_TRUE(substitute_font("No-Such Font 7"));
 }
 
+ToleranceRow tolerance_row(const char* path, const char* method) {
+  ToleranceRow made{path, figure_axis(field_of(Study{}, path), {"1"}), {}, method, "pooled", {}, {},
+                    {}};
+  made.search = {0.0, 0.04, 0.8, 42};
+  made.trials = {{0.0, 0.9}, {0.04, 0.5}};
+  made.tolerance.low = 0.01;
+  made.tolerance.high = 0.02;
+  return made;
+}
+
+TEST(ToleranceFigure, IsTitledByWhatTellsItsPanelsApart) {
+  const auto titles = [](const std::vector<ToleranceRow>& rows) {
+    std::vector<std::string> all;
+    for (const Panel& panel : tolerance_figure({}, {}, rows).panels) all.push_back(panel.title);
+    return all;
+  };
+  const ToleranceRow shift = tolerance_row("faults.misregistration.magnitude_m", "a");
+  const ToleranceRow mount = tolerance_row("faults.mount.magnitude_m", "a");
+  ToleranceRow chairs = shift;
+  chairs.group = "chair";
+  EXPECT_THAT(titles({shift}), ElementsAre(""));
+  EXPECT_THAT(titles({shift, mount}), ElementsAre("misregistration", "mount error"));
+  EXPECT_THAT(titles({shift, chairs}), ElementsAre("pooled", "chair"));
+  EXPECT_THAT(
+      titles({shift, chairs, mount}),
+      ElementsAre("misregistration, pooled", "misregistration, chair", "mount error, pooled"));
+}
+
+TEST(ToleranceFigure, InGreyTheBandsOfMethodsDiffer) {
+  FigureStyle style;
+  style.grey = true;
+  std::set<std::string> fills;
+  for (std::size_t n = 0; n < 6; ++n) fills.insert(band_fill(n, grey_tone(n), style));
+  EXPECT_EQ(fills.size(), 6u);
+  const FigureSheet sheet = tolerance_figure({}, {},
+                                             {tolerance_row("faults.mount.magnitude_m", "a"),
+                                              tolerance_row("faults.mount.magnitude_m", "b")},
+                                             style);
+  ASSERT_EQ(sheet.panels.size(), 1u);
+  for (const std::size_t n : {0, 1})
+    EXPECT_THAT(sheet.panels[0].settings,
+                ::testing::Contains(::testing::EndsWith(band_fill(n, "", style))));
+}
+
+TEST(ToleranceFigure, ABandThatIsOpenReachesToTheEndOfTheRange) {
+  using enum ToleranceVerdict;
+  ToleranceRow row = tolerance_row("faults.mount.magnitude_m", "a");
+  const auto band = [&](ToleranceVerdict verdict, std::optional<double> low,
+                        std::optional<double> high) -> std::string {
+    row.tolerance.verdict = verdict;
+    row.tolerance.low = low;
+    row.tolerance.high = high;
+    const FigureSheet sheet = tolerance_figure({}, {}, {row});
+    for (const std::string& setting : sheet.panels[0].settings)
+      if (setting.starts_with("set object")) return setting;
+    return "";
+  };
+  EXPECT_THAT(band(found, 0.01, 0.02), HasSubstr("from first 10, graph 0 to first 20, graph 1"));
+  EXPECT_THAT(band(found, std::nullopt, 0.02), HasSubstr("from first 0, graph 0 to first 20,"));
+  EXPECT_THAT(band(open, 0.01, std::nullopt), HasSubstr("from first 10, graph 0 to first 40,"));
+  EXPECT_EQ(band(above, 0.04, std::nullopt), "");
+  EXPECT_EQ(band(not_monotone, 0.01, 0.02), "") << "no interval stands in the table either";
+  EXPECT_THAT(tolerance_figure({}, {}, {row}).caption, HasSubstr("end of the range where it is"));
+}
+
 /// Each fault its own axis, named below its panel in print too.
 TEST_F(FiguresTest, InPrintEachPanelOfATolerancesFigureKeepsItsAxis) {
   FigureStyle style = column_style();
   style.grey = true;
-  const auto row = [](const char* path, const char* method) {
-    ToleranceRow made{
-        path, figure_axis(field_of(Study{}, path), {"1"}), {}, method, "pooled", {}, {}, {}};
-    made.search = {0.0, 0.04, 0.8, 42};
-    made.trials = {{0.0, 0.9}, {0.04, 0.5}};
-    return made;
-  };
   std::vector<ToleranceRow> rows;
   for (const char* method : {"a", "b"})
     for (const char* path : {"faults.misregistration.magnitude_m", "faults.mount.magnitude_m",
                              "faults.time_offset_ms", "faults.misregistration.angle_deg"})
-      rows.push_back(row(path, method));
+      rows.push_back(tolerance_row(path, method));
   const FigureSheet sheet = tolerance_figure({}, {}, rows, style);
   const FigureSheet print = arranged(sheet);
   ASSERT_EQ(print.columns, 2);

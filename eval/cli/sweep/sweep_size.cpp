@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/cli/shared/sweep_size.hpp"
+#include "eval/cli/sweep/sweep_size.hpp"
 
 #include "core/error.hpp"
 #include "eval/cli/shared/progress.hpp"
@@ -34,9 +34,13 @@ SweepSize::SweepSize(const Study& study, const std::filesystem::path& results)
       seeds_(static_cast<std::size_t>(study.seeds)),
       last_(read_status(results)) {}
 
+std::size_t SweepSize::trials() const {
+  return cells_ * methods_ * seeds_;
+}
+
 std::string SweepSize::grid() const {
   return fmt::format("{} x {} x {} = {}", counted(cells_, "cell"), counted(methods_, "method"),
-                     counted(seeds_, "seed"), counted(cells_ * methods_ * seeds_, "trial"));
+                     counted(seeds_, "seed"), counted(trials(), "trial"));
 }
 
 std::string SweepSize::time_of(std::size_t trials) const {
@@ -49,10 +53,9 @@ std::string SweepSize::time_of(std::size_t trials) const {
 }
 
 void SweepSize::refuse_many(bool yes) const {
-  const std::size_t trials = cells_ * methods_ * seeds_;
-  if (trials > kManyTrials && !yes)
+  if (trials() > kManyTrials && !yes)
     throw Error(
-        fmt::format("{}; time: {}; sweep fewer values, or add --yes", grid(), time_of(trials)));
+        fmt::format("{}; time: {}; sweep fewer values, or add --yes", grid(), time_of(trials())));
 }
 
 void print_dry_run(const Study& study, const std::filesystem::path& results, int shard, int shards,
@@ -63,7 +66,7 @@ void print_dry_run(const Study& study, const std::filesystem::path& results, int
   const TaskList tasks = plan_of(study, recording ? recording->content_hash() : "").tasks;
   std::unordered_set<std::string> held;
   std::size_t failed = 0;
-  const std::filesystem::path file = results / "results.sqlite";
+  const std::filesystem::path file = store_file(results);
   if (recording && std::filesystem::exists(file)) {
     const ResultStore store = ResultStore::open_existing(file);
     held = kept_keys(store, keep_builds);
@@ -72,9 +75,12 @@ void print_dry_run(const Study& study, const std::filesystem::path& results, int
       failed += failures.contains(tasks.key(n)) && !held.contains(tasks.key(n)) ? 1 : 0;
   }
   const std::size_t missing = missing_tasks(tasks, held, 1, 1).size();
-  const std::size_t ours = missing_tasks(tasks, held, shard, shards).size();
-  std::cout << fmt::format("study {}: {}, {} with ceilings\n", shown(study.name), size.grid(),
-                           tasks.size())
+  const std::size_t ours = shards > 1 ? missing_tasks(tasks, held, shard, shards).size() : missing;
+  std::cout << fmt::format("study {}: {}, {} with ceilings{}\n", shown(study.name), size.grid(),
+                           tasks.size(),
+                           tasks.size() < size.trials()
+                               ? ", as trials that differ in nothing their method reads are one"
+                               : "")
             << fmt::format(
                    "{}: {} there, {} missing{}{}\n", shown(results), tasks.size() - missing,
                    missing, failed ? fmt::format(", {} of them failed before", failed) : "",

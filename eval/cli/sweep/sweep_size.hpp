@@ -19,6 +19,7 @@ class SweepSize {
   /// `results`: whose last sweep measured a rate, if any did. Throws Error as read_status.
   SweepSize(const Study& study, const std::filesystem::path& results);
 
+  [[nodiscard]] std::size_t trials() const;
   /// "5 cells x 3 methods x 6 seeds = 90 trials".
   [[nodiscard]] std::string grid() const;
   /// How long so many trials take, and by what rate; or that no rate is known.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/frame_yields.hpp"
+#include "eval/lab/frame_yields.hpp"
 
 #include "eval/results/plan.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/cli/shared/sweep_flags.hpp"
+#include "eval/cli/sweep/sweep_flags.hpp"
 
 #include "core/error.hpp"
 #include "eval/cli/shared/slurm_jobs.hpp"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/cli/shared/slurm_sweep.hpp"
+#include "eval/cli/sweep/slurm_sweep.hpp"
 
 #include "eval/cli/shared/shard_stores.hpp"
 #include "eval/cli/shared/slurm_jobs.hpp"

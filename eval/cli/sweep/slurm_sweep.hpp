@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "eval/cli/shared/sweep_flags.hpp"
+#include "eval/cli/sweep/sweep_flags.hpp"
 #include "eval/results/store.hpp"
 #include "eval/results/task_list.hpp"
 

@@ -5,20 +5,20 @@
 #include "eval/cli/shared/live_status.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/shared/shard_stores.hpp"
-#include "eval/cli/shared/slurm_sweep.hpp"
 #include "eval/cli/shared/stop_signal.hpp"
-#include "eval/cli/shared/sweep_flags.hpp"
-#include "eval/cli/shared/sweep_size.hpp"
 #include "eval/cli/shared/truth_source.hpp"
+#include "eval/cli/sweep/slurm_sweep.hpp"
+#include "eval/cli/sweep/sweep_flags.hpp"
+#include "eval/cli/sweep/sweep_size.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/runner.hpp"
-#include "eval/render/replay_check.hpp"
 #include "eval/render/study_recording.hpp"
 #include "eval/report/summary.hpp"
 #include "eval/results/plan.hpp"
 #include "eval/results/shards.hpp"
 #include "eval/results/store.hpp"
 #include "eval/results/study_store.hpp"
+#include "eval/score/lattice_check.hpp"
 #include "files/folder_lock.hpp"
 #include "files/text.hpp"
 
@@ -176,10 +176,8 @@ int sweep(const SweepFlags& flags) {
   }
   SweepSize(study, whole).refuse_many(flags.yes);
 
-  ShownRecording display(flags.work.quiet);
-  const Recording recording = recording_of(study, whole, flags.work.jobs, display.progress());
-  if (const std::string note = note_on_baked(recording.info()); !note.empty())
-    std::cerr << "sweep: " << note << '\n';
+  const Recording recording =
+      shown_recording("sweep", study, whole, flags.work.jobs, flags.work.quiet);
   const ClassTable table = detected_table(study, recording.info().table);
   const Plan plan = plan_of(study, recording.content_hash());
   check_truth_size(study, recording, plan.tasks.size(), flags.yes);

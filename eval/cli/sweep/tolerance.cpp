@@ -7,14 +7,15 @@
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/shared/stop_signal.hpp"
-#include "eval/cli/shared/tolerance_search.hpp"
 #include "eval/cli/shared/truth_source.hpp"
+#include "eval/cli/sweep/tolerance_search.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/render/replay_check.hpp"
 #include "eval/render/study_recording.hpp"
 #include "eval/report/figures/frontier_figure.hpp"
 #include "eval/report/figures/tolerance_figure.hpp"
 #include "eval/results/study_store.hpp"
+#include "eval/score/lattice_check.hpp"
+#include "eval/statistics/frontier.hpp"
 #include "files/folder_lock.hpp"
 #include "files/text.hpp"
 
@@ -49,12 +50,11 @@ int tolerance(const ToleranceFlags& flags) {
   const FigureStyle style = flags.style.style();
   const Study study = flags.study.load();
   const std::filesystem::path results = flags.study.results_folder(study);
-  ShownRecording display(flags.work.quiet);
-  const Recording recording = recording_of(study, results, flags.work.jobs, display.progress());
-  if (const std::string note = note_on_baked(recording.info()); !note.empty())
-    std::cerr << "tolerance: " << note << '\n';
+  const Recording recording =
+      shown_recording("tolerance", study, results, flags.work.jobs, flags.work.quiet);
   const ClassTable table = detected_table(study, recording.info().table);
-  std::vector<ToleranceRow> rows = tolerance_searches(study, table, flags.aim, flags.choice);
+  const ToleranceChoice choice = with_whole_paths(study, flags.choice);
+  std::vector<ToleranceRow> rows = tolerance_searches(study, table, flags.aim, choice);
   const std::string reference = reference_method(flags.reference, rows);
   check_truth_size(study, recording, rows.size() * static_cast<std::size_t>(flags.aim.trials),
                    flags.yes);
@@ -64,8 +64,8 @@ int tolerance(const ToleranceFlags& flags) {
   ResultStore store = ResultStore::open(results / "results.sqlite");
   const StopSignal stop;
   const SearchCost cost = search_tolerances(
-      study, recording, table, flags.aim, flags.work, store, [&] { return stop.taken() != 0; },
-      rows);
+      study, recording, table, flags.aim, choice, flags.work, store,
+      [&] { return stop.taken() != 0; }, rows);
   if (cost.stopped) {
     std::cerr << fmt::format(
         "tolerance: stopped; {} trials were computed and are in {}; the same command goes on\n",
@@ -75,11 +75,14 @@ int tolerance(const ToleranceFlags& flags) {
   if (!flags.work.quiet)
     std::cerr << fmt::format("tolerance {}: {} trials computed, {} already there; {}\n", study.name,
                              cost.computed, cost.reused, shown(results / "results.sqlite"));
+  if (!cost.any_visible) std::cerr << "tolerance: note: " << LatticeCheck::kNothingVisible << '\n';
   if (!flags.figure.empty()) {
     const FolderLock figures(flags.figure);
-    const FigureSheet sheet = flags.choice.against.empty()
-                                  ? tolerance_figure(study, flags.aim, rows, style)
-                                  : frontier_figure(study, flags.aim, rows, style);
+    const std::string& against = choice.against;
+    std::vector<ToleranceRow> drawn = rows;
+    std::erase_if(drawn, [&](const ToleranceRow& row) { return row.path == against; });
+    const FigureSheet sheet = against.empty() ? tolerance_figure(study, flags.aim, drawn, style)
+                                              : frontier_figure(study, flags.aim, drawn, style);
     for (const auto& file : draw(sheet, flags.figure))
       std::cerr << "tolerance: " << shown(file) << '\n';
   }
@@ -100,19 +103,17 @@ void add_aim(CLI::App& verb, ToleranceFlags& flags) {
                   "[0.05]")
       ->check(finite_within(0.0, 1e9))
       ->excludes(target);
-  verb.add_option("--fault", flags.choice.faults, "Swept path; may be repeated [all]")
-      ->allow_extra_args(false);
-  verb.add_option("--method", flags.choice.methods, "May be repeated [all]")
-      ->allow_extra_args(false);
+  add_list(verb, "--fault", flags.choice.faults, "Swept paths or their ends, by commas [all]");
+  add_list(verb, "--method", flags.choice.methods, "Methods, by commas [all]");
   verb.add_option("--reference", flags.reference,
                   "Method whose tolerances the others' are compared with, paired by seed [first]");
-  verb.add_option("--against", flags.choice.against,
-                  fmt::format("Swept path of a second fault: the tolerances under each of its "
-                              "doses ({} over a range of two)",
-                              kFrontierDoses));
-  verb.add_option("--group", flags.choice.groups,
-                  "pooled, macro, a detected class, or all of these; may be repeated [pooled]")
-      ->allow_extra_args(false);
+  verb.add_option(
+      "--against", flags.choice.against,
+      fmt::format("Swept path of a second fault, or its end: the tolerances under each of its "
+                  "doses ({} over a range of two)",
+                  kFrontierDoses));
+  add_list(verb, "--group", flags.choice.groups,
+           "pooled, macro, detected classes, by commas, or all of these [pooled]");
   verb.add_option(
           "--trials", flags.aim.trials,
           fmt::format("Trials of a search, without {} that settle a doubt [42]", kDoubtTrials))
@@ -143,11 +144,11 @@ void add_tolerance(CLI::App& program, int& exit_code) {
       "Examples:\n"
       "  mapscore tolerance configs/demo.yaml\n"
       "  mapscore tolerance configs/demo.yaml --target 0.8 --figure results/demo/figures\n"
-      "  mapscore tolerance configs/tolerance.yaml --fault faults.time_offset_ms --format csv\n"
+      "  mapscore tolerance configs/tolerance.yaml --fault time_offset_ms --format csv\n"
       "  mapscore tolerance configs/demo.yaml --set "
       "sweep.faults.mount.magnitude_m=[0,0.1] --group all\n"
-      "  mapscore tolerance configs/tolerance.yaml --fault faults.misregistration.angle_deg "
-      "--against faults.pose.sigma_xy_m --figure FOLDER");
+      "  mapscore tolerance configs/tolerance.yaml --fault misregistration.angle_deg "
+      "--against pose.sigma_xy_m --figure FOLDER");
 }
 
 }  // namespace mapscore::eval
