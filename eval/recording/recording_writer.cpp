@@ -12,6 +12,8 @@
 #include "files/png.hpp"
 #include "files/refusal.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -168,8 +170,9 @@ RecordingWriter::RecordingWriter(const fs::path& folder, RecordingInfo info)
   state_->partial = state_->folder.string() + ".partial";
   state_->info = std::move(info);
   check_absent(state_->folder);
-  std::error_code ignored;
-  if (!fs::is_directory(fs::symlink_status(state_->partial))) fs::remove(state_->partial, ignored);
+  // A file or link of that name. Not std::filesystem::remove, which would take the empty folder that
+  // another process made a moment ago and locked.
+  unlink(state_->partial.c_str());
   state_->hold.emplace(state_->partial, WhenTaken::go_on);
   if (state_->hold->taken())
     refuse(state_->folder,

@@ -3,6 +3,7 @@
 
 #include "eval/recording/recording_writer.hpp"
 
+#include "core/error.hpp"
 #include "eval/recording/recording.hpp"
 #include "files/file_bytes.hpp"
 #include "tests/support/expect_error.hpp"
@@ -10,7 +11,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <barrier>
 #include <limits>
+#include <optional>
 #include <thread>
 
 namespace mapscore::eval {
@@ -102,6 +106,27 @@ TEST_F(Writer, ASecondWriterOfTheSameFolderIsRefusedAndHarmsNothing) {
   }
   EXPECT_EQ(Recording::open(out_).frame_count(), 4);
   expect_error("exists already", [&] { RecordingWriter third(out_, tiny_info()); });
+}
+
+TEST_F(Writer, OfTwoThatStartAtOnceOneWrites) {
+  for (int round = 0; round < 500; ++round) {
+    std::atomic<int> winners = 0;
+    std::barrier together(2);
+    const auto start = [&] {
+      std::optional<RecordingWriter> writer;
+      together.arrive_and_wait();
+      try {
+        writer.emplace(out_, tiny_info());
+        ++winners;
+      } catch (const Error&) {  // the loser's refusal
+      }
+      together.arrive_and_wait();  // both hold what they have
+    };
+    std::jthread other(start);
+    start();
+    other.join();
+    ASSERT_EQ(winners, 1) << "round " << round;
+  }
 }
 
 TEST_F(Writer, ALinkInThePlaceOfThePartialFolderIsNotWrittenThrough) {
