@@ -22,6 +22,9 @@ constexpr std::array<std::string_view, 11> kColumns{
 
 /// As many as a class table can have. Each takes some twenty times its bytes in the file.
 constexpr std::size_t kMostNames = 1 << 16;
+/// What a file without a header may have wanted.
+constexpr std::string_view kHeaders =
+    "the file has no header: write x,y,z,class above points in metres, i,j,k,class above voxels";
 /// `1,1,1` and the line's end.
 constexpr std::size_t kFewestRowBytes = 6;
 
@@ -81,19 +84,20 @@ class CsvReader {
     has_columns_ = true;
     column_count_ = cells.size();
     column_.fill(-1);
-    const bool header = !parse_real(cells[0]);
-    if (header) {
+    has_header_ = !parse_real(cells[0]);
+    if (has_header_) {
       for (std::size_t n = 0; n < cells.size(); ++n) take_column(cells[n], static_cast<int>(n));
     } else {
       constexpr std::array kInOrder{kI, kJ, kK, kClass, kProbability, kInstance};
       if (cells.size() < 3 || cells.size() > kInOrder.size())
-        refuse_row("expected i,j,k,class, then a probability and an instance if wanted");
+        refuse_row("{} cells, and {}, each with probability and instance if wanted", cells.size(),
+                   kHeaders);
       for (std::size_t n = 0; n < cells.size(); ++n) column_[kInOrder[n]] = static_cast<int>(n);
     }
     const bool voxels = has(kI) && has(kJ) && has(kK), points = has(kX) && has(kY) && has(kZ);
     if (voxels == points || has(kI) != voxels || has(kX) != points)
       refuse_row("the header needs i,j,k of voxels or x,y,z of points");
-    return header;
+    return has_header_;
   }
 
   void take_column(const std::string& name, int n) {
@@ -130,8 +134,9 @@ class CsvReader {
   [[nodiscard]] std::int32_t index(const Cells& cells, Column column) const {
     const auto value = parse_whole(cell(cells, column));
     if (!value || *value < -kFarthestIndex || *value > kFarthestIndex)
-      refuse_row("{} {} is no whole number within +-{}", kColumns[column],
-                 excerpt(cell(cells, column)), kFarthestIndex);
+      refuse_row("{} {} is no whole number within +-{}{}{}", kColumns[column],
+                 excerpt(cell(cells, column)), kFarthestIndex, has_header_ ? "" : "; ",
+                 has_header_ ? "" : kHeaders);
     return static_cast<std::int32_t>(*value);
   }
   [[nodiscard]] std::uint32_t whole(const Cells& cells, Column column) const {
@@ -228,7 +233,7 @@ class CsvReader {
 
   const std::filesystem::path& file_;
   std::size_t line_ = 0;
-  bool has_columns_ = false;
+  bool has_columns_ = false, has_header_ = false;
   std::size_t column_count_ = 0;
   std::array<int, kColumns.size()> column_{};
   std::vector<Row> rows_;

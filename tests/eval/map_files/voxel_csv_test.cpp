@@ -114,7 +114,10 @@ TEST_F(VoxelCsv, BadRows) {
   expect_refusal("i,j,class\n", "map.csv:1: the header needs i,j,k of voxels or x,y,z of points");
   expect_refusal("i,j,k,x,y,z\n", "the header needs i,j,k of voxels or x,y,z of points");
   expect_refusal("i,j,k,x\n", "the header needs i,j,k of voxels or x,y,z of points");
-  expect_refusal("1,2\n", "map.csv:1: expected i,j,k,class");
+  expect_refusal("1,2\n", "map.csv:1: 2 cells, and the file has no header: write x,y,z,class");
+  expect_refusal("0,1,2,cup\n0.5,1.25,2,cup\n",
+                 "map.csv:2: i '0.5' is no whole number within +-1000000; the file has no header: "
+                 "write x,y,z,class above points in metres, i,j,k,class above voxels");
   expect_refusal("0,0,0,cup\n0,0,1\n", "map.csv:2: 3 cells, the first line has 4");
   expect_refusal("0,0,0.5,cup\n", "map.csv:1: k '0.5' is no whole number within +-1000000");
   expect_refusal("0,0,1000001,cup\n", "map.csv:1: k '1000001' is no whole number");
