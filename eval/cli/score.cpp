@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "eval/cli/score_flags.hpp"
 #include "eval/cli/shared/map_score.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/truth_source.hpp"
@@ -22,30 +23,17 @@
 namespace mapscore::eval {
 namespace {
 
-struct ScoreFlags {
-  MapFlags map;
-  std::string truth, format = "text";
-  std::vector<std::string> detect;
-  std::optional<double> threshold;
-  bool details = false, tidy = false;
-  std::string picture, errors_ply;
-  ViewFlag view;
-  LatticeFlags lattice;
-  WorkFlags work;
-};
-
 void print(const ScoreFlags& flags, const std::vector<Table>& tables) {
+  if (flags.tidy) {  // for other tools: never as text
+    std::cout << (flags.format == "json" ? to_json(tables.front()) : to_csv(tables.front()));
+    return;
+  }
   if (flags.format == "json" && tables.size() > 1) {
     std::cout << to_json(tables);
     return;
   }
   for (std::size_t n = 0; n < tables.size(); ++n)
     std::cout << (n ? "\n" : "") << formatted(tables[n], flags.format);
-}
-
-/// For other tools: never as text.
-void print_tidy(const ScoreFlags& flags, const Table& table) {
-  std::cout << (flags.format == "json" ? to_json(table) : to_csv(table));
 }
 
 std::vector<std::string> caption_of(const ScoreFlags& flags, const InputMap& map,
@@ -81,7 +69,9 @@ std::string text_of(const std::vector<Leftover>& leftovers) {
 
 /// What the user may want to know, of figures that are right as they are.
 void note(const ScoreFlags& flags, const std::string& text) {
-  if (!flags.work.quiet) std::cerr << "mapscore: note: " << text << '\n';
+  if (flags.work.quiet) return;
+  std::cerr << "mapscore: note: " << (flags.maps.size() > 1 ? flags.map.file + ": " : "") << text
+            << '\n';
 }
 
 /// The verdicts that were asked for, in the scene and as points.
@@ -101,94 +91,80 @@ void write_errors(const ScoreFlags& flags, const InputMap& map, const MapScore& 
   draw_error_picture(flags.picture, judged, painter, flags.view.view(), T_world_depth);
 }
 
-void score_map(const ScoreFlags& flags) {
-  if (!flags.picture.empty()) check_picture_name(flags.picture);
-  if (flags.view.view() && flags.picture.empty())
-    throw Error("--view: needs --picture, the file that it is drawn into");
-  TruthSource source(flags.truth, flags.lattice, flags.work);
-  if (!flags.detect.empty()) source.detect(flags.detect);
-  const InputMap map = read_input_map(flags.map, source.table(), flags.lattice.voxel_m);
+void note_labels(const ScoreFlags& flags, const InputMap& map) {
   if (!map.leftovers.empty())
     note(flags,
          "labels without a meaning: " + text_of(map.leftovers) + "; --legend can give them one");
+  if (!map.unlisted.empty())
+    note(flags,
+         "labels that the legend does not list, which so mean what they mean in the truth's "
+         "table: " +
+             text_of(map.unlisted));
+}
+
+/// The tables of one map; `geometry`: whether the maps before it were without labels, if any were.
+std::vector<Table> score_map(const ScoreFlags& flags, TruthSource& source,
+                             std::optional<bool>& geometry) {
+  const InputMap map = read_input_map(flags.map, source.table(), flags.lattice.voxel_m);
+  if (geometry.value_or(map.geometry) != map.geometry)
+    throw Error(
+        fmt::format("{}: has {} labels, unlike the map before it; give --geometry to score "
+                    "the geometry of all, or score them one by one",
+                    flags.map.file, map.geometry ? "no" : "its own"));
+  geometry = map.geometry;
+  note_labels(flags, map);
   const double threshold =
       flags.threshold.value_or(map.geometry ? 0.0 : default_threshold(BlendRule{}));
   const MapScore score = score_input(map, flags.map, threshold, source, flags.work.jobs);
   if (!score.note.empty()) note(flags, score.note);
   write_errors(flags, map, score, source);
-  if (flags.tidy) return print_tidy(flags, tidy_table(score));
+  if (flags.tidy) return {tidy_table(score)};
   std::vector<Table> tables{class_table(score)};
   tables.front().caption = caption_of(flags, map, score, source);
   if (flags.details)
     for (Table& table : detail_tables(score)) tables.push_back(std::move(table));
-  print(flags, tables);
+  return tables;
 }
 
-LabelLegend legend_of(const ScoreFlags& flags, const ClassTable& table) {
-  if (flags.map.legend.empty()) return class_id_legend(table);
-  return
-      [legend = read_legend(flags.map.legend, table)](std::uint16_t id) -> std::optional<ClassId> {
-        const auto found = legend.ids.find(id);
-        return found == legend.ids.end() ? std::nullopt : std::optional(found->second);
-      };
-}
-
-/// A folder of label images is scored pixel by pixel: flags of voxels would do nothing.
-void check_label_flags(const ScoreFlags& flags) {
-  const LatticeFlags none;
-  const LatticeFlags& lattice = flags.lattice;
-  const std::pair<bool, const char*> idle[] = {
-      {!flags.picture.empty(), "--picture"},
-      {!flags.errors_ply.empty(), "--errors_ply"},
-      {flags.view.view().has_value(), "--view"},
-      {flags.threshold.has_value(), "--threshold"},
-      {!flags.detect.empty(), "--detect"},
-      {!flags.map.transform.empty(), "--transform"},
-      {flags.map.geometry, "--geometry"},
-      {flags.map.resample, "--resample"},
-      {flags.map.skip_nan, "--skip_nan"},
-      {flags.map.trust_frame, "--trust_frame"},
-      {lattice.voxel_m != none.voxel_m, "--voxel_m"},
-      {lattice.origin_m != none.origin_m, "--origin_m"},
-      {lattice.yaw_deg != none.yaw_deg, "--yaw_deg"},
-      {lattice.epsilon_m != none.epsilon_m, "--epsilon_m"},
-      {lattice.min_samples != none.min_samples, "--min_samples"}};
-  for (const auto& [given, flag] : idle)
+/// Several maps are one table: what there is one of for each map has no place.
+void check_several(const ScoreFlags& flags) {
+  const std::pair<bool, const char*> of_one[] = {{flags.details, "--details"},
+                                                 {!flags.picture.empty(), "--picture"},
+                                                 {!flags.errors_ply.empty(), "--errors_ply"}};
+  for (const auto& [given, flag] : of_one)
     if (given)
       throw Error(
-          fmt::format("{}: {} is a folder of label images, which have no voxels; leave it out",
-                      flag, flags.map.file));
+          fmt::format("{}: is of one map, and {} are given; score them one by one, or with "
+                      "--tidy, which prints every figure",
+                      flag, flags.maps.size()));
+  const auto is_folder = [](const std::string& map) { return std::filesystem::is_directory(map); };
+  const auto folders = std::ranges::count_if(flags.maps, is_folder);
+  if (folders > 0 && folders < std::ssize(flags.maps))
+    throw Error(*std::ranges::find_if(flags.maps, is_folder) +
+                ": label images are scored by pixels and maps by voxels; score them apart");
 }
 
-void score_label_images(const ScoreFlags& flags) {
-  check_label_flags(flags);
-  TruthSource source(flags.truth, flags.lattice, flags.work);
-  if (!source.recording())
-    throw Error(flags.map.file + ": a folder of label images needs a recording as --truth");
-  std::error_code none;
-  // The recording's own label images hold numbers of instances, which would pass for classes.
-  if (std::filesystem::equivalent(flags.map.file, source.recording()->folder() / "label", none))
-    throw Error(flags.map.file +
-                ": holds ids of instances, the truth; label images to score hold ids of classes");
-  const ConfusionMatrix matrix =
-      label_folder_confusion(*source.recording(), flags.map.file, source.frames(),
-                             legend_of(flags, source.table()), flags.work.jobs);
-  if (flags.tidy) return print_tidy(flags, tidy_label_table(matrix, source.table()));
-  std::vector<Table> tables = label_tables(matrix, source.table());
-  tables.front().caption.insert(tables.front().caption.begin(),
-                                fmt::format("{} against the label images of {}, {} frames",
-                                            flags.map.file, flags.truth, source.frames().size()));
-  if (!flags.details) tables.resize(1);
-  print(flags, tables);
-}
-
-void score(const ScoreFlags& flags) {
+void score(const ScoreFlags& all) {
+  ScoreFlags flags = all;
   if (flags.details && flags.format == "csv")
     throw Error("--details: --format csv holds one table; --tidy prints everything as one");
-  if (std::filesystem::is_directory(flags.map.file))
-    score_label_images(flags);
-  else
-    score_map(flags);
+  if (flags.maps.size() > 1) check_several(flags);
+  if (!flags.picture.empty()) check_picture_name(flags.picture);
+  if (flags.view.view() && flags.picture.empty())
+    throw Error("--view: needs --picture, the file that it is drawn into");
+  TruthSource source(flags.truth, flags.lattice, flags.work);
+  if (!flags.detect.empty()) source.detect(flags.detect);
+  std::vector<Table> tables;
+  std::optional<bool> geometry;
+  for (const std::string& map : flags.maps) {
+    flags.map.file = map;
+    std::vector<Table> of_map = std::filesystem::is_directory(map)
+                                    ? score_label_images(flags, source)
+                                    : score_map(flags, source, geometry);
+    if (flags.maps.size() == 1) return print(flags, of_map);
+    tables.push_back(std::move(of_map.front()));
+  }
+  print(flags, {tables_beside(flags.maps, tables)});
 }
 
 }  // namespace
@@ -196,6 +172,11 @@ void score(const ScoreFlags& flags) {
 void add_score(CLI::App& program) {
   const auto [verb, flags] = add_verb<ScoreFlags>(
       program, "score", "Score any map against the truth of a recording or a scene", score);
+  verb->add_option("MAP", flags->maps,
+                   map_endings() +
+                       "; a .csv has i,j,k,class or x,y,z,class; or a folder of label images; "
+                       "several: one table")
+      ->required();
   flags->map.add_to(*verb);
   verb->add_option("--truth", flags->truth, "Recording, or scene (MJCF)")->required();
   verb->add_option("--threshold", flags->threshold,
@@ -216,6 +197,7 @@ void add_score(CLI::App& program) {
   verb->footer(
       "Examples:\n"
       "  mapscore score map.ot --truth /data/apartment --details\n"
+      "  mapscore score mine.ot theirs.ply voxels.csv --truth /data/apartment\n"
       "  mapscore score rgb.ply --legend legend.yaml --truth /data/apartment\n"
       "  mapscore score octomap.bt --truth scenes/apartment.xml\n"
       "  mapscore score map.ot --truth /data/apartment --picture errors.png --view 4 1 2 5 3 0.8\n"

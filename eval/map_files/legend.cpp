@@ -99,23 +99,19 @@ std::optional<ClassId> look_up(const Map& entries, const Key& key) {
   return found == entries.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::optional<ClassId> meaning_of(const MapFile& map, std::uint32_t label,
-                                  const std::optional<Legend>& legend, const ClassTable& table) {
-  switch (map.label_kind) {
-    case LabelKind::colour:
-      return legend ? look_up(legend->colours, label) : class_of_colour(label, table);
-    case LabelKind::id:
-      if (legend) return look_up(legend->ids, label);
-      return label < table.classes.size() ? std::optional(table.classes[label].id) : std::nullopt;
-    case LabelKind::name: {
-      const std::string& name = map.names[label];
-      const auto meant = legend ? look_up(legend->names, name) : std::nullopt;
-      return meant ? meant : class_of_name(name, table);
-    }
-    case LabelKind::none:
-      break;
-  }
-  return std::nullopt;
+/// What the legend says of a label, if anything.
+std::optional<ClassId> said_by(const Legend& legend, const MapFile& map, std::uint32_t label) {
+  if (map.label_kind == LabelKind::colour) return look_up(legend.colours, label);
+  if (map.label_kind == LabelKind::id) return look_up(legend.ids, label);
+  return look_up(legend.names, map.names[label]);
+}
+
+/// The class of the truth's table whose colour, id or name a label is.
+std::optional<ClassId> own_class_of(const MapFile& map, std::uint32_t label,
+                                    const ClassTable& table) {
+  if (map.label_kind == LabelKind::colour) return class_of_colour(label, table);
+  if (map.label_kind == LabelKind::name) return class_of_name(map.names[label], table);
+  return label < table.classes.size() ? std::optional(table.classes[label].id) : std::nullopt;
 }
 
 /// The legend's section for labels of this kind, and how many entries it has.
@@ -131,24 +127,47 @@ void sort_by_count(std::vector<Leftover>& labels) {
   });
 }
 
-[[noreturn]] void refuse_meaningless(const MapFile& map, const std::vector<Leftover>& labels,
-                                     const std::optional<Legend>& legend) {
+/// The commonest of labels, with their counts.
+std::string listed(const std::vector<Leftover>& labels) {
   constexpr std::size_t kShown = 5;
-  std::string listed;
+  std::string text;
   for (std::size_t n = 0; n < std::min(kShown, labels.size()); ++n)
-    listed += fmt::format("{}{} ({} times)", n == 0 ? "" : ", ", excerpt(labels[n].label),
-                          labels[n].count);
-  if (labels.size() > kShown) listed += fmt::format(" and {} more", labels.size() - kShown);
-  if (listed.empty()) listed = "all are background";
+    text += fmt::format("{}{} ({} times)", n == 0 ? "" : ", ", excerpt(labels[n].label),
+                        labels[n].count);
+  if (labels.size() > kShown) text += fmt::format(" and {} more", labels.size() - kShown);
+  return text.empty() ? "all are background" : text;
+}
+
+/// Of labels whose meaning nobody knows: more different colours than this, and more elements.
+constexpr std::size_t kCameraColours = 1000;
+constexpr double kMostOfACamera = 0.5, kMostMeaningless = 0.95;
+
+/// Throws Error when the map's labels do not say classes: `meaningless` of `all` occupied elements
+/// have a label without a meaning, and `some` one that means a class.
+void check_meanings(const MapFile& map, const std::vector<Leftover>& leftovers, std::size_t all,
+                    bool some, const std::optional<Legend>& legend) {
+  std::size_t meaningless = 0;
+  for (const Leftover& label : leftovers) meaningless += label.count;
+  const double share =
+      static_cast<double>(meaningless) / static_cast<double>(std::max(all, std::size_t{1}));
   const auto [section, entries] = section_of(map.label_kind, legend.value_or(Legend{}));
-  const std::string what =
-      legend && entries == 0
-          ? fmt::format("the map's labels are {}, and the legend has none", section)
-          : "no label of the map means a class";
-  throw Error(
-      fmt::format("{}: {}; give their meaning under `{}` of a file for --legend, or score "
-                  "the geometry alone with --geometry",
-                  what, listed, section));
+  const std::string mend = fmt::format(
+      "give their meaning under `{}` of a file for --legend, or score the geometry alone with "
+      "--geometry",
+      section);
+  if (map.label_kind == LabelKind::colour && leftovers.size() > kCameraColours &&
+      share > kMostOfACamera)
+    throw Error(fmt::format(
+        "{} different colours without a meaning, on {:.1f} % of the map: these are a camera's "
+        "colours rather than those of classes; {}",
+        leftovers.size(), 100.0 * share, mend));
+  if (!some && legend && entries == 0)
+    throw Error(fmt::format("the map's labels are {}, and the legend has none: {}; {}", section,
+                            listed(leftovers), mend));
+  if (!some) throw Error("no label of the map means a class: " + listed(leftovers) + "; " + mend);
+  if (share > kMostMeaningless)
+    throw Error(fmt::format("the labels of {:.1f} % of the map mean no class: {}; {}",
+                            100.0 * share, listed(leftovers), mend));
 }
 
 }  // namespace
@@ -183,22 +202,36 @@ Labelling apply_legend(const MapFile& map, const std::optional<Legend>& legend,
 
   struct Known {
     std::optional<ClassId> meaning;
+    bool by_legend = false;
     std::size_t count = 0;
   };
   std::unordered_map<std::uint32_t, Known> known;
   bool some = false;
+  std::size_t occupied = 0;
   for (std::size_t n = 0; n < map.size(); ++n) {
     const auto [entry, is_new] = known.try_emplace(map.labels[n]);
-    if (is_new) entry->second.meaning = meaning_of(map, map.labels[n], legend, table);
-    if (map.is_occupied(n)) ++entry->second.count;
-    labelling.classes[n] = entry->second.meaning.value_or(kBackground);
-    some = some || (map.is_occupied(n) && labelling.classes[n] != kBackground);
+    Known& label = entry->second;
+    if (is_new) {
+      if (legend) label.meaning = said_by(*legend, map, map.labels[n]);
+      label.by_legend = label.meaning.has_value();
+      if (!label.meaning) label.meaning = own_class_of(map, map.labels[n], table);
+    }
+    labelling.classes[n] = label.meaning.value_or(kBackground);
+    if (!map.is_occupied(n)) continue;
+    ++label.count;
+    ++occupied;
+    some = some || labelling.classes[n] != kBackground;
   }
-  for (const auto& [label, of_label] : known)
-    if (!of_label.meaning && of_label.count > 0)
+  for (const auto& [label, of_label] : known) {
+    if (of_label.count == 0 || of_label.by_legend) continue;
+    if (!of_label.meaning)
       labelling.leftovers.push_back({spelt(map, label), of_label.count});
+    else if (legend && map.label_kind != LabelKind::name && *of_label.meaning != kBackground)
+      labelling.unlisted.push_back({spelt(map, label), of_label.count});
+  }
   sort_by_count(labelling.leftovers);
-  if (!some) refuse_meaningless(map, labelling.leftovers, legend);
+  sort_by_count(labelling.unlisted);
+  check_meanings(map, labelling.leftovers, occupied, some, legend);
   return labelling;
 }
 

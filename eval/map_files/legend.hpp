@@ -41,12 +41,14 @@ struct Leftover {
 struct Labelling {
   std::vector<ClassId> classes;     ///< kBackground: none
   std::vector<Leftover> leftovers;  ///< most frequent first, then by label
+  /// Colours and ids of a class that a legend does not list; in the same order.
+  std::vector<Leftover> unlisted;
 };
 
-/// Gives the labels of a map their meaning. Colours and ids mean what the legend says and nothing
-/// else; without a legend a class's own colour and id. Names mean what the legend says, else their
-/// own class. Throws Error with the commonest labels when the map has labels and none means a
-/// class, or when a colour without a legend is that of two classes.
+/// Gives the labels of a map their meaning: what the legend says, else a class's own colour, id or
+/// name. Throws Error with the commonest labels when the map has labels and none means a class,
+/// when those of more than 95 % of its occupied elements mean nothing (more than half of them in
+/// more than 1000 colours: a camera's), or for a colour of two classes that no legend lists.
 [[nodiscard]] Labelling apply_legend(const MapFile& map, const std::optional<Legend>& legend,
                                      const ClassTable& table);
 

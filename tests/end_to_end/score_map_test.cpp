@@ -5,6 +5,7 @@
 #include "tests/end_to_end/program.hpp"
 #include "tests/end_to_end/tiny_study.hpp"
 
+#include <fmt/format.h>
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
 
@@ -113,9 +114,16 @@ TEST_F(ScoreMap, OfAColorOcTreeInClassColours) {
   ASSERT_TRUE(tree.write(path("map.ot")));
   EXPECT_GT(std::stod(figure("map.ot", "crate,f1")), 0.95);
 
+  // A legend amends the class table, and a note says what it left to the table.
+  const std::string crate = fmt::format("{:02X}{:02X}{:02X}", table.classes[1].colour.r,
+                                        table.classes[1].colour.g, table.classes[1].colour.b);
   write_text(path("legend.yaml"), "colours: {\"123456\": crate}\n");
-  const Outcome none = score("map.ot", {"--legend", path("legend.yaml")});
-  expect_refused(none, {"map.ot", "--legend", "--geometry"});
+  const Outcome amended = score("map.ot", {"--legend", path("legend.yaml")});
+  expect_done(amended);
+  EXPECT_NE(amended.err.find("does not list"), std::string::npos) << amended.err;
+  EXPECT_NE(amended.err.find(crate), std::string::npos) << amended.err;
+  write_text(path("legend.yaml"), "colours: {\"" + crate + "\": wall}\n");
+  EXPECT_EQ(figure("map.ot", "crate,predicted", {"--legend", path("legend.yaml")}), "0");
   EXPECT_EQ(figure("map.ot", "surface,recall", {"--geometry"}), "1");
 }
 
@@ -198,6 +206,43 @@ TEST_F(ScoreMap, DetectChoosesWhatPooledFiguresAreOver) {
   EXPECT_NE(pooled({"--detect", "all"}).find("over: crate, wall\n"), std::string::npos);
   EXPECT_EQ(pooled({"--detect", "crate,wall"}), pooled({"--detect", "all"}));
   expect_refused(score("truth.csv", {"--detect", "cup"}), {"detect", "cup"});
+}
+
+TEST_F(ScoreMap, SeveralMapsStandInOneTable) {
+  expect_done(mapscore({"truth", path("tiny"), "-o", path("good.csv")}));
+  write_text(path("one.csv"), "i,j,k,class\n1,1,1,crate\n");
+  const auto rows = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"score",   path("good.csv"), path("one.csv"),
+                                       "--truth", path("tiny"),     "--trust_frame"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return mapscore(arguments);
+  };
+  // Each figure as it is of the map alone, under the map's name.
+  const Outcome both = rows({"--tidy"});
+  expect_done(both);
+  EXPECT_TRUE(both.out.starts_with("class,map,metric,value\n")) << both.out;
+  for (const char* map : {"good.csv", "one.csv"})
+    for (const char* metric : {"f1", "predicted"})
+      EXPECT_NE(both.out.find(
+                    fmt::format("pooled,{},{},{}\n", path(map), metric,
+                                figure(map, fmt::format("pooled,{}", metric), {"--trust_frame"}))),
+                std::string::npos)
+          << map << both.out;
+  // The maps beneath each other, class by class.
+  const std::string csv = rows({"--format", "csv"}).out;
+  const auto row = [&](const char* group, const char* map) {
+    return csv.find(fmt::format("\n{},{},", group, path(map)));
+  };
+  EXPECT_LT(row("crate", "one.csv"), row("pooled", "good.csv")) << csv;
+  EXPECT_LT(row("pooled", "good.csv"), row("pooled", "one.csv"));
+  EXPECT_LT(row("pooled", "one.csv"), row("macro", "good.csv"));
+  EXPECT_NE(row("macro", "one.csv"), std::string::npos);
+  expect_refused(rows({"--details"}), {"--details", "2 are given"});
+  expect_refused(rows({"--picture", path("a.png")}), {"--picture", "one by one"});
+  std::filesystem::copy(path("tiny/label"), path("network"));
+  expect_refused(rows({path("network")}), {"network", "pixels"});
+  write_text(path("bare.csv"), "i,j,k\n1,1,1\n");
+  expect_refused(rows({path("bare.csv")}), {"bare.csv", "no labels", "--geometry"});
 }
 
 TEST_F(ScoreMap, LabelImagesAgainstThemselves) {

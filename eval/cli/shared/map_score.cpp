@@ -100,10 +100,6 @@ std::vector<InstanceCounts> instances_of(const InputMap& map, double threshold,
 }  // namespace
 
 void MapFlags::add_to(CLI::App& verb) {
-  verb.add_option(
-          "MAP", file,
-          map_endings() + "; a .csv has i,j,k,class or x,y,z,class; or a folder of label images")
-      ->required();
   verb.add_option("--legend", legend, "YAML: what the map's colours, ids and names mean");
   verb.add_flag("--geometry", geometry, "Leave labels out: score where something is, not what");
   verb.add_option("--transform", transform,
@@ -126,9 +122,10 @@ InputMap read_input_map(const MapFlags& flags, const ClassTable& table, double e
   if (!flags.legend.empty()) legend = read_legend(flags.legend, table);
   try {
     Labelling labelling = map.geometry
-                              ? Labelling{std::vector<ClassId>(file.size(), kSurfaceClass), {}}
+                              ? Labelling{std::vector<ClassId>(file.size(), kSurfaceClass), {}, {}}
                               : apply_legend(file, legend, table);
     map.leftovers = std::move(labelling.leftovers);
+    map.unlisted = std::move(labelling.unlisted);
     LatticeMap lattice = on_lattice(file, labelling.classes, transform_of(flags.transform), edge_m,
                                     flags.resample ? Resample::allow : Resample::refuse);
     for (std::size_t n = 0; n < lattice.instances.size(); ++n)

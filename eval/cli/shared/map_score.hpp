@@ -35,6 +35,7 @@ struct InputMap {
   std::vector<NumberedVoxel> numbers;  ///< of objects; empty where the file has none
   bool geometry = false;               ///< without classes: occupied voxels are of kSurfaceClass
   std::vector<Leftover> leftovers;     ///< labels that mean nothing
+  std::vector<Leftover> unlisted;      ///< labels that the legend leaves to the truth's table
   std::string placing;                 ///< in words, how it came onto the lattice
 };
 
@@ -68,6 +69,12 @@ struct MapScore {
 [[nodiscard]] std::vector<Table> detail_tables(const MapScore& score);
 /// All of it, one row a class and metric: class,metric,value.
 [[nodiscard]] Table tidy_table(const MapScore& score);
+
+/// Tables with the same columns as one: the rows of each first cell, such as a class, stand
+/// together, in the tables' order, with a column `map` of their names; of equal lines of captions
+/// one is kept.
+[[nodiscard]] Table tables_beside(const std::vector<std::string>& names,
+                                  const std::vector<Table>& tables);
 
 /// Labelled images against the recording's: by class, and the confusion matrix.
 [[nodiscard]] std::vector<Table> label_tables(const ConfusionMatrix& matrix,

@@ -213,6 +213,26 @@ Table tidy_table(const MapScore& score) {
   return table;
 }
 
+Table tables_beside(const std::vector<std::string>& names, const std::vector<Table>& tables) {
+  Table all{{}, tables.front().columns, {}, 2};
+  all.columns.insert(all.columns.begin() + 1, "map");
+  std::vector<std::string> groups;
+  for (const Table& table : tables) {
+    for (const std::string& line : table.caption)
+      if (std::ranges::find(all.caption, line) == all.caption.end()) all.caption.push_back(line);
+    for (const auto& row : table.rows)
+      if (std::ranges::find(groups, row.front()) == groups.end()) groups.push_back(row.front());
+  }
+  for (const std::string& group : groups)
+    for (std::size_t n = 0; n < tables.size(); ++n)
+      for (std::vector<std::string> row : tables[n].rows) {
+        if (row.front() != group) continue;
+        row.insert(row.begin() + 1, names[n]);
+        all.rows.push_back(std::move(row));
+      }
+  return all;
+}
+
 std::vector<Table> label_tables(const ConfusionMatrix& matrix, const ClassTable& table) {
   Table by_class;
   for (const Metric& metric : label_metrics(matrix))

@@ -100,12 +100,20 @@ TEST(ApplyLegend, AColourOfTwoClassesNeedsALegend) {
   EXPECT_EQ(apply_legend(map, legend, household()).classes, Classes{3});
 }
 
-TEST(ApplyLegend, ColoursAndIdsMeanWhatTheLegendSaysAndNothingElse) {
+TEST(ApplyLegend, IdsAndColoursThatALegendDoesNotListKeepTheirOwnMeaning) {
   Legend legend;
-  legend.ids = {{7, 2}, {8, kBackground}};
-  const Labelling ids = apply_legend(labelled(LabelKind::id, {7, 8, 1}), legend, household());
-  EXPECT_EQ(ids.classes, (Classes{2, 0, 0}));
-  EXPECT_EQ(ids.leftovers, (Leftovers{{"1", 1}}));
+  legend.ids = {{7, 2}, {8, kBackground}, {3, 1}};
+  const Labelling ids =
+      apply_legend(labelled(LabelKind::id, {7, 8, 1, 3, 9, 0}), legend, household());
+  EXPECT_EQ(ids.classes, (Classes{2, 0, 1, 1, 0, 0}));
+  EXPECT_EQ(ids.leftovers, (Leftovers{{"9", 1}}));
+  EXPECT_EQ(ids.unlisted, (Leftovers{{"1", 1}}));
+  legend.colours = {{0x0000ff, 3}, {0x123456, 1}};
+  const Labelling colours = apply_legend(
+      labelled(LabelKind::colour, {0x0000ff, 0x123456, 0xff0000}), legend, household());
+  EXPECT_EQ(colours.classes, (Classes{3, 1, 1}));
+  EXPECT_EQ(colours.unlisted, (Leftovers{{"FF0000", 1}}));
+  EXPECT_TRUE(apply_legend(labelled(LabelKind::id, {1, 2}), {}, household()).unlisted.empty());
 }
 
 TEST(ApplyLegend, NamesKeepTheirOwnMeaningBesideTheLegends) {
@@ -125,6 +133,36 @@ TEST(ApplyLegend, FreeVoxelsLeaveNothingOver) {
   map.occupied = {0, 0, 1};
   expect_error("no label of the map means a class",
                [&] { (void)apply_legend(map, {}, household()); });
+}
+
+/// `meaningless` elements of label 99 among 1000, the others of class 1.
+MapFile mostly(LabelKind kind, std::size_t meaningless) {
+  std::vector<std::uint32_t> labels(1000, kind == LabelKind::colour ? 0xff0000u : 1u);
+  std::fill_n(labels.begin(), meaningless, 99u);
+  return labelled(kind, std::move(labels));
+}
+
+TEST(ApplyLegend, LabelsThatMostlyMeanNothingAreRefused) {
+  for (const LabelKind kind : {LabelKind::id, LabelKind::colour}) {
+    EXPECT_EQ(apply_legend(mostly(kind, 950), {}, household()).leftovers.front().count, 950u);
+    expect_error("the labels of 95.1 % of the map mean no class: ",
+                 [&] { (void)apply_legend(mostly(kind, 951), {}, household()); });
+  }
+  Legend legend;  // says that they are no class, so they mean something
+  legend.ids = {{99, kBackground}, {7, 1}};
+  EXPECT_TRUE(apply_legend(mostly(LabelKind::id, 999), legend, household()).leftovers.empty());
+}
+
+TEST(ApplyLegend, ACamerasColoursAreNamedForWhatTheyAre) {
+  std::vector<std::uint32_t> labels(2002, 0xff0000);  // and half of them, and one, all different
+  for (std::uint32_t n = 0; n < 1002; ++n) labels[n] = 0x1000 + n;
+  expect_error(
+      "1002 different colours without a meaning, on 50.0 % of the map: these are a camera's",
+      [&] { (void)apply_legend(labelled(LabelKind::colour, labels), {}, household()); });
+  labels.push_back(0xff0000);
+  labels.push_back(0xff0000);
+  EXPECT_EQ(apply_legend(labelled(LabelKind::colour, labels), {}, household()).leftovers.size(),
+            1002u);
 }
 
 TEST(ApplyLegend, GeometryAloneHasNoClassesAndThatIsNoError) {

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/error.hpp"
+#include "eval/cli/score_flags.hpp"
+#include "eval/score/label_images.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+namespace mapscore::eval {
+namespace {
+
+LabelLegend legend_of(const ScoreFlags& flags, const ClassTable& table) {
+  const LabelLegend own = class_id_legend(table);
+  if (flags.map.legend.empty()) return own;
+  return [own, legend = read_legend(flags.map.legend, table)](
+             std::uint16_t id) -> std::optional<ClassId> {
+    const auto found = legend.ids.find(id);
+    return found == legend.ids.end() ? own(id) : std::optional(found->second);
+  };
+}
+
+/// A folder of label images is scored pixel by pixel: flags of voxels would do nothing.
+void check_label_flags(const ScoreFlags& flags) {
+  const LatticeFlags none;
+  const LatticeFlags& lattice = flags.lattice;
+  const std::pair<bool, const char*> idle[] = {
+      {!flags.picture.empty(), "--picture"},
+      {!flags.errors_ply.empty(), "--errors_ply"},
+      {flags.view.view().has_value(), "--view"},
+      {flags.threshold.has_value(), "--threshold"},
+      {!flags.detect.empty(), "--detect"},
+      {!flags.map.transform.empty(), "--transform"},
+      {flags.map.geometry, "--geometry"},
+      {flags.map.resample, "--resample"},
+      {flags.map.skip_nan, "--skip_nan"},
+      {flags.map.trust_frame, "--trust_frame"},
+      {lattice.voxel_m != none.voxel_m, "--voxel_m"},
+      {lattice.origin_m != none.origin_m, "--origin_m"},
+      {lattice.yaw_deg != none.yaw_deg, "--yaw_deg"},
+      {lattice.epsilon_m != none.epsilon_m, "--epsilon_m"},
+      {lattice.min_samples != none.min_samples, "--min_samples"}};
+  for (const auto& [given, flag] : idle)
+    if (given)
+      throw Error(
+          fmt::format("{}: {} is a folder of label images, which have no voxels; leave it out",
+                      flag, flags.map.file));
+}
+
+}  // namespace
+
+std::vector<Table> score_label_images(const ScoreFlags& flags, TruthSource& source) {
+  check_label_flags(flags);
+  if (!source.recording())
+    throw Error(flags.map.file + ": a folder of label images needs a recording as --truth");
+  std::error_code none;
+  // The recording's own label images hold numbers of instances, which would pass for classes.
+  if (std::filesystem::equivalent(flags.map.file, source.recording()->folder() / "label", none))
+    throw Error(flags.map.file +
+                ": holds ids of instances, the truth; label images to score hold ids of classes");
+  const ConfusionMatrix matrix =
+      label_folder_confusion(*source.recording(), flags.map.file, source.frames(),
+                             legend_of(flags, source.table()), flags.work.jobs);
+  if (flags.tidy) return {tidy_label_table(matrix, source.table())};
+  std::vector<Table> tables = label_tables(matrix, source.table());
+  tables.front().caption.insert(tables.front().caption.begin(),
+                                fmt::format("{} against the label images of {}, {} frames",
+                                            flags.map.file, flags.truth, source.frames().size()));
+  if (!flags.details) tables.resize(1);
+  return tables;
+}
+
+}  // namespace mapscore::eval
