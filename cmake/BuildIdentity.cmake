@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: MIT
 #
 # build_identity() of eval/results/build_identity.hpp: a hash of the sources that decide results, by path, without
-# comments and white space, and of what compiles them. At each build this file runs itself as a script where a source
-# changed; where the hash did not, the old file stays and nothing is built again.
+# comments and white space, and of what compiles them (SourceIdentity.cmake).
 
 # All rooms whose code decides a trial's counts, or the recording they come from.
 set(mapscore_deciding_rooms core files sim eval/recording eval/truth eval/localization eval/score eval/objects eval/study
@@ -30,37 +29,19 @@ function(mapscore_build_identity target)
 @CMAKE_CXX_FLAGS@ ${CMAKE_CXX_FLAGS_${type}} @options@
 Eigen @Eigen3_VERSION@ OpenCV @OpenCV_VERSION@ octomap @octomap_VERSION@ MuJoCo @mujoco@
 ")
+  set(identity "@identity@")  # filled in at each build
+  file(CONFIGURE OUTPUT ${output}.in @ONLY CONTENT
+"#include \"eval/results/build_identity.hpp\"
+
+std::string_view mapscore::eval::build_identity() {
+  return \"@identity@\";
+}
+")
   add_custom_command(OUTPUT ${output}.cpp
-    COMMAND ${CMAKE_COMMAND} -D SOURCE=${PROJECT_SOURCE_DIR} "-DROOMS=${ARGN}" -D OUTPUT=${output}
-            -P ${PROJECT_SOURCE_DIR}/cmake/BuildIdentity.cmake
-    DEPENDS ${sources} ${output}.txt ${PROJECT_SOURCE_DIR}/cmake/BuildIdentity.cmake
+    COMMAND ${CMAKE_COMMAND} -D FOLDER=${PROJECT_SOURCE_DIR} "-DFILES=${sources}" -D OUTPUT=${output}
+            -P ${PROJECT_SOURCE_DIR}/cmake/SourceIdentity.cmake
+    DEPENDS ${sources} ${output}.txt ${output}.in ${PROJECT_SOURCE_DIR}/cmake/SourceIdentity.cmake
     COMMENT "Identity of what decides results" VERBATIM)
   target_sources(${target} PRIVATE ${output}.cpp)
   set_source_files_properties(${output}.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
-
-if(NOT CMAKE_SCRIPT_MODE_FILE)
-  return()
-endif()
-
-file(READ ${OUTPUT}.txt text)
-# A string, a letter or what else there is, then the comments and the white space behind it. Strings stay as they are.
-set(string "\"([^\"\\\n]|\\\\.)*\"|'([^'\\\n]|\\\\.)'")
-set(blank "//[^\n]*|/\\*([^*]|\\*+[^*/])*\\*+/|[ \t\r\n]+")
-foreach(room IN LISTS ROOMS)
-  file(GLOB_RECURSE sources RELATIVE ${SOURCE} ${SOURCE}/${room}/*.cpp ${SOURCE}/${room}/*.hpp)
-  foreach(source IN LISTS sources)
-    file(READ ${SOURCE}/${source} code)
-    string(REGEX REPLACE "(${string}|[^\"'/ \t\r\n]+|.)(${blank})*" "\\1" code "\n${code}")
-    string(APPEND text "${source}${code}\n")
-  endforeach()
-endforeach()
-string(SHA256 identity "${text}")
-string(SUBSTRING "${identity}" 0 16 identity)
-file(CONFIGURE OUTPUT ${OUTPUT}.cpp @ONLY CONTENT [[
-#include "eval/results/build_identity.hpp"
-
-std::string_view mapscore::eval::build_identity() {
-  return "@identity@";
-}
-]])

@@ -113,18 +113,23 @@ inline constexpr bool is_variant<std::variant<Kinds...>> = true;
 template <class T>
 concept Choice = is_variant<std::remove_const_t<T>>;
 
-/// One of each kind, with its defaults, in their order.
+/// One of each kind, with its defaults, in their order. Without the kind that a program may add
+/// (plugged.hpp) where it adds none: its word is empty then.
 template <Choice Any>
 [[nodiscard]] std::vector<Any> each_kind() {
-  return []<class... Kinds>(std::type_identity<std::variant<Kinds...>>) {
-    return std::vector<Any>{Kinds{}...};
+  std::vector<Any> kinds;
+  [&kinds]<class... Kinds>(std::type_identity<std::variant<Kinds...>>) {
+    ((Kinds::kKind.empty() ? void() : void(kinds.push_back(Kinds{}))), ...);
   }(std::type_identity<Any>{});
+  return kinds;
 }
 
-/// The words of all kinds, in their order.
+/// The words of these kinds, in their order.
 template <class... Kinds>
 [[nodiscard]] std::vector<std::string> kinds_of(const std::variant<Kinds...>&) {
-  return {std::string(Kinds::kKind)...};
+  std::vector<std::string> words{std::string(Kinds::kKind)...};
+  std::erase(words, "");
+  return words;
 }
 
 [[nodiscard]] std::string_view kind_of(const Choice auto& choice) {

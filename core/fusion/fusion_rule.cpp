@@ -165,6 +165,15 @@ void fuse(const VoteRule&, std::span<const VoxelHit> hits, int, ClassBeliefs& be
   for (const VoxelHit& hit : hits) beliefs.weight_of(hit.class_id) += hit.draws;
 }
 
+void fuse(const PluggedRule& rule, std::span<const VoxelHit> hits, int draws,
+          ClassBeliefs& beliefs) {
+  (*rule).fuse(hits, draws, beliefs);
+  if (!beliefs.well_formed())
+    throw Error(std::string(PluggedRule::kKind) +
+                ": gave a voxel weights that are negative or not finite, or classes out of order; "
+                "change them by weight_of");
+}
+
 ClassBeliefs merged(const BlendRule&, const ClassBeliefs&, const ClassBeliefs&) {
   throw Error(
       "blend: maps made by it cannot be merged, since each frame outweighs those before it; map "

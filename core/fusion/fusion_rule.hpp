@@ -5,6 +5,7 @@
 
 #include "core/classes.hpp"
 #include "core/fusion/class_beliefs.hpp"
+#include "core/fusion/plugged_rule.hpp"
 #include "core/parameters.hpp"
 #include "core/placement/placement.hpp"
 #include "core/placement/pose_belief.hpp"
@@ -117,12 +118,14 @@ struct Top3Rule {
   bool operator==(const Top3Rule&) const = default;
 };
 
-using FusionRule = std::variant<BlendRule, MaxConfidenceRule, VoteRule, BayesRule, Top3Rule>;
+using FusionRule =
+    std::variant<BlendRule, MaxConfidenceRule, VoteRule, BayesRule, Top3Rule, PluggedRule>;
 
 /// A rule with the draws that it fuses, as a study has it.
 template <class Rule>
 struct Drawn {
-  static constexpr std::string_view kKind = Rule::kKind, kMeaning = Rule::kMeaning;
+  // References, since those of a rule that a program adds are set before `main`.
+  static constexpr const std::string_view &kKind = Rule::kKind, &kMeaning = Rule::kMeaning;
   Rule rule;
   Draws draws;
 
@@ -175,6 +178,9 @@ void fuse(const MaxConfidenceRule& rule, std::span<const VoxelHit> hits, int dra
 void fuse(const VoteRule& rule, std::span<const VoxelHit> hits, int draws, ClassBeliefs& beliefs);
 void fuse(const BayesRule& rule, std::span<const VoxelHit> hits, int draws, ClassBeliefs& beliefs);
 void fuse(const Top3Rule& rule, std::span<const VoxelHit> hits, int draws, ClassBeliefs& beliefs);
+/// Throws Error when the rule's weights are not those of ClassBeliefs.
+void fuse(const PluggedRule& rule, std::span<const VoxelHit> hits, int draws,
+          ClassBeliefs& beliefs);
 /// By its kind. Takes no kind by itself, so that one without a form of its own does not compile.
 template <std::same_as<FusionRule> Rule>
 void fuse(const Rule& rule, std::span<const VoxelHit> hits, int draws, ClassBeliefs& beliefs) {
@@ -197,6 +203,10 @@ void decay(const BlendRule& rule, ClassBeliefs& beliefs);
                                   const ClassBeliefs& b);
 [[nodiscard]] ClassBeliefs merged(const Top3Rule& rule, const ClassBeliefs& a,
                                   const ClassBeliefs& b);
+[[nodiscard]] inline ClassBeliefs merged(const PluggedRule& rule, const ClassBeliefs& a,
+                                         const ClassBeliefs& b) {
+  return (*rule).merged(a, b);
+}
 template <std::same_as<FusionRule> Rule>
 [[nodiscard]] ClassBeliefs merged(const Rule& rule, const ClassBeliefs& a, const ClassBeliefs& b) {
   return std::visit([&](const auto& kind) { return merged(kind, a, b); }, rule);

@@ -61,17 +61,7 @@ std::vector<Segment> segment(const Sight& sight, const Segmentation& segmentatio
                              bool with_voxels) {
   check_edge(voxel_m);
   return std::visit(
-      [&]<class Kind>(const Kind& kind) -> std::vector<Segment> {
-        if constexpr (!ByDetection<Kind>) {
-          return kind.segment(sight, voxel_m, with_voxels);
-        } else {
-          std::vector<Segment> segments;
-          segments.reserve(sight.detections().size());
-          for (const Detection& detection : sight.detections())
-            segments.push_back(segment(detection, sight.cloud(), voxel_m, kind, with_voxels));
-          return segments;
-        }
-      },
+      [&](const auto& kind) { return segments_of(kind, sight, voxel_m, with_voxels); },
       segmentation);
 }
 

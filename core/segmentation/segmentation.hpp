@@ -7,6 +7,7 @@
 #include "core/segmentation/edge_aligned/edge_aligned.hpp"
 #include "core/segmentation/erosion.hpp"
 #include "core/segmentation/growing/region_growing.hpp"
+#include "core/segmentation/plugged_segmentation.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/sight.hpp"
 
@@ -17,7 +18,7 @@ namespace mapscore {
 
 /// How objects are cut out of a frame (docs/methods.md). A kind is a struct of its parameters with
 /// a member `segment`, of one detection and the registered cloud, or of a whole frame.
-using Segmentation = std::variant<Direct, Erosion, RegionGrowing, EdgeAligned>;
+using Segmentation = std::variant<Direct, Erosion, RegionGrowing, EdgeAligned, PluggedSegmentation>;
 
 /// A kind that takes one detection by itself.
 template <class Kind>
@@ -46,6 +47,21 @@ template <ByDetection Kind>
   check_ranges(kind);
   check_input(detection, cloud, voxel_m);
   return described(kind.segment(detection, cloud, voxel_m, with_voxels), detection);
+}
+
+/// The same for all detections of a frame, in their order, by a kind that takes one or all.
+template <class Kind>
+[[nodiscard]] std::vector<Segment> segments_of(const Kind& kind, const Sight& sight, double voxel_m,
+                                               bool with_voxels) {
+  if constexpr (!ByDetection<Kind>) {
+    return kind.segment(sight, voxel_m, with_voxels);
+  } else {
+    std::vector<Segment> segments;
+    segments.reserve(sight.detections().size());
+    for (const Detection& detection : sight.detections())
+      segments.push_back(segment(detection, sight.cloud(), voxel_m, kind, with_voxels));
+    return segments;
+  }
 }
 
 }  // namespace mapscore

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "core/fusion/plugged_rule.hpp"
+#include "core/segmentation/plugged_segmentation.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/results/build_identity.hpp"
@@ -107,7 +109,18 @@ std::vector<std::string> words_of(int argc, char** argv) {
   return words;
 }
 
+std::string version() {
+  std::string text = std::string("mapscore ") + MAPSCORE_VERSION + ", build " +
+                     std::string(mapscore::eval::build_identity());
+  for (const std::string_view kind :
+       {mapscore::PluggedSegmentation::kKind, mapscore::PluggedRule::kKind})
+    if (!kind.empty()) text += ", with " + std::string(kind);
+  return text;
+}
+
 int run(CLI::App& program, int argc, char** argv) {
+  mapscore::PluggedSegmentation::check("segmentation");
+  mapscore::PluggedRule::check("fusion");
   int exit_code = 0;
   mapscore::eval::add_verbs(program, exit_code);
   std::vector<std::string> words = words_of(argc, argv);
@@ -129,8 +142,7 @@ int main(int argc, char** argv) {
       "How good is a semantic 3D map, and how much calibration and localisation error can it "
       "take?");
   program.require_subcommand(1);
-  program.set_version_flag("--version", std::string("mapscore ") + MAPSCORE_VERSION + ", build " +
-                                            std::string(mapscore::eval::build_identity()));
+  program.set_version_flag("--version", version());
   program.footer(
       "Examples:\n"
       "  mapscore sweep configs/demo.yaml -o results/demo     all trials of a study\n"

@@ -132,6 +132,9 @@ std::string revisions(const Study& config) {
     lines += "covariance_root: 2\n";  // became Cholesky's, in the order of the axes
   if (std::holds_alternative<Crf>(config.methods.front().refinement))
     lines += "crf: 2\n";  // whole voxels decide its cut-off, and voxels alone keep their beliefs
+  if (std::holds_alternative<PluggedSegmentation>(config.methods.front().segmentation) ||
+      std::holds_alternative<Drawn<PluggedRule>>(config.fusion))
+    lines += fmt::format("plugged_source: {}\n", plugged_source);
   return lines;
 }
 

@@ -25,8 +25,9 @@ function(identity_of result code)
   file(REMOVE_RECURSE ${WORK})
   file(WRITE ${WORK}/core/${name} "${code}")
   file(WRITE ${WORK}/identity.txt "${settings}")
-  execute_process(COMMAND ${CMAKE_COMMAND} -D SOURCE=${WORK} -D ROOMS=core -D OUTPUT=${WORK}/identity
-                          -P ${SOURCE}/cmake/BuildIdentity.cmake COMMAND_ERROR_IS_FATAL ANY)
+  file(WRITE ${WORK}/identity.in "return \"@identity@\";\n")
+  execute_process(COMMAND ${CMAKE_COMMAND} -D FOLDER=${WORK} -D FILES=${WORK}/core/${name} -D OUTPUT=${WORK}/identity
+                          -P ${SOURCE}/cmake/SourceIdentity.cmake COMMAND_ERROR_IS_FATAL ANY)
   file(STRINGS ${WORK}/identity.cpp line REGEX "return \"[0-9a-f]+\";")
   if(NOT line)
     message(FATAL_ERROR "no identity of: ${code}")
