@@ -5,6 +5,7 @@
 
 #include "core/refinement/map_refinement.hpp"
 #include "eval/lab/detected_samples.hpp"
+#include "eval/score/detection_score.hpp"
 #include "eval/score/instances/instance_score.hpp"
 
 namespace mapscore::eval {
@@ -54,6 +55,8 @@ void TrialRun::advance(const Frame& frame, const Sight& sight) {
     mapper_.fuse(observe_truth(frame), sight, belief, draws);
   } else {
     count(mapper_.integrate(sight, belief, draws), truths_.boxes_of(frame), counts);
+    if (score_options_.asked.labels)
+      score_detections(sight.detections(), frame.label, table_, counts);
     if (reads_colour(task_.config)) mapper_.add_colours(sight, frame.color, belief);
   }
   ++result_.accounting.frames;

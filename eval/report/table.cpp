@@ -44,6 +44,9 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
                                   summary.builds.size()));
   if (study.score.asked.instances)
     caption.emplace_back("PQ: of instances; a predicted one is a connected piece of one class");
+  if (study.score.asked.labels)
+    caption.emplace_back(
+        "2D: of detections in the image; IoU and accuracy of pixels, recall of instances");
   return caption;
 }
 
@@ -139,8 +142,13 @@ Table score_table(const StudySummary& summary, const std::string& group, Reader 
   table.caption = caption_of(summary, group);
   std::vector<std::pair<std::string, std::string>> metrics{
       {"precision", "precision"}, {"recall", "recall"}, {"F1", "f1"}, {"IoU", "iou"}};
-  for (const auto& [title, name] : std::vector<std::pair<std::string, std::string>>{
-           {"F1 tol. 1", "f1_t1"}, {"F at 2 cm", "f_2cm"}, {"PQ", "pq"}})
+  for (const auto& [title, name] :
+       std::vector<std::pair<std::string, std::string>>{{"F1 tol. 1", "f1_t1"},
+                                                        {"F at 2 cm", "f_2cm"},
+                                                        {"PQ", "pq"},
+                                                        {"2D IoU", "label_iou"},
+                                                        {"2D accuracy", "label_accuracy"},
+                                                        {"2D recall", "label_instance_recall"}})
     if (summary.has_metric(name)) metrics.emplace_back(title, name);
   metrics.insert(metrics.end(),
                  {{"AP", "ap"}, {"F1 best", kBestF1}, {"threshold", kBestThreshold}});

@@ -112,7 +112,9 @@ ClassCounts pool_detected(const Counts& counts, const ClassTable& table) {
   for (const SemanticClass& semantic : table.classes) {
     if (semantic.detect) pool_into(pooled, {counts[semantic.id]});
   }
-  return pooled.empty() ? ClassCounts{} : std::move(pooled.front());
+  if (pooled.empty()) return {};
+  pool("labels", pooled.front().labels, counts[kBackground].labels);
+  return std::move(pooled.front());
 }
 
 }  // namespace mapscore::eval

@@ -27,7 +27,7 @@ inline constexpr int kScoringVersion = 3;
 
 /// The parts of a score that a study must ask for, by their names in ClassCounts::parts().
 struct AskedParts {
-  bool instances = false, thin = false;
+  bool instances = false, thin = false, labels = false;
 
   static void fields(auto& s, auto&& visit) {
     const auto part = [&](auto& member, std::string_view key, std::string_view meaning) {
@@ -36,6 +36,8 @@ struct AskedParts {
     part(s.instances, "instances",
          "score instances too, the connected pieces of each class: PQ and AP");
     part(s.thin, "thin", "count the voxels of thin parts (chair legs) by themselves too");
+    part(s.labels, "labels",
+         "score detections in the image too: accuracy and IoU of pixels, recall of instances");
   }
   bool operator==(const AskedParts&) const = default;
 };
@@ -91,6 +93,7 @@ struct ClassCounts {
   BoxCounts boxes;             ///< of detections; none where a map is all there is
   std::optional<InstanceCounts> instances;  ///< where instances were scored
   std::optional<ThinCounts> thin;           ///< where thin parts were scored
+  std::optional<LabelCounts> labels;        ///< where detections were scored in the image
 
   static auto counts() {
     return std::to_array<CountField<ClassCounts>>({
@@ -111,9 +114,9 @@ struct ClassCounts {
   /// The parts that are counted by themselves: structs with `counts()`, `metrics()` and +=. Each is
   /// written once, here; pooling, store, tidy CSV and figures follow, in this order.
   static auto parts() {
-    return std::tuple{std::pair{"boxes", &ClassCounts::boxes},
-                      std::pair{"thin", &ClassCounts::thin},
-                      std::pair{"instances", &ClassCounts::instances}};
+    return std::tuple{
+        std::pair{"boxes", &ClassCounts::boxes}, std::pair{"thin", &ClassCounts::thin},
+        std::pair{"instances", &ClassCounts::instances}, std::pair{"labels", &ClassCounts::labels}};
   }
 
   /// Pools. Throws Error when tolerances or distances differ, or one alone has an optional part.
@@ -134,7 +137,8 @@ void for_each_part(const ClassCounts& counts, auto&& act) {
              ClassCounts::parts());
 }
 
-/// Indexed by class id; entry 0 (background) stays zero, since background is never predicted.
+/// Indexed by class id; entry 0 (background) stays zero, since background is never predicted, but
+/// for the pixels of `labels`.
 using Counts = std::vector<ClassCounts>;
 
 /// Zero counts for every class, with tolerances and parts as asked for and no distances.
@@ -144,7 +148,8 @@ using Counts = std::vector<ClassCounts>;
 /// differ.
 void pool_into(Counts& total, const Counts& counts);
 
-/// Counts pooled over the detected classes of the table. Throws Error when sizes differ.
+/// Counts pooled over the detected classes of the table, and the background's pixels. Throws Error
+/// when sizes differ.
 [[nodiscard]] ClassCounts pool_detected(const Counts& counts, const ClassTable& table);
 
 }  // namespace mapscore::eval

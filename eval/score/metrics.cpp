@@ -73,6 +73,17 @@ std::vector<Metric> mean_instance_metrics(const Counts& counts, const ClassTable
   return macro.empty() ? InstanceCounts{}.metrics() : macro;
 }
 
+/// Means over all classes with pixels in the truth, background included, as of label images; all
+/// undefined where there is none; nothing where detections were not scored in the image.
+std::vector<Metric> mean_label_metrics(const Counts& counts) {
+  std::vector<std::vector<Metric>> present;
+  for (const ClassCounts& of_class : counts) {
+    if (!of_class.labels) return {};
+    if (of_class.labels->true_px > 0) present.push_back(of_class.labels->metrics());
+  }
+  return present.empty() ? LabelCounts{}.metrics() : mean_over_classes(present);
+}
+
 }  // namespace
 
 std::vector<Metric> metrics_of(const ClassCounts& counts) {
@@ -100,13 +111,15 @@ std::vector<Metric> macro_metrics(const Counts& counts, const ClassTable& table)
   std::vector<std::vector<Metric>> classes;
   for (const SemanticClass& semantic : table.classes) {
     if (!semantic.detect || counts[semantic.id].visible == 0) continue;
-    ClassCounts without_instances = counts[semantic.id];  // which have means of their own
-    without_instances.instances.reset();
-    classes.push_back(metrics_of(without_instances));
+    ClassCounts of_class = counts[semantic.id];
+    of_class.instances.reset();  // which have means of their own
+    of_class.labels.reset();
+    classes.push_back(metrics_of(of_class));
   }
   if (classes.empty()) return {};
   std::vector<Metric> macro = mean_over_classes(classes);
   for (Metric& metric : mean_instance_metrics(counts, table)) macro.push_back(std::move(metric));
+  for (Metric& metric : mean_label_metrics(counts)) macro.push_back(std::move(metric));
   macro.push_back({"mpa", value_of(macro, "recall")});
   macro.push_back({"miou", value_of(macro, "iou")});
   return macro;
