@@ -5,7 +5,7 @@
 # comments and white space, and of what compiles them (SourceIdentity.cmake).
 
 # All rooms whose code decides a trial's counts, or the recording they come from.
-set(mapscore_deciding_rooms core files sim eval/recording eval/truth eval/localization eval/score eval/objects eval/study
+set(mapscore_deciding_rooms core files sim eval/recording eval/foreign eval/truth eval/localization eval/score eval/objects eval/study
     eval/results eval/lab eval/render)
 
 # mapscore_build_identity(TARGET ROOMS...): adds a source with the identity of the sources below ROOMS to TARGET.

@@ -16,6 +16,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <numbers>
 #include <optional>
@@ -24,11 +25,13 @@
 namespace mapscore::eval {
 namespace {
 
+constexpr auto kMasks = names_of(ClassMasks{});
+
 struct MapVerbFlags {
   std::string folder, file, color_file, ply_file;
   LabelledFolderOptions reading;
   std::vector<double> range_m;
-  std::string study, method, frames, masks;
+  std::string study, method, frames, masks{kMasks.front()};
   /// As the authors' released code has it, where neither a study nor flags say otherwise.
   ChoiceFlags<Segmentation> segmentation{"--segmentation", RegionGrowing{.radius_factor = 0.5}};
   std::vector<std::string> detect, overrides;
@@ -125,7 +128,7 @@ void map_recording(const MapVerbFlags& flags) {
                  {"--ply", flags.ply_file, ".ply"}});
   const std::optional<Study> study = study_of(flags);
   LabelledFolderOptions reading = flags.reading;
-  if (flags.masks == "classes") reading.masks = ClassMasks::classes;
+  reading.masks = static_cast<ClassMasks>(std::ranges::find(kMasks, flags.masks) - kMasks.begin());
   if (!flags.range_m.empty()) reading.range_m = std::pair(flags.range_m.at(0), flags.range_m.at(1));
   LabelledFolder folder(flags.folder, reading);
   if (!flags.detect.empty())
@@ -164,9 +167,9 @@ void add_reading_flags(CLI::App& verb, MapVerbFlags& flags) {
   add("--classes", reading.classes,
       "YAML file: what the pixels of label images mean; needed without recording.yaml");
   add("--masks", flags.masks,
-      "Class labels become a detection for each connected component, or one a class: components, "
-      "classes [components]")
-      ->check(CLI::IsMember(std::set<std::string>{"components", "classes"}));
+      "Class labels become a detection for each connected component, one a class, or, where pixels "
+      "are 256 class + instance, one a value: components, classes, instances [components]")
+      ->check(CLI::IsMember(std::set<std::string>(kMasks.begin(), kMasks.end())));
   add("--detect", flags.detect, "Classes that are mapped, by commas, or all [as the table says]")
       ->delimiter(',')
       ->allow_extra_args(false);

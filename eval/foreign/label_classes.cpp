@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 
 namespace mapscore::eval {
 namespace {
@@ -28,6 +27,16 @@ Colour hue(std::size_t n) {
   return {level(0), level(4), level(2)};
 }
 
+/// `label` of an entry, one or several; by default the class's id.
+std::vector<std::size_t> labels_of(const YamlValue& item, std::size_t id) {
+  if (!item.has("label")) return {id};
+  const YamlValue label = item.at("label");
+  if (!label.node.IsSequence()) return {label.whole(0, kMostLabel)};
+  std::vector<std::size_t> labels;
+  for (const YamlValue& one : label.elements()) labels.push_back(one.whole(0, kMostLabel));
+  return labels;
+}
+
 /// One entry of `classes`; its pixel value goes into `class_of_pixel`.
 void add_class(const YamlValue& item, LabelClasses& classes) {
   item.only({"name", "label", "colour", "detect"});
@@ -38,13 +47,16 @@ void add_class(const YamlValue& item, LabelClasses& classes) {
   if (item.has("detect")) added.detect = item.at("detect").boolean();
   for (const SemanticClass& other : known)
     if (other.name == added.name) item.fail("two classes have this name; rename one");
-  const std::size_t label = item.has("label") ? item.at("label").whole(0, kMostLabel) : added.id;
   auto& meaning = classes.class_of_pixel;
-  if (meaning.size() <= label) meaning.resize(label + 1, kBackground);
-  if (meaning[label] != kBackground)
-    item.fail(
-        fmt::format("label {} is taken by {}; give another", label, known[meaning[label]].name));
-  meaning[label] = added.id;
+  for (const std::size_t label : labels_of(item, added.id)) {
+    if (meaning.size() <= label) meaning.resize(label + 1, kBackground);
+    if (meaning[label] == added.id)
+      item.fail(fmt::format("label {} stands twice; keep one", label));
+    if (meaning[label] != kBackground)
+      item.fail(
+          fmt::format("label {} is taken by {}; give another", label, known[meaning[label]].name));
+    meaning[label] = added.id;
+  }
   known.push_back(std::move(added));
 }
 
@@ -68,16 +80,25 @@ void add_instances(const YamlValue& list, ClassTable& table) {
 int number_components(const cv::Mat1b& mask, int next, cv::Mat1w& instances) {
   cv::Mat1i component;
   const int count = cv::connectedComponents(mask, component, 8, CV_32S);
-  std::map<int, int> instance_of;  // components in the order of their first pixels
+  std::vector<int> instance_of(static_cast<std::size_t>(count));  // in the order of first pixels
+  int free = next;
   for (int v = 0; v < mask.rows; ++v) {
     for (int u = 0; u < mask.cols; ++u) {
       if (component(v, u) == 0) continue;
-      const auto [entry, is_new] =
-          instance_of.try_emplace(component(v, u), next + static_cast<int>(instance_of.size()));
-      instances(v, u) = static_cast<std::uint16_t>(entry->second);
+      int& instance = instance_of[static_cast<std::size_t>(component(v, u))];
+      if (instance == 0) instance = free++;
+      instances(v, u) = static_cast<std::uint16_t>(instance);
     }
   }
-  return next + count - 1;
+  return free;
+}
+
+/// The image with each pixel's class in place of its value.
+cv::Mat1w classes_of(const cv::Mat1w& label, const std::vector<ClassId>& class_of_value) {
+  cv::Mat1w classes(label.size());
+  std::transform(label.begin(), label.end(), classes.begin(),
+                 [&](std::uint16_t value) { return class_of_value[value]; });
+  return classes;
 }
 
 }  // namespace
@@ -98,33 +119,47 @@ LabelClasses read_label_classes(const std::filesystem::path& file) {
   return classes;
 }
 
-LabelledImage instances_of(const cv::Mat1w& label, const LabelClasses& classes, ClassMasks masks) {
-  if (classes.has_instances) return {label, classes.table};
-  LabelledImage image{cv::Mat1w::zeros(label.size()), classes.table};
-  cv::Mat1w of_class = cv::Mat1w::zeros(label.size());
-  std::vector<bool> present(classes.table.classes.size());
-  for (int v = 0; v < label.rows; ++v) {
-    for (int u = 0; u < label.cols; ++u) {
-      if (label(v, u) >= classes.class_of_pixel.size()) continue;
-      of_class(v, u) = classes.class_of_pixel[label(v, u)];
-      present[of_class(v, u)] = true;
-    }
+std::vector<ClassId> LabelClasses::class_of_value(ClassMasks masks) const {
+  std::vector<ClassId> classes(kMostLabel + 1, kBackground);
+  const int values = !has_instances && masks == ClassMasks::instances ? kInstancesOfLabel : 1;
+  for (std::size_t value = 0; value < classes.size(); ++value) {
+    const std::size_t label = value / static_cast<std::size_t>(values);
+    if (has_instances)
+      classes[value] = table.class_of(static_cast<InstanceId>(value));
+    else if (label < class_of_pixel.size())
+      classes[value] = class_of_pixel[label];
   }
-  int next = 1;
-  for (const SemanticClass& c : classes.table.classes) {
-    if (!c.detect || !present[c.id]) continue;
-    const cv::Mat1b mask = of_class == c.id;
+  return classes;
+}
+
+LabelledImage instances_of(const cv::Mat1w& label, const std::vector<ClassId>& class_of_value,
+                           const ClassTable& table, ClassMasks masks) {
+  LabelledImage image{cv::Mat1w::zeros(label.size()), table};
+  const bool by_value = masks == ClassMasks::instances;
+  const cv::Mat1w keys = by_value ? label : classes_of(label, class_of_value);
+  std::vector<bool> present(kMostLabel + 1);
+  for (const std::uint16_t key : keys) present[key] = true;
+  auto next = static_cast<int>(table.instances.size());
+  for (std::size_t key = 0; key < present.size(); ++key) {
+    const ClassId id = by_value ? class_of_value[key] : static_cast<ClassId>(key);
+    if (!present[key] || !table.detected(id)) continue;
+    const cv::Mat1b mask = keys == static_cast<int>(key);
     const int first = next;
     if (masks == ClassMasks::components)
       next = number_components(mask, next, image.instances);
     else
       image.instances.setTo(next++, mask);
     if (next > static_cast<int>(kMostLabel))
-      throw Error("a label image has more than 65534 components; give --masks classes");
+      throw Error("a label image has more components than there are ids; cut it by masks classes");
     for (int n = first; n < next; ++n)
-      image.table.instances.push_back({static_cast<InstanceId>(n), c.name, c.id});
+      image.table.instances.push_back({static_cast<InstanceId>(n), table.classes[id].name, id});
   }
   return image;
+}
+
+LabelledImage instances_of(const cv::Mat1w& label, const LabelClasses& classes, ClassMasks masks) {
+  if (classes.has_instances) return {label, classes.table};
+  return instances_of(label, classes.class_of_value(masks), classes.table, masks);
 }
 
 }  // namespace mapscore::eval

@@ -9,6 +9,7 @@
 #include "eval/lab/recorded_surfaces.hpp"
 #include "eval/objects/object_file.hpp"
 #include "eval/objects/true_objects.hpp"
+#include "eval/results/input_files.hpp"
 #include "sim/faults/calibration_faults.hpp"
 #include "sim/faults/depth_noise.hpp"
 #include "sim/faults/label_noise.hpp"
@@ -117,6 +118,9 @@ Sights::Sights(const Task& task, const Recording& recording, const ClassTable& t
       faults_(task.config.faults) {
   if (const auto* settings = std::get_if<SimulatedPerception>(&task.config.perception))
     simulated_ = std::make_shared<const SimulatedLabels>(*settings, task.config, recording, table);
+  if (const auto* settings = std::get_if<ImagePerception>(&task.config.perception))
+    network_ = std::make_shared<const NetworkLabels>(network_images(task.config, *settings),
+                                                     recording, table);
 }
 
 std::string Sights::key(const Study& config, Labels labels) {
@@ -133,13 +137,25 @@ const ClassTable& Sights::table() const {
   return simulated_ ? simulated_->table() : table_;
 }
 
+std::vector<Detection> Sights::detections_of(const Frame& frame) const {
+  const sim::LabelDose dose = faults_.labels.dose();
+  if (!network_)
+    return sim::corrupt_detections(simulated_ ? simulated_->of(frame) : frame.label, table(), dose,
+                                   seed_, frame.index);
+  const NetworkDetections found = network_->of(frame.index);
+  std::vector<Detection> detections =
+      sim::corrupt_detections(found.instances, found.table, dose, seed_, frame.index);
+  if (dose.scores == 0.0)
+    for (Detection& detection : detections) detection.score = found.scores[detection.instance];
+  return detections;
+}
+
 Sight Sights::of(const Frame& frame) const {
   if (labels_ == Labels::truth) return {believed_, frame.depth, {}};
   return {believed_,
           sim::corrupt_depth(frame.depth, depth_camera_, faults_.depth.dose(), seed_,
                              frame.depth_index),
-          sim::corrupt_detections(simulated_ ? simulated_->of(frame) : frame.label, table(),
-                                  faults_.labels.dose(), seed_, frame.index)};
+          detections_of(frame)};
 }
 
 }  // namespace mapscore::eval

@@ -7,6 +7,7 @@
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/segmentation/sight.hpp"
+#include "eval/foreign/network_labels.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/results/task_list.hpp"
 #include "eval/study/study.hpp"
@@ -24,7 +25,7 @@ namespace mapscore::eval {
 class Sights {
  public:
   /// Throws Error when the objects of simulated perception are refused or too many, or there is
-  /// neither a file of them nor truth.
+  /// neither a file of them nor truth, or a network's classes, scores or list are refused.
   Sights(const Task& task, const Recording& recording, const ClassTable& table);
 
   /// Equal for tasks of one plan and seed where their sights are: what of a configuration decides
@@ -37,15 +38,18 @@ class Sights {
   }
   [[nodiscard]] const std::vector<int>& depth_of_frames() const { return depth_of_; }
   /// The table of the instances in the detections: the recording's, or that of simulated
-  /// perception.
+  /// perception. A network's detections are instances beyond it.
   [[nodiscard]] const ClassTable& table() const;
 
   /// What a method sees of a frame, which is read with the depth image that `depth_of` names. Of
-  /// the lattice ceiling: the exact depth image and no detections.
+  /// the lattice ceiling: the exact depth image and no detections. Throws Error where a network's
+  /// image cannot be read.
   [[nodiscard]] Sight of(const Frame& frame) const;
 
  private:
   class SimulatedLabels;
+
+  [[nodiscard]] std::vector<Detection> detections_of(const Frame& frame) const;
 
   const ClassTable& table_;
   Labels labels_;
@@ -55,6 +59,7 @@ class Sights {
   std::vector<int> depth_of_;  ///< by frame
   FaultSettings faults_;
   std::shared_ptr<const SimulatedLabels> simulated_;  ///< in place of the recording's labels
+  std::shared_ptr<const NetworkLabels> network_;      ///< likewise
 };
 
 /// The calibration that a task's method uses: the true one with the task's calibration faults.

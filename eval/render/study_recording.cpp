@@ -8,7 +8,7 @@
 #include "eval/recording/stamp_list.hpp"
 #include "eval/render/baked_frames.hpp"
 #include "eval/render/replay_check.hpp"
-#include "eval/results/plan.hpp"
+#include "eval/results/input_files.hpp"
 #include "files/folder_lock.hpp"
 #include "files/text.hpp"
 
@@ -53,9 +53,16 @@ std::optional<fs::path> own_robot() {
   return error ? std::nullopt : own_robot_of(program.parent_path());
 }
 
+/// A recording to which the study's network labels fit.
+Recording opened(const Study& study, const fs::path& folder) {
+  Recording recording = Recording::open(folder);
+  check_network_labels(study, recording);
+  return recording;
+}
+
 /// The recording that a study names.
 Recording replayed(const Study& study) {
-  Recording recording = Recording::open(resolve_path(study, *study.recording));
+  Recording recording = opened(study, resolve_path(study, *study.recording));
   check_replay(study, recording.info());
   return recording;
 }
@@ -201,7 +208,7 @@ void record_study(const Study& study, const fs::path& folder, int jobs,
 
 Recording recording_of(const Study& study, const fs::path& results, int jobs,
                        const RecordingProgress& progress) {
-  check_pose_files(study);
+  check_input_files(study);
   if (study.recording) return replayed(study);
   const sim::World world = world_of(study);
   const fs::path folder = rendered_folder(study, world, results);
@@ -209,14 +216,14 @@ Recording recording_of(const Study& study, const fs::path& results, int jobs,
   if (!fs::exists(folder))
     record_world(study, world, drive_of(study, world, progress.waypoints), folder, jobs,
                  progress.images);
-  return Recording::open(folder);
+  return opened(study, folder);
 }
 
 std::optional<Recording> recording_there(const Study& study, const fs::path& results) {
-  check_pose_files(study);
+  check_input_files(study);
   if (study.recording) return replayed(study);
   const fs::path folder = rendered_folder(study, world_of(study), results);
-  return fs::exists(folder) ? std::optional(Recording::open(folder)) : std::nullopt;
+  return fs::exists(folder) ? std::optional(opened(study, folder)) : std::nullopt;
 }
 
 SceneSurfaces surfaces_of_scene(const fs::path& scene) {

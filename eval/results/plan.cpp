@@ -4,15 +4,12 @@
 #include "eval/results/plan.hpp"
 
 #include "core/error.hpp"
-#include "eval/localization/believed_trajectory.hpp"
-#include "eval/recording/grid_file.hpp"
+#include "eval/results/input_files.hpp"
 #include "eval/score/counts.hpp"
-#include "files/file_bytes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -21,57 +18,9 @@
 namespace mapscore::eval {
 namespace {
 
-/// What the files hold that poses and detections of a study come from. Each is read once.
-class PoseFiles {
- public:
-  /// Hash of the object map that perception is simulated from; empty without one. Throws Error when
-  /// it is missing.
-  std::string objects(const Study& config) {
-    const auto* simulated = std::get_if<SimulatedPerception>(&config.perception);
-    if (!simulated || !simulated->objects) return "";
-    return of(resolve_path(config, *simulated->objects),
-              [](const std::filesystem::path& file) { return read_file(file); });
-  }
-
-  /// Hash of the file that the source of a configuration reads; empty when it reads none. Throws
-  /// Error when the file is refused.
-  std::string content(const Study& config) {
-    const LocalizationSettings& settings = config.localization;
-    if (settings.source == PoseSource::trajectory)
-      return of(resolve_path(config, settings.trajectory.value()), trajectory_bytes);
-    if (settings.source == PoseSource::particle_filter && settings.grid)
-      return of(resolve_path(config, *settings.grid), grid_bytes);
-    return "";
-  }
-
- private:
-  static std::string trajectory_bytes(const std::filesystem::path& file) {
-    static_cast<void>(read_believed(file));  // refuses what is no trajectory
-    return read_file(file);
-  }
-
-  static std::string grid_bytes(const std::filesystem::path& file) {
-    const OccupancyGrid grid = load_grid(file);
-    const GridFrame& frame = grid.frame();
-    std::string bytes =
-        fmt::format("{} {} {} {} {} {}\n", frame.resolution_m, frame.T_map_grid.x_m,
-                    frame.T_map_grid.y_m, frame.T_map_grid.yaw_rad, frame.width, frame.height);
-    bytes.append(grid.cells().begin(), grid.cells().end());
-    return bytes;
-  }
-
-  std::string of(const std::filesystem::path& file, auto read) {
-    const auto [entry, is_new] = hashes_.try_emplace(file);
-    if (is_new) entry->second = hash_of(read(file));
-    return entry->second;
-  }
-
-  std::map<std::filesystem::path, std::string> hashes_;
-};
-
 /// Leaves only what determines the result, so that renaming a study or adding a method to it does
 /// not make its trials new. The recording stands for what it was made from.
-Study determining(Study config, const std::string& pose_file, const std::string& objects) {
+Study determining(Study config, const std::string& pose_file, const std::string& perceived) {
   const Study none;
   config.name.clear();
   config.seeds = 1;
@@ -89,16 +38,22 @@ Study determining(Study config, const std::string& pose_file, const std::string&
   resolve_localization(config.localization, config.faults, pose_file);
   if (auto* simulated = std::get_if<SimulatedPerception>(&config.perception);
       simulated && simulated->objects)
-    simulated->objects = objects;
+    simulated->objects = perceived;
+  if (auto* images = std::get_if<ImagePerception>(&config.perception)) {
+    images->folder = perceived;
+    images->classes.reset();
+    images->scores.reset();
+  }
   config.base_folder.clear();
   for (MethodSettings& method : config.methods) method.name = "method";
   return config;
 }
 
-/// The study with true poses and no fault.
+/// The study with true poses and no fault; the errors of a network are faults of its labels.
 Study without_faults(Study config) {
   config.localization = {};
   config.faults = {};
+  if (std::holds_alternative<ImagePerception>(config.perception)) config.perception = {};
   return config;
 }
 
@@ -139,12 +94,12 @@ std::string revisions(const Study& config) {
 }
 
 SeedlessTask make_task(Study config, Labels labels, const std::string& recording_hash,
-                       PoseFiles& files) {
+                       InputFiles& files) {
   SeedlessTask task;
   task.before_seed =
       fmt::format("scoring_version: {}\nrecording: {}\nlabels: {}\nseed_index: ", kScoringVersion,
                   recording_hash, labels == Labels::truth ? "truth" : "detected");
-  const Study decides = determining(config, files.content(config), files.objects(config));
+  const Study decides = determining(config, files.poses(config), files.perceived(config));
   task.after_seed = '\n' + to_key_yaml(decides) + revisions(decides);
   task.config = std::move(config);
   task.labels = labels;
@@ -196,23 +151,10 @@ struct TrialConfigurations {
 
 }  // namespace
 
-void check_pose_files(const Study& study) {
-  PoseFiles files;
-  const bool swept = std::ranges::any_of(study.sweep, [](const SweepAxis& axis) {
-    return axis.path.starts_with("localization.") || axis.path.starts_with("perception.");
-  });
-  const auto check_config = [&](const Study& config) {
-    static_cast<void>(files.content(config));
-    static_cast<void>(files.objects(config));
-  };
-  if (!swept) return check_config(study);  // every cell reads the same ones
-  for (const Cell& cell : cells(study)) check_config(resolve(study, cell));
-}
-
 Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
              const std::string& recording_hash) {
   const Study config = resolve(study, spec.cell);
-  PoseFiles files;
+  InputFiles files;
   return make_task(labels == Labels::truth ? for_lattice_ceiling(config)
                                            : with_method(config, spec.method),
                    labels, recording_hash, files)
@@ -223,7 +165,7 @@ Plan plan_of(const Study& study, const std::string& recording_hash) {
   for (const SweepAxis& axis : study.sweep) refuse_recorded(axis.path);
   Configurations configurations;
   std::vector<TrialConfigurations> of_trials;  // by cell, then method
-  PoseFiles files;
+  InputFiles files;
   const auto add = [&](Study&& config, Labels labels) {
     return configurations.add(make_task(std::move(config), labels, recording_hash, files));
   };
@@ -260,7 +202,7 @@ Plan plan_of(const Study& study, const std::string& recording_hash) {
 
 TrialTasks tasks_of_trials(const Study& study, const std::vector<TrialSpec>& trials,
                            const std::string& recording_hash) {
-  PoseFiles files;
+  InputFiles files;
   std::vector<TaskList::Configuration> list;
   std::unordered_map<std::string, std::size_t> places;
   std::vector<std::size_t> positions;

@@ -30,10 +30,6 @@ struct Plan {
 /// Throws Error when the sweep names a leaf that decides what is recorded.
 [[nodiscard]] Plan plan_of(const Study& study, const std::string& recording_hash);
 
-/// Reads the files that the poses of a study come from, at every point of its grid. Throws Error
-/// naming the file when one is refused.
-void check_pose_files(const Study& study);
-
 /// The task of one trial by itself.
 [[nodiscard]] Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
                            const std::string& recording_hash);

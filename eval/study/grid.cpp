@@ -112,7 +112,7 @@ Study resolve(const Study& study, const Cell& cell) {
   Study resolved = study;
   resolved.sweep.clear();
   resolved.sampling = {};
-  for (const auto& [path, value] : cell.doses) set_leaf(resolved, path, value);
+  for (const auto& [path, value] : cell.doses) set_dose(resolved, path, value);
   return resolved;
 }
 

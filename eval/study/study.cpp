@@ -24,6 +24,18 @@ void set_leaf(Study& study, std::string_view path, const YamlValue& at) {
   at_leaf_below(at, study, path, [&](const StudyLeaf& leaf) { leaf.read(at); });
 }
 
+void set_dose(Study& study, std::string_view path, const YamlValue& at) {
+  at_leaf_below(at, study, path, [&](const StudyLeaf& leaf) {
+    if (!leaf.choice) return leaf.read(at);
+    const std::string kind = at.scalar("the name of a kind, whose parameters stand under the key");
+    if (kind != leaf.text()) leaf.read(at);
+  });
+}
+
+void set_dose(Study& study, std::string_view path, const std::string& yaml_value) {
+  set_dose(study, path, parse_yaml_value(yaml_value, "", std::string(path)));
+}
+
 void set_leaf(Study& study, std::string_view path, const std::string& yaml_value) {
   set_leaf(study, path, parse_yaml_value(yaml_value, "", std::string(path)));
 }

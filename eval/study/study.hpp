@@ -150,7 +150,9 @@ struct Study {
     visit(s.localization, later({"localization", "where the robot believes it is"}));
     visit(s.faults, Field{"faults", "doses of the faults"});
     visit(s.score, Field{"score", "how maps are scored"});
-    visit(s.sweep, Field{"sweep", "values of the leaf at a path; several paths make a grid"});
+    visit(s.sweep, Field{"sweep",
+                         "values of the leaf at a path, or kinds of a choice there; several paths "
+                         "make a grid"});
     visit(s.sampling, Field{.key = "sampling",
                             .meaning = "which points of the swept paths are tried; but for a grid, "
                                        "a path with numbers has a range, [LOW, HIGH], and one with "
@@ -192,6 +194,9 @@ void set_leaf(Study& study, std::string_view path, const std::string& yaml_value
 /// The same for `path=value` texts of flags, in their order; a path may be short (whole_path).
 void set_leaves(Study& study, const std::vector<std::string>& overrides);
 
+/// As set_leaf, for a value of a sweep: a choice that is of the kind already keeps its parameters.
+void set_dose(Study& study, std::string_view path, const std::string& yaml_value);
+
 /// Every leaf that is set, by dotted path, as its canonical text, and every choice as its kind; not
 /// the sweep.
 [[nodiscard]] std::map<std::string, std::string> leaf_texts(const Study& study);
@@ -200,7 +205,8 @@ void set_leaves(Study& study, const std::vector<std::string>& overrides);
 /// study; else `name` itself. Throws Error, with their paths, where several end so.
 [[nodiscard]] std::string whole_path(const Study& study, const std::string& name);
 
-/// Canonical text of the leaf at a dotted path; an unset optional leaf is "-". Throws as set_leaf.
+/// Canonical text of the leaf at a dotted path; an unset optional leaf is "-", a choice its kind.
+/// Throws as set_leaf.
 [[nodiscard]] std::string leaf_text(Study study, std::string_view path);
 
 /// Throws an Error that states where the value at a dotted path was written, and `problem`.

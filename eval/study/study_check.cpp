@@ -183,11 +183,20 @@ void check_localization(const Study& study, const Blame& blame) {
 }
 
 void check_perception(const Study& study, const Blame& blame) {
-  if (std::holds_alternative<LabelPerception>(study.perception)) return;
-  if (study.faults.time_offset_ms != 0)
+  if (std::holds_alternative<SimulatedPerception>(study.perception) &&
+      study.faults.time_offset_ms != 0)
     blame("faults.time_offset_ms",
           "stands beside simulated perception, which sees the depth image itself, at no offset; "
           "keep one of the two");
+  const auto* images = std::get_if<ImagePerception>(&study.perception);
+  if (images == nullptr) return;
+  if (!images->folder)
+    blame("perception.images.folder", "is missing; write folder: FOLDER, of the label images");
+  if (!images->classes)
+    blame("perception.images.classes", "is missing; write classes: FILE, what their pixels mean");
+  if (images->scores && study.faults.labels.dose().scores != 0)
+    blame("faults.labels.scores",
+          "stands beside perception.images.scores, the network's own; keep one of the two");
 }
 
 void check_time(const ScoreSettings& score, const Blame& blame) {

@@ -60,12 +60,11 @@ class RawSweep {
   static SweepAxis read_axis(const Study& study, const std::string& path, const YamlValue& values) {
     Study probe = study;
     at_leaf_below(values, probe, path, [&](const StudyLeaf& leaf) {
-      (void)leaf.text();  // a choice has none, and cannot be swept
       if (!leaf.field.swept) values.fail(fmt::format("{} cannot be swept; remove it", path));
     });
     SweepAxis axis{path, {}};
     for (const YamlValue& value : values.elements()) {
-      set_leaf(probe, path, value);
+      set_dose(probe, path, value);
       std::string text = leaf_text(probe, path);
       if (std::ranges::find(axis.values, text) != axis.values.end())
         value.fail(fmt::format("{} stands twice; keep one", text));

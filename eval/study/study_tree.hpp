@@ -79,8 +79,11 @@ std::optional<Any> kind_named(std::string_view name) {
 template <Choice Any>
 void read_choice(const YamlValue& at, Any& choice) {
   const std::vector<std::string> kinds = kinds_of(choice);
-  if (at.node.IsScalar())
-    if (const auto plain = kind_named<Any>(at.node.Scalar())) return void(choice = *plain);
+  if (at.node.IsScalar()) {
+    const std::string name = at.node.Scalar();
+    if (const auto plain = kind_named<Any>(name)) return void(choice = *plain);
+    at.fail(fmt::format("unknown kind '{}'; {}", name, suggestion(name, kinds)));
+  }
   const auto entries = at.entries();
   if (entries.size() != 1)
     at.fail(fmt::format("names {} kinds; write one of {}, as {{{}: {{}}}}", entries.size(),
@@ -124,8 +127,9 @@ void read_tree(const YamlValue& at, const Field& field, T& value) {
 struct StudyLeaf {
   const Field& field;
   const std::function<void(const YamlValue&)>& read;  ///< sets it; throws Error
-  const std::function<std::string()>& text;           ///< throws Error for a choice
+  const std::function<std::string()>& text;           ///< of a choice its kind
   bool whole = false;                                 ///< a whole number
+  bool choice = false;
 };
 using LeafAct = std::function<void(const StudyLeaf&)>;
 
@@ -176,7 +180,7 @@ void at_leaf(const YamlValue& at, const Field& field, T& value, std::string_view
   if constexpr (Choice<T>)
     if (rest.empty())
       return act({field, [&](const YamlValue& yaml) { read_choice(yaml, value); },
-                  [&]() -> std::string { fail_on_key(at, "", keys_of(value)); }});
+                  [&] { return std::string(kind_of(value)); }, false, true});
   if constexpr (std::same_as<T, Sweep>) {
     at.fail("the sweep is not a leaf; change it in the file or by a flag sweep.PATH=[...]");
   } else if constexpr (Node<T>) {
@@ -190,7 +194,8 @@ void at_leaf(const YamlValue& at, const Field& field, T& value, std::string_view
   }
 }
 
-/// As set_leaf of study.hpp, from a value whose place is known.
+/// As set_leaf and set_dose of study.hpp, from a value whose place is known.
 void set_leaf(Study& study, std::string_view path, const YamlValue& at);
+void set_dose(Study& study, std::string_view path, const YamlValue& at);
 
 }  // namespace mapscore::eval

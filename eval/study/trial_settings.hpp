@@ -8,6 +8,7 @@
 #include "core/parameters.hpp"
 #include "core/refinement/dense_crf.hpp"
 #include "core/segmentation/segmentation.hpp"
+#include "eval/foreign/label_classes.hpp"
 #include "eval/score/counts.hpp"
 
 #include <array>
@@ -58,8 +59,36 @@ struct SimulatedPerception {
   bool operator==(const SimulatedPerception&) const = default;
 };
 
+/// A network's label images in place of the recording's.
+struct ImagePerception {
+  static constexpr std::string_view kKind = "images";
+  static constexpr std::string_view kMeaning =
+      "label images of a network, one for each colour image (docs/foreign_recordings.md)";
+  std::optional<std::string> folder, classes, scores;
+  ClassMasks masks = ClassMasks::components;
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.folder, Field{"folder",
+                          "folder of the label images, named as the colour images or listed with "
+                          "stamps in its label.txt, from the study file's folder"});
+    visit(s.classes,
+          Field{"classes",
+                "file that names the recording's classes of their pixels, from the study "
+                "file's folder"});
+    visit(s.masks,
+          Field{"masks",
+                "a detection for each connected component of a class, for each class, or for each "
+                "pixel value, 256 class + instance"});
+    visit(s.scores,
+          Field{"scores",
+                "CSV of scores, image,id,score or stamp_s,id,score, from the study file's "
+                "folder; default: all are 1"});
+  }
+  bool operator==(const ImagePerception&) const = default;
+};
+
 /// Where the detections of a study come from.
-using PerceptionSettings = std::variant<LabelPerception, SimulatedPerception>;
+using PerceptionSettings = std::variant<LabelPerception, SimulatedPerception, ImagePerception>;
 
 struct StudyFusion : NoFields {
   static constexpr std::string_view kKind = "study";

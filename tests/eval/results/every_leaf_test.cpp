@@ -7,6 +7,8 @@
 #include "core/error.hpp"
 #include "eval/results/plan.hpp"
 #include "eval/study/study.hpp"
+#include "files/file_bytes.hpp"
+#include "tests/support/tiny_recording.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -36,7 +38,10 @@ const std::map<std::string, std::string> kReasons{
     {"picture_view", "of pictures, which are not scored"},
     {"localization.trajectory", "the content of the file is in the key (pose_sources_test)"},
     {"localization.grid", "the content of the file is in the key (pose_sources_test)"},
-    {"perception.simulated.objects", "the content of the file is in the key (object_run_test)"}};
+    {"perception.simulated.objects", "the content of the file is in the key (object_run_test)"},
+    {"perception.images.folder", "the content is in the key (network_perception_test)"},
+    {"perception.images.classes", "the content of the file is in the key (likewise)"},
+    {"perception.images.scores", "the content of the file is in the key (likewise)"}};
 
 bool has_reason(const std::string& path) {
   for (const auto& [known, reason] : kReasons)
@@ -74,6 +79,17 @@ const std::vector<std::string> kBases{
     "localization: {source: particle_filter}\nfaults: {lidar: {preset: rplidar_a2}}\n",
     "localization: {source: particle_filter, filter: {scan_model: beam}}\n"};
 
+/// A kind of perception; a network's needs files, whose content is in the key.
+std::string perception_at(const std::string& path) {
+  const std::string kind = kind_at(path, "perception", "labels");
+  if (kind != "images") return kind;
+  static const testing::TemporaryFolder folder;
+  write_file(folder.path() / "0.png", "an image");
+  write_file(folder.path() / "classes.yaml", "classes");
+  return fmt::format("{{images: {{folder: {0}, classes: {0}/classes.yaml}}}}",
+                     folder.path().string());
+}
+
 Study study_for(const std::string& path, const std::string& base) {
   return parse_study(
       fmt::format(
@@ -82,7 +98,7 @@ Study study_for(const std::string& path, const std::string& base) {
           kind_at(path, "methods.NAME.segmentation", "direct"),
           kind_at(path, "methods.NAME.fusion", "study"),
           kind_at(path, "methods.NAME.refinement", "none"), kind_at(path, "fusion", "blend"),
-          kind_at(path, "perception", "labels"), kind_at(path, "trajectory.drive", "wheels"), base),
+          perception_at(path), kind_at(path, "trajectory.drive", "wheels"), base),
       "study.yaml");
 }
 
@@ -129,6 +145,7 @@ const std::vector<std::string> kTexts{
     "lattice",
     "instances",
     "surfaces",
+    "classes",
     "gaussian",
     "truth",
     "tracking",

@@ -73,7 +73,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "6: fusion.blend.weight: unknown key 'weight'; write one of K, N, noise_at, "
                 "covariance, decay"},
         BadLine{"perception_kind", "perception: {guessed: {}}\n",
-                "6: perception.guessed: unknown kind 'guessed'; write one of labels, simulated"},
+                "6: perception.guessed: unknown kind 'guessed'; write one of labels, simulated, "
+                "images"},
         BadLine{"perception_at_an_offset",
                 "faults: {time_offset_ms: 20}\nperception: {simulated: {}}\n",
                 "6: faults.time_offset_ms: stands beside simulated perception, which sees the "
@@ -167,6 +168,15 @@ INSTANTIATE_TEST_SUITE_P(
                 "6: sweep.seeds: seeds cannot be swept; remove it"},
         BadLine{"sweep_instances", "sweep: {score.instances: [true, false]}\n",
                 "6: sweep.score.instances: score.instances cannot be swept; remove it"},
+        BadLine{"sweep_kind", "sweep: {perception: [labels, pictures]}\n",
+                "6: sweep.perception[1]: unknown kind 'pictures'; write one of labels, simulated, "
+                "images"},
+        BadLine{"sweep_section", "sweep: {perception: [labels, {simulated: {}}]}\n",
+                "6: sweep.perception[1]: is a section; write the name of a kind, whose parameters "
+                "stand under the key"},
+        BadLine{
+            "images_alone", "perception: images\n",
+            "6: perception.images.folder: is missing; write folder: FOLDER, of the label images"},
         BadLine{"sweep_empty", "sweep: {voxel_m: []}\n",
                 "6: sweep.voxel_m: has no values; write at least one"},
         BadLine{"sweep_no_list", "sweep: {voxel_m: 0.05}\n",

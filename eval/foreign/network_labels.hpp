@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/foreign/label_classes.hpp"
+#include "eval/recording/recording.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// Where a network's label images of a recording lie, and how they are read
+/// (docs/foreign_recordings.md).
+struct NetworkImages {
+  std::filesystem::path folder, classes;
+  ClassMasks masks = ClassMasks::components;
+  std::optional<std::filesystem::path> scores;  ///< none: every score is 1
+
+  auto operator<=>(const NetworkImages&) const = default;
+};
+
+/// Names and hashes of all that a network's detections are read from: the images of the folder with
+/// their list, if there is one, the classes and the scores. Throws Error where one is missing, or
+/// the folder holds no image.
+[[nodiscard]] std::string content_of(const NetworkImages& images);
+
+/// What a network found in one colour image.
+struct NetworkDetections {
+  cv::Mat1w instances;         ///< ids of the table, colour camera
+  ClassTable table;            ///< the recording's, with this image's detections as instances
+  std::vector<double> scores;  ///< by instance id
+};
+
+/// Label images of a network in place of a recording's own. Immutable, safe to share between
+/// threads; the recording must outlive it.
+class NetworkLabels {
+ public:
+  /// `table`: the recording's with the study's detected set. Reads classes, scores and lists, not
+  /// the images. Throws Error, with file and mend, where one is refused or a frame has no image.
+  NetworkLabels(const NetworkImages& images, const Recording& recording, const ClassTable& table);
+
+  /// Of a frame. Throws Error where the image is missing, damaged, in colour or of another size.
+  [[nodiscard]] NetworkDetections of(int frame) const;
+
+  /// Reads every image. Throws Error as `of`, where more than a hundredth of all pixels have values
+  /// without a meaning, and where none is of a detected class.
+  void check() const;
+
+ private:
+  [[nodiscard]] cv::Mat1w read(int frame) const;
+  void take_meaning(const ClassTable& table);
+  void take_scores(const Recording& recording);
+
+  NetworkImages images_;
+  ClassTable table_;
+  cv::Size size_;
+  std::vector<std::filesystem::path> files_;  ///< by frame
+  std::vector<ClassId> class_of_value_;       ///< of the recording, by pixel value
+  std::vector<bool> known_;                   ///< values that the classes' file names, and 0
+  std::vector<std::map<std::uint16_t, double>> scores_;  ///< by frame, then pixel value
+};
+
+}  // namespace mapscore::eval

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/foreign/network_labels.hpp"
+#include "eval/recording/recording.hpp"
+#include "eval/study/study.hpp"
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace mapscore::eval {
+
+/// What the files hold that poses and detections of a study come from, as it stands in the keys of
+/// trials. Each is read once.
+class InputFiles {
+ public:
+  /// Hash of what the perception of a configuration reads: the object map of simulated perception,
+  /// or a network's images, classes and scores; empty where it reads none. Throws Error when one is
+  /// missing.
+  std::string perceived(const Study& config);
+
+  /// Hash of the file that the source of a configuration's poses reads; empty when it reads none.
+  /// Throws Error when the file is refused.
+  std::string poses(const Study& config);
+
+ private:
+  std::string of(const std::filesystem::path& file, auto read);
+
+  std::map<std::string, std::string> hashes_;
+};
+
+/// Where the label images of a configuration's perception lie. Throws Error where a path is
+/// missing.
+[[nodiscard]] NetworkImages network_images(const Study& config, const ImagePerception& settings);
+
+/// Reads the files that poses and detections of a study come from, at every point of its grid.
+/// Throws Error naming the file when one is refused.
+void check_input_files(const Study& study);
+
+/// Reads the label images of the networks of a study, at every point of its grid, as those of a
+/// recording. Throws Error as NetworkLabels::check.
+void check_network_labels(const Study& study, const Recording& recording);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/error.hpp"
+#include "eval/lab/bench.hpp"
+#include "eval/results/input_files.hpp"
+#include "files/file_bytes.hpp"
+#include "files/png.hpp"
+#include "tests/eval/lab/tiny_experiment.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+namespace mapscore::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::TinyExperiment;
+
+/// The tiny recording and label images of a network beside it: 56 where the crate is, else 0.
+class NetworkPerception : public TinyExperiment {
+ protected:
+  NetworkPerception() {
+    fs::create_directory(folder() / "labels");
+    for (int frame = 0; frame < recording().frame_count(); ++frame) write(frame, crate_of(frame));
+    write_file(folder() / "classes.yaml", "classes: [{name: crate, label: 56}]\n");
+  }
+
+  [[nodiscard]] cv::Mat1w crate_of(int frame) const {
+    cv::Mat1w image = cv::Mat1w::zeros(recording().read(frame).label.size());
+    image.setTo(56, recording().read(frame).label == 1);
+    return image;
+  }
+  void write(int frame, const cv::Mat1w& image) const {
+    write_file(folder() / "labels" / fmt::format("{:06}.png", frame), encode_png(image));
+  }
+  [[nodiscard]] Study study(const std::string& lines,
+                            const std::string& perception = kImages) const {
+    return parse_study(
+        "recording: tiny\nmethods:\n  direct: {segmentation: {direct: {}}}\n"
+        "score: {labels: true}\nperception: " +
+            perception + lines,
+        folder() / "study.yaml");
+  }
+  [[nodiscard]] Task task(const Study& of) const {
+    return task_of(of, trials(of)[0], Labels::detected, recording().content_hash());
+  }
+  [[nodiscard]] TrialResult result(const Task& of) const {
+    Bench bench(recording(), table(), false, std::size_t{1} << 24);
+    const auto run = bench.start(of);
+    bench.run(*run);
+    return run->finish();
+  }
+  [[nodiscard]] static Counts without_boxes(Counts counts) {
+    for (ClassCounts& of_class : counts) of_class.boxes = {};
+    return counts;
+  }
+
+  static constexpr const char* kImages = "{images: {folder: labels, classes: classes.yaml}}\n";
+  static constexpr const char* kFaults =
+      "faults: {misregistration: {magnitude_m: 0.02}, pose: {sigma_xy_m: 0.01}, depth: {preset: "
+      "astra}, time_offset_ms: 500}\n";
+};
+
+TEST_F(NetworkPerception, OfThePerfectMasksGivesTheScoresOfTheTrueLabels) {
+  for (const char* faults : {"", kFaults}) {
+    const Study images = study(faults), labels = study(faults, "labels\n");
+    const TrialResult of_images = result(task(images)), of_labels = result(task(labels));
+    EXPECT_EQ(without_boxes(of_images.counts), without_boxes(of_labels.counts)) << faults;
+    EXPECT_EQ(of_images.accounting, of_labels.accounting);
+    EXPECT_EQ(of_images.counts[1].boxes.detections, 0) << "no instance of the truth is named";
+    EXPECT_EQ(of_images.counts[1].boxes.unseen, recording().frame_count());
+  }
+}
+
+TEST_F(NetworkPerception, ErrorsShowInTheImageAndInTheMap) {
+  const TrialResult exact = result(task(study("")));
+  EXPECT_EQ(exact.counts[1].labels->right_px, exact.counts[1].labels->true_px);
+  EXPECT_EQ(exact.counts[1].labels->instances_found, recording().frame_count());
+  write(0, cv::Mat1w::zeros(crate_of(0).size()));
+  const TrialResult missed = result(task(study("")));
+  EXPECT_EQ(missed.counts[1].labels->instances_found, recording().frame_count() - 1);
+  EXPECT_LT(missed.counts[1].labels->right_px, exact.counts[1].labels->right_px);
+  EXPECT_EQ(missed.accounting.detections, exact.accounting.detections - 1);
+}
+
+TEST_F(NetworkPerception, FaultsOfLabelsActOnItsMasksToo) {
+  const TrialResult exact = result(task(study("")));
+  const TrialResult grown = result(task(study("faults: {labels: {boundary_px: 2}}\n")));
+  EXPECT_GT(grown.counts[1].labels->named_px, exact.counts[1].labels->named_px);
+  EXPECT_EQ(grown.counts[1].labels->right_px, exact.counts[1].labels->right_px);
+  const TrialResult none = result(task(study("faults: {labels: {miss: 1, miss_area_px: 1e6}}\n")));
+  EXPECT_LT(none.accounting.detections, exact.accounting.detections);
+}
+
+TEST_F(NetworkPerception, ScoresReachTheMap) {
+  const TrialResult plain = result(task(study("")));
+  std::string rows = "image,id,score\n";
+  for (int frame = 0; frame < recording().frame_count(); ++frame)
+    rows += fmt::format("{:06}.png,56,0.5\n", frame);
+  write_file(folder() / "scores.csv", rows);
+  const char* scored = "{images: {folder: labels, classes: classes.yaml, scores: scores.csv}}\n";
+  const TrialResult halved = result(task(study("", scored)));
+  EXPECT_NE(halved.counts[1].curve, plain.counts[1].curve);
+  EXPECT_EQ(halved.counts[1].labels, plain.counts[1].labels);
+  EXPECT_THROW((void)study("faults: {labels: {scores: 0.5}}\n", scored), Error);
+}
+
+TEST_F(NetworkPerception, TheKeyHoldsTheContentOfWhatIsRead) {
+  const std::string key = task(study("")).key;
+  fs::copy(folder() / "labels", folder() / "elsewhere");
+  fs::copy(folder() / "classes.yaml", folder() / "same.yaml");
+  EXPECT_EQ(task(study("", "{images: {folder: elsewhere, classes: same.yaml}}\n")).key, key);
+  write_file(folder() / "same.yaml",
+             "classes: [{name: crate, label: 56}, {name: wall, label: 2}]\n");
+  EXPECT_NE(task(study("", "{images: {folder: labels, classes: same.yaml}}\n")).key, key);
+  write_file(folder() / "scores.csv", "image,id,score\n");
+  EXPECT_NE(
+      task(study("", "{images: {folder: labels, classes: classes.yaml, scores: scores.csv}}\n"))
+          .key,
+      key);
+  write(3, cv::Mat1w::zeros(crate_of(3).size()));
+  EXPECT_NE(task(study("")).key, key);
+  EXPECT_THAT(task(study("")).description, Not(HasSubstr("labels\n")));
+}
+
+TEST_F(NetworkPerception, CeilingsAreThoseOfTheTrueLabels) {
+  const Plan of_images = plan(study(kFaults)), of_labels = plan(study(kFaults, "labels\n"));
+  const PlannedTrial images = of_images.trials[0], labels = of_labels.trials[0];
+  EXPECT_NE(of_images.tasks[images.task].key, of_labels.tasks[labels.task].key);
+  EXPECT_EQ(of_images.tasks[images.registration_ceiling].key,
+            of_labels.tasks[labels.registration_ceiling].key);
+  EXPECT_EQ(of_images.tasks[images.lattice_ceiling].key,
+            of_labels.tasks[labels.lattice_ceiling].key);
+}
+
+TEST_F(NetworkPerception, IsSweptBesideLabelsWithItsOwnParameters) {
+  const Study swept = study("sweep: {perception: [labels, simulated, images]}\n");
+  const Plan all = plan(swept);
+  ASSERT_EQ(all.trials.size(), 3u);
+  EXPECT_EQ(all.trials[2].spec.cell.doses.front(),
+            (std::pair<std::string, std::string>("perception", "images")));
+  EXPECT_EQ(all.tasks[all.trials[0].task].key, task(study("", "labels\n")).key);
+  EXPECT_EQ(all.tasks[all.trials[1].task].key, task(study("", "simulated\n")).key);
+  EXPECT_EQ(all.tasks[all.trials[2].task].key, task(study("")).key);
+  EXPECT_EQ(parse_study(to_yaml(swept), folder() / "study.yaml"), swept);
+}
+
+TEST_F(NetworkPerception, ImagesThatDoNotFitAreRefusedBeforeAnyTrial) {
+  check_network_labels(study(""), recording());
+  write(2, cv::Mat1w(crate_of(2).size(), std::uint16_t{9}));
+  try {
+    check_network_labels(study("", "labels\n"), recording());
+    check_network_labels(study("sweep: {perception: [labels, images]}\n", "labels\n"), recording());
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("perception.images.folder: is missing"));
+  }
+  try {
+    check_network_labels(study("sweep: {perception: [labels, images]}\n"), recording());
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("25.0 % of the pixels"));
+  }
+}
+
+}  // namespace
+}  // namespace mapscore::eval
