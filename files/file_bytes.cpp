@@ -7,6 +7,7 @@
 #include "files/suggestion.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 #include <cerrno>
@@ -60,6 +61,18 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
   if (!written || std::fflush(file.get()) != 0) fail(path, "cannot write", kMendWrite);
   if (std::fclose(file.release()) != 0) fail(path, "cannot write", kMendWrite);
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw Error(fmt::format("{}: cannot create the folder ({}); give another", folder.string(),
+                            error.message()));
+}
+
+void link_or_copy(const std::filesystem::path& file, const std::filesystem::path& place) {
+  if (link(file.c_str(), place.c_str()) != 0) write_file(place, read_file(file));
 }
 
 std::string hash_of(std::string_view bytes) {

@@ -39,6 +39,7 @@ struct MapVerbFlags {
   std::vector<double> origin_m{0, 0, 0};
   double yaw_deg = 0.0;
   bool quiet = false;
+  const CLI::App* verb = nullptr;
 };
 
 /// The study's method by name, its first without one.
@@ -98,13 +99,11 @@ FolderMapping folder_mapping(const std::optional<Study>& study, const MapVerbFla
   return mapping;
 }
 
-std::string folder_text(const LabelledFolder& folder, const MappedCounts& counts) {
-  std::string text =
-      fmt::format("{} of {} label images mapped", counts.frames, folder.counts().labels);
-  if (folder.counts().no_depth > 0)
-    text += fmt::format("; {} without a depth image near in time", folder.counts().no_depth);
-  if (folder.counts().no_pose > 0)
-    text += fmt::format("; {} without a pose", folder.counts().no_pose);
+std::string counts_text(const LabelledFolderCounts& labels, const MappedCounts& counts) {
+  std::string text = fmt::format("{} of {} label images mapped", counts.frames, labels.labels);
+  if (labels.no_depth > 0)
+    text += fmt::format("; {} without a depth image near in time", labels.no_depth);
+  if (labels.no_pose > 0) text += fmt::format("; {} without a pose", labels.no_pose);
   if (counts.hits_beyond_span > 0)
     text += fmt::format("; {} hits left out, farther from the map's origin than an octree reaches",
                         counts.hits_beyond_span);
@@ -122,10 +121,46 @@ std::string class_lines(const SemanticMap& map, const ClassTable& table, double 
   return text;
 }
 
-void map_recording(const MapVerbFlags& flags) {
-  check_outputs({{"-o", flags.file, ".ot"},
-                 {"--color", flags.color_file, ".ot"},
-                 {"--ply", flags.ply_file, ".ply"}});
+/// A map and what is told of it.
+struct Mapped {
+  SemanticMap map;
+  ClassTable table;
+  double threshold;
+  std::string text;
+};
+
+std::vector<int> chosen_frames(const MapVerbFlags& flags, int count) {
+  return (flags.frames.empty() ? FrameSelection() : FrameSelection(flags.frames)).of(count);
+}
+
+/// A trial is mapped as its own files say.
+void refuse_beside_trial(const MapVerbFlags& flags) {
+  const std::vector<std::string> allowed{"--frames", "--threshold"};
+  for (const CLI::Option* option : flags.verb->get_options())
+    if (option->count() > 0 &&
+        (option->get_group() == "Mapping" || option->get_group() == "Reading the folder") &&
+        std::ranges::find(allowed, option->get_name()) == allowed.end())
+      throw Error(fmt::format(
+          "{}: has no effect on {}, which is a trial's folder and says itself how it is mapped "
+          "(method.yaml); leave it out",
+          option->get_name(), shown(flags.folder)));
+}
+
+Mapped mapped_trial(const MapVerbFlags& flags, const FramesDone& shown_done) {
+  refuse_beside_trial(flags);
+  const TrialFolder folder(flags.folder);
+  const Study study = load_study(std::filesystem::path(flags.folder) / "method.yaml");
+  ClassTable table{folder.sheet().classes};
+  FolderMapping mapping{mapping_of(study, table), {}, study.methods.front().refinement};
+  MappedCounts counts;
+  SemanticMap map =
+      map_trial(folder, chosen_frames(flags, folder.frame_count()), mapping, counts, shown_done);
+  return {std::move(map), std::move(table),
+          flags.threshold.value_or(default_threshold(mapping.mapping.fusion.rule)),
+          counts_text({folder.frame_count()}, counts)};
+}
+
+Mapped mapped_folder(const MapVerbFlags& flags, const FramesDone& shown_done) {
   const std::optional<Study> study = study_of(flags);
   LabelledFolderOptions reading = flags.reading;
   reading.masks = static_cast<ClassMasks>(std::ranges::find(kMasks, flags.masks) - kMasks.begin());
@@ -136,23 +171,31 @@ void map_recording(const MapVerbFlags& flags) {
   else if (study)
     folder.detect_as(detected_table(*study, folder.table()).classes);
   const FolderMapping mapping = folder_mapping(study, flags, folder.table());
-  const std::vector<int> frames =
-      (flags.frames.empty() ? FrameSelection() : FrameSelection(flags.frames))
-          .of(folder.frame_count());
   MappedCounts counts;
+  SemanticMap map =
+      map_folder(folder, chosen_frames(flags, folder.frame_count()), mapping, counts, shown_done);
+  return {std::move(map), folder.table(),
+          flags.threshold.value_or(default_threshold(mapping.mapping.fusion.rule)),
+          counts_text(folder.counts(), counts)};
+}
+
+void map_recording(const MapVerbFlags& flags) {
+  check_outputs({{"-o", flags.file, ".ot"},
+                 {"--color", flags.color_file, ".ot"},
+                 {"--ply", flags.ply_file, ".ply"}});
   Progress progress("map", "frames", flags.quiet);
-  const SemanticMap map = map_folder(folder, frames, mapping, counts,
-                                     [&](int done, int all) { progress.show(done, all); });
-  const double threshold = flags.threshold.value_or(default_threshold(mapping.mapping.fusion.rule));
+  const auto shown_done = [&](int done, int all) { progress.show(done, all); };
+  const auto [map, table, threshold, text] = is_trial_folder(flags.folder)
+                                                 ? mapped_trial(flags, shown_done)
+                                                 : mapped_folder(flags, shown_done);
   if (map.voxels().empty() && !flags.quiet)
     std::cerr << "mapscore: note: the map has no voxel; do the classes occur in the labels, and do "
                  "poses, depth and --origin_m fit?\n";
   const auto together = lock_outputs({flags.file, flags.color_file, flags.ply_file});
   map.save(flags.file);
-  if (!flags.color_file.empty()) map.export_color(flags.color_file, folder.table(), threshold);
-  if (!flags.ply_file.empty()) write_voxel_ply(flags.ply_file, map, folder.table(), threshold);
-  std::cout << folder_text(folder, counts) << class_lines(map, folder.table(), threshold)
-            << shown(flags.file) << '\n';
+  if (!flags.color_file.empty()) map.export_color(flags.color_file, table, threshold);
+  if (!flags.ply_file.empty()) write_voxel_ply(flags.ply_file, map, table, threshold);
+  std::cout << text << class_lines(map, table, threshold) << shown(flags.file) << '\n';
   for (const std::string& file : {flags.color_file, flags.ply_file})
     if (!file.empty()) std::cout << shown(file) << '\n';
 }
@@ -214,10 +257,11 @@ void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
 void add_map(CLI::App& program) {
   const auto [verb, flags] = add_verb<MapVerbFlags>(
       program, "map", "Map a recording of any origin, truth or not", map_recording);
+  flags->verb = verb;
   flags->segmentation.add_to(*verb, "Mapping");
   verb->add_option("FOLDER", flags->folder,
                    "Folder with depth.txt, groundtruth.txt, color.txt or rgb.txt, and label/ or "
-                   "label.txt")
+                   "label.txt; or one of `mapscore trial`")
       ->required();
   verb->add_option("-o,--output", flags->file, "Map to write (.ot)")->required();
   verb->add_option("--color", flags->color_file,

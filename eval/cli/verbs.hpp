@@ -27,6 +27,7 @@ template <class Flags>
 /// failed, counts of a repeated trial differ.
 void add_record(CLI::App& program);
 void add_run(CLI::App& program, int& exit_code);
+void add_trial(CLI::App& program);
 void add_frames(CLI::App& program);
 void add_sweep(CLI::App& program, int& exit_code);
 void add_tolerance(CLI::App& program, int& exit_code);
@@ -49,6 +50,7 @@ void add_info(CLI::App& program);
 inline void add_verbs(CLI::App& program, int& exit_code) {
   add_record(program);
   add_run(program, exit_code);
+  add_trial(program);
   add_frames(program);
   add_sweep(program, exit_code);
   add_tolerance(program, exit_code);

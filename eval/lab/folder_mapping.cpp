@@ -9,28 +9,63 @@
 #include <utility>
 
 namespace mapscore::eval {
+namespace {
 
-SemanticMap map_folder(const LabelledFolder& folder, const std::vector<int>& frames,
-                       const FolderMapping& mapping, MappedCounts& counts,
-                       const std::function<void(int, int)>& shown) {
-  Mapper mapper(mapping.mapping, folder.table().classes.size());
-  RandomStream draws(0, "belief");  // of a pose that is known; nothing is drawn
-  for (const int index : frames) {
-    ClassTable table;
-    const Frame frame = folder.read(index, table);
-    const Sight sight(folder.calibration(), frame.depth, detections_of(frame.label, table));
-    for (const Segment& found :
-         mapper.integrate(sight, {mapping.T_map_world, frame.T_world_base}, draws)) {
+/// Of one frame.
+struct Given {
+  Sight sight;
+  PoseBelief belief;
+  RandomStream draws;
+  cv::Mat3b color = {};  ///< empty where no refinement reads it
+};
+
+SemanticMap map_frames(const std::vector<int>& frames, const std::function<Given(int)>& give,
+                       std::size_t class_count, const FolderMapping& mapping, MappedCounts& counts,
+                       const FramesDone& shown) {
+  Mapper mapper(mapping.mapping, class_count);
+  for (const int position : frames) {
+    Given given = give(position);
+    for (const Segment& found : mapper.integrate(given.sight, given.belief, given.draws)) {
       ++counts.detections;
       counts.points += static_cast<std::int64_t>(found.points.size());
       counts.empty += found.skipped == SkipReason::none ? 0 : 1;
     }
+    if (!given.color.empty()) mapper.add_colours(given.sight, given.color, given.belief);
     ++counts.frames;
     shown(static_cast<int>(counts.frames), static_cast<int>(frames.size()));
   }
   counts.hits_beyond_span = static_cast<std::int64_t>(mapper.map().hits_beyond_span());
   if (const auto* crf = std::get_if<Crf>(&mapping.refinement)) refine(mapper.map(), *crf);
   return std::move(mapper.map());
+}
+
+}  // namespace
+
+SemanticMap map_folder(const LabelledFolder& folder, const std::vector<int>& frames,
+                       const FolderMapping& mapping, MappedCounts& counts,
+                       const FramesDone& shown) {
+  const auto give = [&](int index) -> Given {
+    ClassTable table;
+    const Frame frame = folder.read(index, table);
+    return {{folder.calibration(), frame.depth, detections_of(frame.label, table)},
+            {mapping.T_map_world, frame.T_world_base},
+            RandomStream(0, "belief")};  // of a pose that is known; nothing is drawn
+  };
+  return map_frames(frames, give, folder.table().classes.size(), mapping, counts, shown);
+}
+
+SemanticMap map_trial(const TrialFolder& folder, const std::vector<int>& frames,
+                      const FolderMapping& mapping, MappedCounts& counts, const FramesDone& shown) {
+  const auto* crf = std::get_if<Crf>(&mapping.refinement);
+  const bool reads_colour = crf != nullptr && crf->reads_colour();
+  const auto give = [&](int position) -> Given {
+    const TrialFrame& frame = folder.frame(position);
+    return {
+        folder.sight(position), frame.belief,
+        RandomStream(folder.sheet().draw_seed, "belief", {static_cast<std::uint64_t>(frame.index)}),
+        reads_colour ? folder.color(position) : cv::Mat3b()};
+  };
+  return map_frames(frames, give, folder.sheet().classes.size(), mapping, counts, shown);
 }
 
 }  // namespace mapscore::eval

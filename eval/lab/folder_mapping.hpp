@@ -7,6 +7,7 @@
 #include "core/mapping/mapper.hpp"
 #include "core/mapping/semantic_map.hpp"
 #include "eval/foreign/labelled_folder.hpp"
+#include "eval/foreign/trial_folder.hpp"
 #include "eval/study/study.hpp"
 
 #include <cstdint>
@@ -15,11 +16,11 @@
 
 namespace mapscore::eval {
 
-/// How a folder is mapped, without any fault: its calibration and poses are believed as they are.
+/// How a folder is mapped: its calibration and poses are believed as they are.
 struct FolderMapping {
-  Mapping mapping;                      ///< of one draw a frame: poses are known
+  Mapping mapping;                      ///< without covariances, of one draw a frame
   Pose T_map_world = Pose::Identity();  ///< world: the frame of groundtruth.txt
-  Refinement refinement;                ///< of the finished map; without colours
+  Refinement refinement;                ///< of the finished map; without colours but in trials
 };
 
 /// What came of the frames.
@@ -29,11 +30,19 @@ struct MappedCounts {
   std::int64_t hits_beyond_span = 0;  ///< left out: the octree does not reach so far
 };
 
-/// Maps these frames of a folder in their order, as a trial at dose zero does. Calls
-/// `shown(done, all)` after each. Throws Error where an image cannot be read or a parameter is out
-/// of range.
+/// Told after each frame: how many are done, of how many.
+using FramesDone = std::function<void(int, int)>;
+
+/// Maps these frames of a folder in their order, as a trial at dose zero does. Throws Error where
+/// an image cannot be read or a parameter is out of range.
 [[nodiscard]] SemanticMap map_folder(const LabelledFolder& folder, const std::vector<int>& frames,
                                      const FolderMapping& mapping, MappedCounts& counts,
-                                     const std::function<void(int, int)>& shown);
+                                     const FramesDone& shown);
+
+/// Maps these frames of a trial folder, by their position in its list; all of them give the map of
+/// the trial, bit for bit, where `mapping` is that of its method.yaml. Throws Error likewise.
+[[nodiscard]] SemanticMap map_trial(const TrialFolder& folder, const std::vector<int>& frames,
+                                    const FolderMapping& mapping, MappedCounts& counts,
+                                    const FramesDone& shown);
 
 }  // namespace mapscore::eval

@@ -150,6 +150,18 @@ std::vector<Detection> Sights::detections_of(const Frame& frame) const {
   return detections;
 }
 
+bool Sights::keeps_depth() const {
+  return sim::is_zero(faults_.depth.dose());
+}
+
+bool Sights::keeps_labels() const {
+  return !simulated_ && !network_ && sim::keeps_masks(faults_.labels.dose());
+}
+
+bool Sights::keeps_verdicts() const {
+  return sim::is_zero(faults_.labels.dose());
+}
+
 Sight Sights::of(const Frame& frame) const {
   if (labels_ == Labels::truth) return {believed_, frame.depth, {}};
   return {believed_,

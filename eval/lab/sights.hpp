@@ -41,6 +41,14 @@ class Sights {
   /// perception. A network's detections are instances beyond it.
   [[nodiscard]] const ClassTable& table() const;
 
+  [[nodiscard]] const Calibration& believed() const { return believed_; }
+
+  /// Whether the method sees the recording's own depth images, and whether its label images, whose
+  /// ids may then mean other classes and scores but where keeps_verdicts.
+  [[nodiscard]] bool keeps_depth() const;
+  [[nodiscard]] bool keeps_labels() const;
+  [[nodiscard]] bool keeps_verdicts() const;
+
   /// What a method sees of a frame, which is read with the depth image that `depth_of` names. Of
   /// the lattice ceiling: the exact depth image and no detections. Throws Error where a network's
   /// image cannot be read.

@@ -47,20 +47,6 @@ std::uint16_t id_of(const YamlValue& item, std::size_t expected) {
   return static_cast<std::uint16_t>(item.at("id").whole(expected, expected));
 }
 
-std::vector<SemanticClass> classes_of(const YamlValue& value) {
-  std::vector<SemanticClass> classes;
-  for (const YamlValue& item : value.elements()) {
-    item.only({"id", "name", "colour", "detect"});
-    SemanticClass c{id_of(item, classes.size()), item.at("name").name(), item.at("colour").colour(),
-                    item.at("detect").boolean()};
-    for (const SemanticClass& other : classes)
-      if (other.name == c.name) item.fail("two classes have this name; rename one");
-    classes.push_back(std::move(c));
-  }
-  if (classes.empty()) value.fail("no classes; list at least background with id 0");
-  return classes;
-}
-
 std::vector<Instance> instances_of(const YamlValue& value, std::size_t class_count) {
   std::vector<Instance> instances;
   for (const YamlValue& item : value.elements()) {
@@ -72,23 +58,6 @@ std::vector<Instance> instances_of(const YamlValue& value, std::size_t class_cou
   }
   if (instances.empty()) value.fail("no instances; list at least background with id 0");
   return instances;
-}
-
-Calibration calibration_of(const YamlValue& root) {
-  const YamlValue color = root.at("color"), depth = root.at("depth");
-  color.only({"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px", "rate_hz"});
-  depth.only({"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px", "rate_hz", "range_min_m",
-              "range_max_m"});
-  Calibration calibration;
-  calibration.color = camera_of(color);
-  calibration.depth = camera_of(depth);
-  calibration.T_color_depth = pose_of(root.at("T_color_depth"));
-  calibration.T_base_depth = pose_of(root.at("T_base_depth"));
-  calibration.range_min_m = depth.at("range_min_m").number();
-  calibration.range_max_m = depth.at("range_max_m").number();
-  if (calibration.range_min_m < 0.0 || calibration.range_max_m <= calibration.range_min_m)
-    depth.fail("expected 0 <= range_min_m < range_max_m");
-  return calibration;
 }
 
 BakedFaults baked_of(const YamlValue& value) {
@@ -116,6 +85,53 @@ int count_of(const YamlValue& root, const std::string& key) {
 
 }  // namespace
 
+Calibration calibration_of(const YamlValue& root) {
+  const YamlValue color = root.at("color"), depth = root.at("depth");
+  color.only({"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px", "rate_hz"});
+  depth.only({"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px", "rate_hz", "range_min_m",
+              "range_max_m"});
+  Calibration calibration;
+  calibration.color = camera_of(color);
+  calibration.depth = camera_of(depth);
+  calibration.T_color_depth = pose_of(root.at("T_color_depth"));
+  calibration.T_base_depth = pose_of(root.at("T_base_depth"));
+  calibration.range_min_m = depth.at("range_min_m").number();
+  calibration.range_max_m = depth.at("range_max_m").number();
+  if (calibration.range_min_m < 0.0 || calibration.range_max_m <= calibration.range_min_m)
+    depth.fail("expected 0 <= range_min_m < range_max_m");
+  return calibration;
+}
+
+std::vector<SemanticClass> classes_of(const YamlValue& value) {
+  std::vector<SemanticClass> classes;
+  for (const YamlValue& item : value.elements()) {
+    item.only({"id", "name", "colour", "detect"});
+    SemanticClass c{id_of(item, classes.size()), item.at("name").name(), item.at("colour").colour(),
+                    item.at("detect").boolean()};
+    for (const SemanticClass& other : classes)
+      if (other.name == c.name) item.fail("two classes have this name; rename one");
+    classes.push_back(std::move(c));
+  }
+  if (classes.empty()) value.fail("no classes; list at least background with id 0");
+  return classes;
+}
+
+std::string cameras_text(const Calibration& calibration, double color_rate_hz,
+                         double depth_rate_hz) {
+  return fmt::format("color: {{{}}}\ndepth: {{{}, range_min_m: {}, range_max_m: {}}}\n",
+                     camera_text(calibration.color, color_rate_hz),
+                     camera_text(calibration.depth, depth_rate_hz), calibration.range_min_m,
+                     calibration.range_max_m);
+}
+
+std::string classes_text(const std::vector<SemanticClass>& classes) {
+  std::string text = "classes:\n";
+  for (const SemanticClass& c : classes)
+    text += fmt::format("  - {{id: {}, name: {}, colour: \"{:02X}{:02X}{:02X}\", detect: {}}}\n",
+                        c.id, yaml_quoted(c.name), c.colour.r, c.colour.g, c.colour.b, c.detect);
+  return text;
+}
+
 std::string info_text(const RecordingInfo& info) {
   const Calibration& calibration = info.calibration;
   std::string text = fmt::format("format_version: {}\n", kRecordingFormat);
@@ -131,17 +147,11 @@ std::string info_text(const RecordingInfo& info) {
   text += fmt::format("frame_count: {}\nhas_truth: {}\n", info.frame_count, info.has_truth);
   if (info.odometry_count > 0) text += fmt::format("odometry_count: {}\n", info.odometry_count);
   if (info.scan_count > 0) text += fmt::format("scan_count: {}\n", info.scan_count);
-  text += fmt::format("color: {{{}}}\n", camera_text(calibration.color, info.color_rate_hz));
-  text += fmt::format("depth: {{{}, range_min_m: {}, range_max_m: {}}}\n",
-                      camera_text(calibration.depth, info.depth_rate_hz), calibration.range_min_m,
-                      calibration.range_max_m);
+  text += cameras_text(calibration, info.color_rate_hz, info.depth_rate_hz);
   text += fmt::format("T_color_depth: [{}]\nT_base_depth: [{}]\n",
                       join_numbers(numbers_of(calibration.T_color_depth), ", "),
                       join_numbers(numbers_of(calibration.T_base_depth), ", "));
-  text += "classes:\n";
-  for (const SemanticClass& c : info.table.classes)
-    text += fmt::format("  - {{id: {}, name: {}, colour: \"{:02X}{:02X}{:02X}\", detect: {}}}\n",
-                        c.id, yaml_quoted(c.name), c.colour.r, c.colour.g, c.colour.b, c.detect);
+  text += classes_text(info.table.classes);
   text += "instances:\n";
   for (const Instance& instance : info.table.instances)
     text += fmt::format("  - {{id: {}, name: {}, class: {}}}\n", instance.id,

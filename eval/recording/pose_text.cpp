@@ -34,8 +34,28 @@ std::optional<Pose> pose_of(const PoseNumbers& numbers) {
   return pose;
 }
 
+PoseRows rows_of(const Pose& pose) {
+  PoseRows rows{};
+  std::ranges::copy(pose.affine().reshaped<Eigen::RowMajor>(), rows.begin());
+  return rows;
+}
+
+std::optional<Pose> pose_of_rows(const PoseRows& rows) {
+  Pose pose = Pose::Identity();
+  std::ranges::copy(rows, pose.affine().reshaped<Eigen::RowMajor>().begin());
+  const Eigen::Matrix3d R = pose.linear();
+  const bool rigid = pose.matrix().allFinite() && R.determinant() > 0.0 &&
+                     (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() <= kUnitTolerance;
+  return rigid ? std::optional(pose) : std::nullopt;
+}
+
 Pose pose_of(const YamlValue& list) {
   const std::vector<YamlValue> items = list.elements();
+  if (PoseRows rows{}; items.size() == rows.size()) {
+    std::ranges::transform(items, rows.begin(), &YamlValue::number);
+    if (const auto pose = pose_of_rows(rows)) return *pose;
+    list.fail("is no rigid transform; write the upper three rows of its matrix");
+  }
   PoseNumbers numbers{};
   if (items.size() != numbers.size()) list.fail("expected [tx, ty, tz, qx, qy, qz, qw]");
   std::ranges::transform(items, numbers.begin(), &YamlValue::number);

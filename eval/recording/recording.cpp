@@ -18,9 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kOdometryFile = "odometry.txt";
-constexpr const char* kScanFile = "scan/scans.bin";
-
 /// What a recording may hold of the robot's other sensors.
 std::vector<std::string> log_paths(const RecordingInfo& info) {
   std::vector<std::string> paths;
@@ -136,6 +133,10 @@ std::string Recording::read_image(const std::string& path) const {
 
 cv::Mat1w Recording::read_grey16(const std::string& path, const CameraModel& camera) const {
   return decode_grey16_png(read_image(path), size_of(camera), (folder_ / path).string());
+}
+
+std::string Recording::label_path(int index) const {
+  return sibling_path(color_path(index), "label");
 }
 
 Frame Recording::read(int index, int depth_index, Channels channels) const {

@@ -33,6 +33,10 @@ struct BakedFaults {
   bool operator==(const BakedFaults&) const = default;
 };
 
+/// Where odometry and scans stand below a recording's folder.
+inline constexpr const char* kOdometryFile = "odometry.txt";
+inline constexpr const char* kScanFile = "scan/scans.bin";
+
 /// What recording.yaml holds: everything about a recording but its frames and surfaces.
 struct RecordingInfo {
   Calibration calibration;  ///< the true one, which rendered the images
@@ -98,6 +102,15 @@ class Recording {
   }
   [[nodiscard]] double color_stamp_s(int index) const {
     return color_.at(static_cast<std::size_t>(index)).stamp_s;
+  }
+
+  /// Paths of images below the folder, of a colour image and a depth image by their index.
+  [[nodiscard]] const std::string& color_path(int index) const {
+    return color_.at(static_cast<std::size_t>(index)).path;
+  }
+  [[nodiscard]] std::string label_path(int index) const;
+  [[nodiscard]] const std::string& depth_path(int depth_index) const {
+    return depth_.at(static_cast<std::size_t>(depth_index)).path;
   }
 
   /// A frame with the depth image that belongs to it.

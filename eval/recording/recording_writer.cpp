@@ -8,46 +8,19 @@
 #include "eval/recording/recording.hpp"
 #include "eval/recording/shape_files.hpp"
 #include "files/file_bytes.hpp"
-#include "files/folder_lock.hpp"
 #include "files/png.hpp"
 #include "files/refusal.hpp"
-
-#include <unistd.h>
+#include "files/whole_folder.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <optional>
 
 namespace mapscore::eval {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Absolute, without `.`, `..` and a closing slash, so that a suffix can be appended.
-fs::path normal(const fs::path& folder) {
-  const fs::path path = fs::absolute(folder).lexically_normal();
-  return path.has_filename() ? path : path.parent_path();
-}
-
-void create(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) refuse(folder, "cannot create the folder ({}); give another", error.message());
-}
-
-/// Removes what a crash left, but for the folder itself, which is locked.
-void empty(const fs::path& folder) {
-  std::error_code ignored;  // creating says what is wrong
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-    fs::remove_all(entry.path(), ignored);
-}
-
-void check_absent(const fs::path& folder) {
-  if (fs::exists(fs::symlink_status(folder)))
-    refuse(folder, "exists already; remove it or give another folder");
-}
 
 void check_size(int index, const char* image, const cv::Mat& pixels, const CameraModel& camera) {
   if (pixels.cols != camera.width_px || pixels.rows != camera.height_px)
@@ -64,10 +37,7 @@ std::string image_name(const char* folder, int index) {
 }  // namespace
 
 struct RecordingWriter::State {
-  ~State() {
-    std::error_code ignored;
-    if (!finished && hold && !hold->taken()) fs::remove_all(partial, ignored);
-  }
+  State(const fs::path& of, RecordingInfo its_info) : whole(of), info(std::move(its_info)) {}
 
   struct Written {
     double stamp_s;
@@ -76,10 +46,10 @@ struct RecordingWriter::State {
   };
   using Side = std::map<int, Written>;  ///< by number of the image
 
-  fs::path folder, partial;
-  std::optional<FolderLock> hold;  ///< on `partial`
+  WholeFolder whole;
+  const fs::path &folder = whole.folder(), &partial = whole.partial();
   RecordingInfo info;
-  bool has_shapes = false, finished = false;
+  bool has_shapes = false;
   std::mutex mutex;  // guards the sides
   Side color, depth;
   std::vector<TrajectoryPose> poses_between;
@@ -165,23 +135,10 @@ struct RecordingWriter::State {
 };
 
 RecordingWriter::RecordingWriter(const fs::path& folder, RecordingInfo info)
-    : state_(std::make_unique<State>()) {
-  state_->folder = normal(folder);
-  state_->partial = state_->folder.string() + ".partial";
-  state_->info = std::move(info);
-  check_absent(state_->folder);
-  // A file or link of that name. Not std::filesystem::remove, which would take the empty folder that
-  // another process made a moment ago and locked.
-  unlink(state_->partial.c_str());
-  state_->hold.emplace(state_->partial, WhenTaken::go_on);
-  if (state_->hold->taken())
-    refuse(state_->folder,
-           "another process is recording into it; wait for it, or give another folder");
-  check_absent(state_->folder);  // the other may have finished in between
-  empty(state_->partial);
-  for (const char* channel : {"color", "depth", "label"}) create(state_->partial / channel);
+    : state_(std::make_unique<State>(folder, std::move(info))) {
+  for (const char* channel : {"color", "depth", "label"}) make_folder(state_->partial / channel);
   if (!state_->info.has_truth) return;
-  for (const char* channel : {"depth_label", "truth"}) create(state_->partial / channel);
+  for (const char* channel : {"depth_label", "truth"}) make_folder(state_->partial / channel);
 }
 
 RecordingWriter::~RecordingWriter() = default;
@@ -231,7 +188,7 @@ void RecordingWriter::write_odometry(const std::vector<OdometryPose>& poses) {
 }
 
 void RecordingWriter::write_scans(const ScanLog& scans) {
-  create(state_->partial / "scan");
+  make_folder(state_->partial / "scan");
   write_file(state_->partial / "scan/scans.bin", scan_log_bytes(scans));
   state_->info.scan_count = static_cast<int>(scans.scans.size());
 }
@@ -245,13 +202,7 @@ void RecordingWriter::finish() {
   state_->write_lists();
   state_->info.frame_count = static_cast<int>(state_->color.size());
   write_file(state_->partial / "recording.yaml", info_text(state_->info));
-  check_absent(state_->folder);
-  std::error_code error;
-  fs::rename(state_->partial, state_->folder, error);
-  if (error)
-    refuse(state_->folder, "cannot be renamed from {} ({}); give another folder",
-           state_->partial.string(), error.message());
-  state_->finished = true;
+  state_->whole.finish();
 }
 
 }  // namespace mapscore::eval

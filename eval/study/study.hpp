@@ -226,6 +226,10 @@ void check(const Study& study);
 /// that results stored before those leaves existed keep their keys.
 [[nodiscard]] std::string to_key_yaml(const Study& study);
 
+/// What of a configuration decides how its method maps, as a study that `map --study` takes, beside
+/// the folder that is mapped.
+[[nodiscard]] std::string method_yaml(const Study& config);
+
 /// Table of all keys in Markdown: type, unit, default, range, meaning. docs/study_reference.md is
 /// this text.
 [[nodiscard]] std::string config_reference();

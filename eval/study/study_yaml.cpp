@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -14,12 +16,15 @@ namespace {
 class Dumper {
  public:
   /// `for_key`: leave out what is `later` and has its default.
-  explicit Dumper(bool for_key) : for_key_(for_key) {}
+  /// `keys`: those of the study itself that are written; empty: all.
+  explicit Dumper(bool for_key, std::set<std::string_view> keys = {})
+      : for_key_(for_key), keys_(std::move(keys)) {}
 
   template <Node T>
   void body(const T& node) {
     static const std::map<std::string_view, std::string> defaults = default_texts<T>();
     for_each_child(node, [this](const auto& child, const Field& field) {
+      if (depth_ == 0 && !keys_.empty() && !keys_.contains(field.key)) return;
       const auto plain = defaults.find(field.key);
       this->key(field, child, plain == defaults.end() ? "" : plain->second);
     });
@@ -84,6 +89,7 @@ class Dumper {
   }
 
   bool for_key_;
+  std::set<std::string_view> keys_;
   std::string text_;
   int depth_ = 0;
 };
@@ -132,6 +138,15 @@ std::string whole_path(const Study& study, const std::string& name) {
 
 std::string to_yaml(const Study& study) {
   return yaml_of(study, false);
+}
+
+std::string method_yaml(const Study& config) {
+  Study alone = config;
+  alone.name = config.methods.front().name;
+  alone.recording = ".";
+  Dumper dumper(false, {"name", "recording", "voxel_m", "place", "methods", "fusion", "occupancy"});
+  dumper.body(alone);
+  return std::move(dumper).take();
 }
 
 std::string to_key_yaml(const Study& study) {

@@ -62,6 +62,7 @@ def commands(work):
         "tolerance": ["tolerance", at("study.yaml"), "-o", "{out}", "--trials", "24", "--figure", "{out}/figures", *quiet],
         "run": ["run", at("study.yaml"), "-o", "{out}", *quiet],
         "frames": ["frames", at("study.yaml"), "-o", "{out}", "--set", "score.unit=frame", *quiet],
+        "trial": ["trial", at("study.yaml"), "-o", "{out}/trial", "--set", "faults.labels.boundary_px=1", *quiet],
         "map": ["map", at("rec"), "-o", "{out}/map.ot", "--color", "{out}/colour.ot", "--ply", "{out}/map.ply", "-q"],
         "score --picture": [*scored, "--picture", "{out}/errors.png", "--errors_ply", "{out}/errors.ply"],
         "resolutions": ["resolutions", at("map.ot"), "--truth", at("rec"), "--picture", "{out}/sizes.png", "--color",

@@ -52,6 +52,12 @@ def frames_of(case, study):
     case.run("frames", study, "-o", case.out("frames"), "-q", "-j", "1", "--set", "score.unit=frame")
 
 
+def trial_of(case, study):
+    folder = case.out("trial")
+    if case.run("trial", study, "-o", folder, "-q", "--set", "sweep={}", "--set", "faults.labels.boundary_px=1"):
+        case.run("map", folder, "-o", case.out("trial.ot"), "-q")
+
+
 def map_and_score(case, recording, full):
     map_file = case.out("map.ot")
     case.run("map", recording, "-o", map_file, "--color", case.out("colour.ot"), "--ply", case.out("map.ply"), "-q")
@@ -94,6 +100,7 @@ def whole_recording(case, recording, classes, full):
     if full:
         tolerance_of(case, case.at("study.yaml"))
     frames_of(case, case.at("study.yaml"))
+    trial_of(case, case.at("study.yaml"))
     map_and_score(case, recording, full)
     if full:
         case.run("segment", recording, "-o", case.out("segments"))

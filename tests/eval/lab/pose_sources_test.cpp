@@ -7,9 +7,9 @@
 #include "eval/lab/map_frame.hpp"
 #include "eval/localization/believed_trajectory.hpp"
 #include "eval/recording/grid_file.hpp"
-#include "eval/recording/recording_writer.hpp"
 #include "eval/truth/floor_grid.hpp"
 #include "files/file_bytes.hpp"
+#include "tests/eval/lab/driven_recording.hpp"
 #include "tests/eval/lab/tiny_experiment.hpp"
 #include "tests/support/expect_error.hpp"
 
@@ -24,11 +24,9 @@ namespace mapscore::eval {
 namespace {
 
 using mapscore::testing::expect_error;
+using testing::kLidarHeight_m;
+using testing::kOdometryScale;
 using testing::study_of;
-
-constexpr double kLidarHeight_m = 0.4;
-constexpr double kOdometryScale = 1.1;  ///< of the way that the wheels believe
-constexpr int kBeams = 360;
 
 /// The tiny recording with the logs of its drive: an odometry that makes every way too long, and
 /// turns of a lidar against the crate and the wall.
@@ -52,65 +50,8 @@ class PoseSourcesTest : public ::testing::Test {
 
  private:
   [[nodiscard]] Recording written(const char* name, bool logs) const {
-    const std::vector<Frame> frames = mapscore::testing::tiny_frames();
-    const std::vector<Shape> shapes = home();
-    RecordingWriter writer(folder_.path() / name, mapscore::testing::tiny_info());
-    for (const Frame& frame : frames) mapscore::testing::write_frame(writer, frame);
-    writer.write_shapes(shapes);
-    if (logs) {
-      writer.write_odometry(odometry(frames));
-      writer.write_scans(scans(frames, shapes));
-    }
-    writer.finish();
+    testing::write_driven_recording(folder_.path() / name, logs);
     return Recording::open(folder_.path() / name);
-  }
-
-  /// Crate and wall, and three walls behind and beside the robot that no camera sees.
-  static std::vector<Shape> home() {
-    std::vector<Shape> shapes = mapscore::testing::tiny_shapes();
-    const auto add_wall = [&](double x_m, double y_m, const Eigen::Vector3d& half_m) {
-      Shape wall;
-      wall.kind = ShapeKind::box;
-      wall.name = "unseen_geom";
-      wall.T_world_shape.translation() = Eigen::Vector3d(x_m, y_m, 0.5);
-      wall.size = half_m;
-      shapes.push_back(wall);
-    };
-    add_wall(-1.53, 0.0, {0.05, 2.5, 0.5});
-    add_wall(0.5, 2.51, {2.0, 0.05, 0.5});
-    add_wall(0.5, -2.49, {2.0, 0.05, 0.5});
-    return shapes;
-  }
-
-  static std::vector<OdometryPose> odometry(const std::vector<Frame>& frames) {
-    std::vector<OdometryPose> lines;
-    for (const Frame& frame : frames) {
-      Pose T_odom_base = frames.front().T_world_base.inverse() * frame.T_world_base;
-      T_odom_base.translation() *= kOdometryScale;
-      lines.push_back({frame.stamp_s, T_odom_base});
-    }
-    return lines;
-  }
-
-  static ScanLog scans(const std::vector<Frame>& frames, const std::vector<Shape>& shapes) {
-    const OccupancyGrid grid =
-        floor_grid(shapes, Pose::Identity(), {.height_m = kLidarHeight_m, .resolution_m = 0.01});
-    ScanLog log;
-    log.geometry = {-M_PI, 2.0 * M_PI / kBeams, 0.1, 12.0, Pose::Identity()};
-    log.geometry.T_base_lidar.translation().z() = kLidarHeight_m;
-    for (const Frame& frame : frames) {
-      StampedScan scan{frame.stamp_s, {}};
-      const PlanarPose base = planar(frame.T_world_base);
-      for (int beam = 0; beam < kBeams; ++beam) {
-        const double angle =
-            base.yaw_rad + log.geometry.first_angle_rad + beam * log.geometry.angle_step_rad;
-        scan.ranges_m.push_back(
-            static_cast<float>(cast_ray(grid, {base.x_m, base.y_m}, angle, 12.0)
-                                   .value_or(std::numeric_limits<double>::infinity())));
-      }
-      log.scans.push_back(scan);
-    }
-    return log;
   }
 
   mapscore::testing::TemporaryFolder folder_;

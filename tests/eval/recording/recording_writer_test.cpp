@@ -96,7 +96,7 @@ TEST_F(Writer, ASecondWriterOfTheSameFolderIsRefusedAndHarmsNothing) {
   {
     RecordingWriter first(out_, tiny_info());
     write_frame(first, tiny_frames()[0]);
-    expect_error("out: another process is recording into it; wait for it",
+    expect_error("out: another process is writing it; wait for it",
                  [&] { RecordingWriter second(out_, tiny_info()); });
     EXPECT_TRUE(fs::exists(partial_ / "color/000000.png"));
     for (const int index : {1, 2, 3})
