@@ -4,44 +4,133 @@
 #include "files/command.hpp"
 
 #include "core/error.hpp"
+#include "files/supervisor.hpp"
 
-#include <spawn.h>
-#include <sys/mman.h>
+#include <fcntl.h>
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
+#include <utility>
 
 namespace mapscore {
 namespace {
 
-/// What a program prints, in memory: unlike a pipe it never makes the program wait.
-class Catcher {
+class Pipe {
  public:
-  Catcher() : descriptor_(memfd_create("output", MFD_CLOEXEC)) {
-    if (descriptor_ < 0) throw Error(std::string("no file in memory: ") + std::strerror(errno));
+  Pipe() {
+    if (pipe2(ends_.data(), O_CLOEXEC) != 0)
+      throw Error(std::string("no pipe: ") + std::strerror(errno));
+    fcntl(ends_[0], F_SETFL, O_NONBLOCK);
   }
-  ~Catcher() { close(descriptor_); }
-  Catcher(const Catcher&) = delete;
-  Catcher& operator=(const Catcher&) = delete;
+  ~Pipe() {
+    for (const int end : ends_)
+      if (end >= 0) close(end);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
 
-  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] int out() const { return ends_[0]; }
+  [[nodiscard]] int in() const { return ends_[1]; }
+  void close_in() { close(std::exchange(ends_[1], -1)); }
+
+ private:
+  std::array<int, 2> ends_{-1, -1};
+};
+
+/// What a program prints: all, or the beginning and the end.
+class Kept {
+ public:
+  explicit Kept(std::size_t most) : most_(most) {}
+
+  /// Takes what is in a pipe.
+  void take(int descriptor) {
+    std::array<char, 1 << 16> part{};
+    for (ssize_t size = 0; (size = read(descriptor, part.data(), part.size())) > 0;)
+      add({part.data(), static_cast<std::size_t>(size)});
+  }
   [[nodiscard]] std::string text() const {
-    std::string text;
-    std::array<char, 4096> part{};
-    for (ssize_t read = 0; (read = pread(descriptor_, part.data(), part.size(),
-                                         static_cast<off_t>(text.size()))) > 0;)
-      text.append(part.data(), static_cast<std::size_t>(read));
-    return text;
+    const std::size_t dropped = end_.size() > most_ ? end_.size() - most_ : 0;
+    const std::size_t left_out = dropped_ + dropped;
+    return begin_ + (left_out == 0 ? "" : "\n[" + std::to_string(left_out) + " bytes left out]\n") +
+           end_.substr(dropped);
   }
 
  private:
-  int descriptor_;
+  void add(std::string_view text) {
+    const std::size_t room = most_ == 0 ? text.size() : most_ - std::min(most_, begin_.size());
+    begin_ += text.substr(0, room);
+    if (text.size() > room) end_ += text.substr(room);
+    if (end_.size() < 4 * most_) return;
+    dropped_ += end_.size() - most_;
+    end_.erase(0, end_.size() - most_);
+  }
+
+  std::size_t most_, dropped_ = 0;
+  std::string begin_, end_;
 };
+
+[[noreturn]] void fail_to_start(const std::string& name, const std::filesystem::path& folder,
+                                int problem) {
+  throw Error(name + ": cannot be started in " + folder.string() + ": " + std::strerror(problem));
+}
+
+/// Waits for the report while the program prints; ends the program at its limits.
+class Watch {
+ public:
+  Watch(pid_t supervisor, const CommandLimits& limits) : supervisor_(supervisor), limits_(limits) {}
+
+  SupervisorReport until_it_ends(const Pipe& reports, const Pipe& out, Kept& kept_out,
+                                 const Pipe& err, Kept& kept_err, CommandOutcome& outcome) {
+    constexpr int kMilliseconds = 100;
+    SupervisorReport report;
+    report.status = SIGKILL;  // where the supervisor itself was killed
+    std::array<pollfd, 3> watched{
+        {{reports.out(), POLLIN, 0}, {out.out(), POLLIN, 0}, {err.out(), POLLIN, 0}}};
+    while (watched[0].revents == 0) {
+      poll(watched.data(), watched.size(), kMilliseconds);
+      kept_out.take(out.out());
+      kept_err.take(err.out());
+      for (std::size_t n = 1; n < watched.size(); ++n)  // closed by all: not asked any more
+        if ((watched[n].revents & POLLHUP) != 0) watched[n].fd = -1;
+      mind_limits(outcome);
+    }
+    [[maybe_unused]] const ssize_t size = read(reports.out(), &report, sizeof report);
+    kept_out.take(out.out());
+    kept_err.take(err.out());
+    outcome.wall_s = seconds();
+    while (waitpid(supervisor_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    return report;
+  }
+
+ private:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  void mind_limits(CommandOutcome& outcome) const {
+    if (outcome.timed_out || outcome.stopped) return;
+    outcome.timed_out = seconds() > limits_.timeout_s;
+    outcome.stopped = limits_.stop && limits_.stop();
+    if (outcome.timed_out || outcome.stopped) kill(supervisor_, SIGTERM);
+  }
+
+  pid_t supervisor_;
+  const CommandLimits& limits_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
 
 }  // namespace
 
@@ -58,30 +147,36 @@ std::optional<std::filesystem::path> program_on_path(const std::string& name) {
 }
 
 CommandOutcome run_command(const std::vector<std::string>& words,
-                           const std::filesystem::path& folder) {
-  const Catcher out, err;
+                           const std::filesystem::path& folder, const CommandLimits& limits) {
+  std::filesystem::path file = words.front();
+  if (words.front().find('/') == std::string::npos) {
+    const auto found = program_on_path(words.front());
+    if (!found) fail_to_start(words.front(), folder, ENOENT);
+    file = *found;
+  }
   std::vector<std::string> texts = words;
   std::vector<char*> arguments;
   for (std::string& text : texts) arguments.push_back(text.data());
   arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;  // what the child does before it becomes the program
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", 0, 0);
-  posix_spawn_file_actions_adddup2(&actions, out.descriptor(), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, err.descriptor(), STDERR_FILENO);
-  pid_t child = 0;
-  const int problem =
-      posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (problem != 0)
-    throw Error(words.front() + ": cannot be started in " + folder.string() + ": " +
-                std::strerror(problem));
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR)
-      throw Error(words.front() + ": how it ended is not known: " + std::strerror(errno));
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), out.text(), err.text()};
+  Pipe out, err, reports;
+  const pid_t supervisor =
+      fork_supervisor({file.c_str(), arguments.data(), folder.c_str(), limits.file_bytes, out.in(),
+                       limits.one_log ? out.in() : err.in(), reports.in()});
+  if (supervisor < 0) fail_to_start(words.front(), folder, errno);
+  Watch watch(supervisor, limits);
+  for (Pipe* pipe : {&out, &err, &reports}) pipe->close_in();
+  Kept kept_out(limits.kept_bytes), kept_err(limits.kept_bytes);
+  CommandOutcome outcome;
+  const SupervisorReport report =
+      watch.until_it_ends(reports, out, kept_out, err, kept_err, outcome);
+  if (report.problem != 0) fail_to_start(words.front(), folder, report.problem);
+  outcome.out = kept_out.text();
+  outcome.err = kept_err.text();
+  outcome.exit_code =
+      WIFEXITED(report.status) ? WEXITSTATUS(report.status) : 128 + WTERMSIG(report.status);
+  outcome.processor_s = seconds_of(report.usage.ru_utime) + seconds_of(report.usage.ru_stime);
+  outcome.peak_bytes = static_cast<std::uint64_t>(report.usage.ru_maxrss) * 1024;
+  return outcome;
 }
 
 }  // namespace mapscore

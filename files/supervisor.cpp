@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "files/supervisor.hpp"
+
+#include <fcntl.h>
+#include <linux/close_range.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <ctime>
+
+// Runs in a fork of a program with threads: nothing here allocates or takes a lock.
+
+namespace mapscore {
+namespace {
+
+constexpr int kReports = 3, kOut = 4, kErr = 5, kNull = 6, kFirstFree = 7;
+
+void report(const SupervisorReport& what) {
+  [[maybe_unused]] const ssize_t written = write(kReports, &what, sizeof what);
+}
+
+[[noreturn]] void give_up(int problem) {
+  report({.problem = problem});
+  _exit(127);
+}
+
+/// Keeps four descriptors, under fixed numbers, and closes all others of the program's.
+void take_descriptors(const SupervisedProgram& program) {
+  const int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  int apart[]{program.reports, program.out, program.err, null};
+  for (int& descriptor : apart) descriptor = fcntl(descriptor, F_DUPFD_CLOEXEC, 64);
+  for (int n = 0; n < 4; ++n) dup3(apart[n], kReports + n, O_CLOEXEC);
+  syscall(SYS_close_range, kFirstFree, ~0U, 0);
+}
+
+/// What the kernel gives a new program, whatever this one had set.
+void reset_signals() {
+  for (int number = 1; number < NSIG; ++number) signal(number, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
+[[noreturn]] void become(const SupervisedProgram& program, pid_t supervisor) {
+  setsid();
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != supervisor) _exit(127);
+  reset_signals();
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  const rlimit file_size{program.file_bytes, program.file_bytes};
+  if (program.file_bytes > 0) setrlimit(RLIMIT_FSIZE, &file_size);
+  if (chdir(program.folder) != 0) give_up(errno);
+  dup2(kNull, STDIN_FILENO);
+  dup2(kOut, STDOUT_FILENO);
+  dup2(kErr, STDERR_FILENO);
+  execv(program.file, program.arguments);
+  give_up(errno);
+}
+
+/// SIGKILL for every child of this process, as the kernel lists them.
+void kill_children() {
+  const int list = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
+  if (list < 0) return;
+  char part[4096];
+  pid_t id = 0;
+  for (ssize_t size = 0; (size = read(list, part, sizeof part)) > 0;)
+    for (ssize_t n = 0; n < size; ++n) {
+      if (part[n] >= '0' && part[n] <= '9') {
+        id = 10 * id + (part[n] - '0');
+      } else {
+        if (id > 0) kill(id, SIGKILL);
+        id = 0;
+      }
+    }
+  close(list);
+}
+
+/// Reaps children until none is ready; true once the program itself was among them.
+bool reap(pid_t program, int& status) {
+  bool ended = false;
+  int one = 0;
+  for (pid_t id = 0; (id = waitpid(-1, &one, WNOHANG)) > 0;)
+    if (id == program) {
+      status = one;
+      ended = true;
+    }
+  return ended;
+}
+
+/// Kills and reaps until there is no child any more; what loses its parent becomes one.
+void end_all(pid_t program, int& status) {
+  constexpr timespec kMoment{0, 1'000'000};
+  while (true) {
+    kill_children();
+    int one = 0;
+    const pid_t id = waitpid(-1, &one, WNOHANG);
+    if (id == program) status = one;
+    if (id < 0 && errno == ECHILD) return;
+    if (id == 0) nanosleep(&kMoment, nullptr);
+  }
+}
+
+[[noreturn]] void supervise(const SupervisedProgram& program, pid_t parent) {
+  sigset_t awaited;
+  sigemptyset(&awaited);
+  sigaddset(&awaited, SIGCHLD);
+  sigaddset(&awaited, SIGTERM);
+  sigprocmask(SIG_BLOCK, &awaited, nullptr);
+  signal(SIGCHLD, SIG_DFL);  // ignored, children would be forgotten
+  signal(SIGTERM, SIG_DFL);
+  setsid();
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  take_descriptors(program);
+  if (getppid() != parent) _exit(127);  // it ended before it could be told
+  const pid_t self = getpid(), child = fork();
+  if (child < 0) give_up(errno);
+  if (child == 0) become(program, self);
+  SupervisorReport outcome;
+  outcome.status = SIGKILL;  // of wait: where SIGTERM comes first
+  while (!reap(child, outcome.status))
+    if (sigwaitinfo(&awaited, nullptr) == SIGTERM) break;
+  end_all(child, outcome.status);
+  getrusage(RUSAGE_CHILDREN, &outcome.usage);
+  report(outcome);
+  _exit(0);
+}
+
+}  // namespace
+
+pid_t fork_supervisor(const SupervisedProgram& program) {
+  const pid_t parent = getpid(), id = fork();
+  if (id == 0) supervise(program, parent);
+  return id;
+}
+
+}  // namespace mapscore
