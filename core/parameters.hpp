@@ -119,7 +119,7 @@ template <Choice Any>
 [[nodiscard]] std::vector<Any> each_kind() {
   std::vector<Any> kinds;
   [&kinds]<class... Kinds>(std::type_identity<std::variant<Kinds...>>) {
-    ((Kinds::kKind.empty() ? void() : void(kinds.push_back(Kinds{}))), ...);
+    ((Kinds::kKind.empty() ? void() : void(kinds.emplace_back(std::in_place_type<Kinds>))), ...);
   }(std::type_identity<Any>{});
   return kinds;
 }

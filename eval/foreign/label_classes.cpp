@@ -94,7 +94,7 @@ int number_components(const cv::Mat1b& mask, int next, cv::Mat1w& instances) {
 }
 
 /// The image with each pixel's class in place of its value.
-cv::Mat1w classes_of(const cv::Mat1w& label, const std::vector<ClassId>& class_of_value) {
+cv::Mat1w classes_at_pixels(const cv::Mat1w& label, const std::vector<ClassId>& class_of_value) {
   cv::Mat1w classes(label.size());
   std::transform(label.begin(), label.end(), classes.begin(),
                  [&](std::uint16_t value) { return class_of_value[value]; });
@@ -136,7 +136,7 @@ LabelledImage instances_of(const cv::Mat1w& label, const std::vector<ClassId>& c
                            const ClassTable& table, ClassMasks masks) {
   LabelledImage image{cv::Mat1w::zeros(label.size()), table};
   const bool by_value = masks == ClassMasks::instances;
-  const cv::Mat1w keys = by_value ? label : classes_of(label, class_of_value);
+  const cv::Mat1w keys = by_value ? label : classes_at_pixels(label, class_of_value);
   std::vector<bool> present(kMostLabel + 1);
   for (const std::uint16_t key : keys) present[key] = true;
   auto next = static_cast<int>(table.instances.size());
