@@ -6,15 +6,19 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "eval/lab/bench.hpp"
+#include "eval/lab/command_trials.hpp"
+#include "eval/lab/command_words.hpp"
 #include "eval/lab/strand.hpp"
 #include "eval/lab/truth_cache.hpp"
 #include "eval/results/build_identity.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <mutex>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -47,6 +51,12 @@ std::size_t bytes_of_a_frame(const Recording& recording, bool colour) {
 /// What ends the strands of a sweep that is to stop.
 struct Stopped {};
 
+/// The command that a task's method is; none of a method of ours.
+const CommandMethod* command_of(const TaskList& tasks, std::size_t position) {
+  const auto& command = tasks.config(position).methods.front().command;
+  return command && tasks.labels(position) == Labels::detected ? &*command : nullptr;
+}
+
 /// Everything that the trials of one recording share.
 class Sweep {
  public:
@@ -62,19 +72,15 @@ class Sweep {
                static_cast<std::size_t>(std::max(1, options.jobs)) + 1) {}
 
   /// `missing`: positions of tasks.
-  void run(const std::vector<std::size_t>& missing) {
-    const int block = block_of_frames(missing);
-    const bool all_fit = block == recording_.frame_count();
-    std::vector<Strand> strands = strands_of(tasks_, missing, trials_of_a_strand(missing.size()),
-                                             static_cast<std::size_t>(std::max(1, options_.jobs)));
+  void run(std::vector<std::size_t> missing) {
     total_ = static_cast<std::int64_t>(missing.size()) * recording_.frame_count();
-    for (std::span rest(strands); !rest.empty();) {
-      std::size_t count = 0, trials = 0;
-      while (count < rest.size() && (all_fit || trials < kTrialsAtOnce))
-        trials += rest[count++].planned();
-      run_batch(rest.first(count), block);
-      rest = rest.subspan(count);
-    }
+    const auto own = std::stable_partition(missing.begin(), missing.end(), [&](std::size_t n) {
+      return command_of(tasks_, n) != nullptr;
+    });
+    const std::vector<std::size_t> commands(missing.begin(), own);
+    missing.erase(missing.begin(), own);
+    if (!commands.empty()) run_commands(commands);
+    if (!missing.empty()) run_own(missing);
   }
 
   /// What was done so far.
@@ -87,6 +93,48 @@ class Sweep {
   }
 
  private:
+  /// Those whose method is a command, as many at a time as their threads leave.
+  void run_commands(const std::vector<std::size_t>& missing) {
+    std::map<int, std::vector<std::size_t>> by_threads;
+    for (const std::size_t position : missing)
+      by_threads[command_of(tasks_, position)->threads].push_back(position);
+    CommandTrials trials(bench_, options_.stop);
+    for (const auto& [threads, positions] : by_threads)
+      for_each_in_parallel(positions.size(), std::max(1, options_.jobs / threads),
+                           [&](std::size_t n) { run_command_of(tasks_[positions[n]], trials); });
+  }
+
+  void run_command_of(const Task& task, CommandTrials& trials) {
+    if (options_.stop && options_.stop()) throw Stopped();
+    std::optional<TrialCost> cost;
+    std::optional<TrialResult> result;
+    std::string reason;
+    try {
+      result = trials.run(task, cost);
+      if (!result) throw Stopped();
+    } catch (const std::exception& error) {
+      reason = error.what();
+    }
+    if (cost) keep_cost(task, *cost);
+    result ? keep(task, *result) : keep_failure(task, reason);
+    report(static_cast<std::size_t>(recording_.frame_count()));
+  }
+
+  /// Those of our own methods, and ceilings.
+  void run_own(const std::vector<std::size_t>& missing) {
+    const int block = block_of_frames(missing);
+    const bool all_fit = block == recording_.frame_count();
+    std::vector<Strand> strands = strands_of(tasks_, missing, trials_of_a_strand(missing.size()),
+                                             static_cast<std::size_t>(std::max(1, options_.jobs)));
+    for (std::span rest(strands); !rest.empty();) {
+      std::size_t count = 0, trials = 0;
+      while (count < rest.size() && (all_fit || trials < kTrialsAtOnce))
+        trials += rest[count++].planned();
+      run_batch(rest.first(count), block);
+      rest = rest.subspan(count);
+    }
+  }
+
   /// So few that every job has a strand.
   [[nodiscard]] std::size_t trials_of_a_strand(std::size_t trials) const {
     const auto jobs = static_cast<std::size_t>(std::max(1, options_.jobs));
@@ -138,6 +186,11 @@ class Sweep {
     store_.add(task.key, task.description, result);
     ++computed_;
     if (options_.ended) options_.ended(computed_, failures_.size());
+  }
+
+  void keep_cost(const Task& task, const TrialCost& cost) {
+    const std::scoped_lock lock(store_mutex_);
+    store_.add_cost(task.key, cost);
   }
 
   void keep_failure(const Task& task, const std::string& reason) {
@@ -214,6 +267,14 @@ std::vector<std::size_t> missing_by_shard(const TaskList& tasks,
   return missing;
 }
 
+std::unordered_set<std::string> failed_commands(const ResultStore& store, const TaskList& tasks) {
+  std::unordered_set<std::string> keys;
+  const auto failures = store.failures();
+  for (std::size_t n = 0; n < tasks.size() && !failures.empty(); ++n)
+    if (command_of(tasks, n) && failures.contains(tasks.key(n))) keys.insert(tasks.key(n));
+  return keys;
+}
+
 RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
                        ResultStore& store, const RunnerOptions& options) {
   const TaskList& tasks = plan.tasks;
@@ -221,6 +282,8 @@ RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const Class
   held.insert(options.held_elsewhere.begin(), options.held_elsewhere.end());
   const std::vector<std::size_t> missing =
       missing_tasks(tasks, held, options.shard, options.shards);
+  for (const std::size_t position : missing)
+    if (command_of(tasks, position)) static_cast<void>(command_words(tasks.config(position)));
   RunnerOutcome outcome;
   if (!missing.empty()) {
     const bool colour = std::ranges::any_of(

@@ -47,6 +47,11 @@ struct RunnerOutcome {
 /// with `keep_builds`.
 [[nodiscard]] std::unordered_set<std::string> kept_keys(const ResultStore& store, bool keep_builds);
 
+/// Keys of the trials whose commands failed, as the store says: unlike a failure of our own, which
+/// may be mended, they would fail again.
+[[nodiscard]] std::unordered_set<std::string> failed_commands(const ResultStore& store,
+                                                              const TaskList& tasks);
+
 /// Positions of the tasks of a shard whose keys are not `held`. All tasks in the order of their
 /// lattices are cut into `shards` slices that differ by one task at most, whatever is held, since
 /// tasks of one lattice share its truth, and those of one cell the frames under its faults.
@@ -61,9 +66,11 @@ struct RunnerOutcome {
 /// Computes the tasks of a plan that the store does not hold, or holds of another build, and adds
 /// each to it as soon as it is done. Trials walk the frames together in blocks that fit the memory,
 /// so that a frame is decoded once for many trials. The results depend on neither jobs, memory nor
-/// shards. A trial that throws is stored as failed, with its reason, and the others go on. What the
-/// store or a function of the options throws ends all and is rethrown, std::bad_alloc as an Error
-/// that says what helps; what was done stays in the store.
+/// shards. Trials whose method is a command are run first; what they take is stored beside them.
+/// One whose program is not there is refused before any trial. A trial that throws is stored as
+/// failed, with its reason, and the others go on. What the store or a function of the options
+/// throws ends all and is rethrown, std::bad_alloc as an Error that says what helps; what was done
+/// stays in the store.
 RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
                        ResultStore& store, const RunnerOptions& options);
 

@@ -3,10 +3,13 @@
 
 #include "eval/lab/trial_run.hpp"
 
+#include "core/error.hpp"
 #include "core/refinement/map_refinement.hpp"
 #include "eval/lab/detected_samples.hpp"
 #include "eval/score/detection_score.hpp"
 #include "eval/score/instances/instance_score.hpp"
+
+#include <fmt/format.h>
 
 namespace mapscore::eval {
 namespace {
@@ -46,6 +49,11 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
 }
 
 void TrialRun::advance(const Frame& frame, const Sight& sight) {
+  if (const MethodSettings& method = task_.config.methods.front(); method.command)
+    throw Error(fmt::format(
+        "methods.{0}: is a command, which `sweep` alone runs; `mapscore trial --method {0}` writes "
+        "what it is given",
+        method.name));
   const bool by_itself = task_.config.score.unit == ScoreUnit::frame;
   if (by_itself) mapper_ = Mapper(mapping_, table_.classes.size());
   Counts counts = zero_counts(table_.classes.size(), score_options_);
@@ -67,6 +75,12 @@ void TrialRun::advance(const Frame& frame, const Sight& sight) {
   pool_into(result_.counts, counts);
   if (by_itself && keeps_frames_)
     frames_.push_back({frame.index, frame.stamp_s, std::move(counts), mapper_.times()});
+}
+
+TrialResult TrialRun::judge(const MapSnapshot& map) {
+  result_.accounting.frames = static_cast<std::int64_t>(beliefs_.size());
+  score(map, result_.counts);
+  return std::move(result_);
 }
 
 TrialResult TrialRun::finish() {
@@ -113,8 +127,11 @@ void TrialRun::score(Counts& counts) {
   SemanticMap& map = mapper_.map();
   if (const auto* crf = std::get_if<Crf>(&task_.config.methods.front().refinement))
     refine(map, *crf);
-  const MapSnapshot snapshot(map.voxels());
   result_.accounting.hits_beyond_span += static_cast<std::int64_t>(map.hits_beyond_span());
+  score(MapSnapshot(map.voxels()), counts);
+}
+
+void TrialRun::score(const MapSnapshot& snapshot, Counts& counts) {
   result_.accounting.map_voxels += static_cast<std::int64_t>(snapshot.voxels().size());
   Counts scored =
       truth_->score(snapshot, threshold_, truth_->view, table_.classes.size(), score_options_);

@@ -52,6 +52,11 @@ class TrialRun {
 
   /// Scores the map and gives the counts of the whole trial.
   [[nodiscard]] TrialResult finish();
+  /// In place of advance and finish: scores a map of all frames that was made elsewhere, by a
+  /// command.
+  [[nodiscard]] TrialResult judge(const MapSnapshot& map);
+  /// What is believed at every frame.
+  [[nodiscard]] const std::vector<PoseBelief>& beliefs() const { return beliefs_; }
 
   /// What was kept, in the order of the frames; added up, the counts of the trial.
   [[nodiscard]] const std::vector<FrameResult>& frames() const { return frames_; }
@@ -70,8 +75,9 @@ class TrialRun {
              const std::vector<Eigen::AlignedBox3d>& true_boxes, Counts& counts);
   /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
-  /// Adds the counts of the map as it stands.
+  /// Adds the counts of the map as it stands, or of another.
   void score(Counts& counts);
+  void score(const MapSnapshot& snapshot, Counts& counts);
   /// Takes the truth of the map, or of the frame that is read with a depth image.
   void look_up_truth(std::optional<int> depth_image);
 

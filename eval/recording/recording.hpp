@@ -113,6 +113,9 @@ class Recording {
     return depth_.at(static_cast<std::size_t>(depth_index)).path;
   }
 
+  /// Bytes of the image at such a path. Throws Error where they are not those that were hashed.
+  [[nodiscard]] std::string read_image(const std::string& path) const;
+
   /// A frame with the depth image that belongs to it.
   [[nodiscard]] Frame read(int index, Channels channels = {}) const {
     return read(index, depth_of(index), channels);
@@ -141,8 +144,6 @@ class Recording {
     Pose T_world_base;
   };
   void check_frame(int index) const;
-  /// Bytes of an image. Throws Error where they are not those that were hashed.
-  [[nodiscard]] std::string read_image(const std::string& path) const;
   [[nodiscard]] cv::Mat1w read_grey16(const std::string& path, const CameraModel& camera) const;
 
   std::filesystem::path folder_;

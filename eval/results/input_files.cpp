@@ -73,6 +73,14 @@ std::string InputFiles::poses(const Study& config) {
   return "";
 }
 
+std::vector<std::string> InputFiles::depends(const Study& config) {
+  std::vector<std::string> hashes;
+  if (const auto& command = config.methods.front().command)
+    for (const std::string& file : command->depends)
+      hashes.push_back(of(resolve_path(config, file), read_file));
+  return hashes;
+}
+
 NetworkImages network_images(const Study& config, const ImagePerception& settings) {
   NetworkImages images{resolve_path(config, settings.folder.value()),
                        resolve_path(config, settings.classes.value()),

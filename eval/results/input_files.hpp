@@ -10,11 +10,12 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace mapscore::eval {
 
-/// What the files hold that poses and detections of a study come from, as it stands in the keys of
-/// trials. Each is read once.
+/// What the files hold that poses, detections and commands of a study come from, as it stands in
+/// the keys of trials. Each is read once.
 class InputFiles {
  public:
   /// Hash of what the perception of a configuration reads: the object map of simulated perception,
@@ -25,6 +26,10 @@ class InputFiles {
   /// Hash of the file that the source of a configuration's poses reads; empty when it reads none.
   /// Throws Error when the file is refused.
   std::string poses(const Study& config);
+
+  /// Hashes of the files that the command of a configuration's method depends on. Throws Error when
+  /// one is missing.
+  std::vector<std::string> depends(const Study& config);
 
  private:
   std::string of(const std::filesystem::path& file, auto read);

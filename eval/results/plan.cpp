@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <unordered_map>
 #include <utility>
 #include <variant>
@@ -20,8 +19,10 @@ namespace {
 
 /// Leaves only what determines the result, so that renaming a study or adding a method to it does
 /// not make its trials new. The recording stands for what it was made from.
-Study determining(Study config, const std::string& pose_file, const std::string& perceived) {
+Study determining(Study config, InputFiles& files) {
   const Study none;
+  const std::string pose_file = files.poses(config), perceived = files.perceived(config);
+  const std::vector<std::string> depends = files.depends(config);
   config.name.clear();
   config.seeds = 1;
   for (auto* path :
@@ -45,7 +46,11 @@ Study determining(Study config, const std::string& pose_file, const std::string&
     images->scores.reset();
   }
   config.base_folder.clear();
-  for (MethodSettings& method : config.methods) method.name = "method";
+  for (MethodSettings& method : config.methods) {
+    method.name = "method";
+    if (auto& command = method.command)
+      command = CommandMethod{.command = command->command, .map = command->map, .depends = depends};
+  }
   return config;
 }
 
@@ -99,7 +104,7 @@ SeedlessTask make_task(Study config, Labels labels, const std::string& recording
   task.before_seed =
       fmt::format("scoring_version: {}\nrecording: {}\nlabels: {}\nseed_index: ", kScoringVersion,
                   recording_hash, labels == Labels::truth ? "truth" : "detected");
-  const Study decides = determining(config, files.poses(config), files.perceived(config));
+  const Study decides = determining(config, files);
   task.after_seed = '\n' + to_key_yaml(decides) + revisions(decides);
   task.config = std::move(config);
   task.labels = labels;

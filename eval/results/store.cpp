@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <sstream>
 #include <system_error>
 
 namespace mapscore::eval {
@@ -28,6 +29,7 @@ constexpr const char* kTrials =
     "trials (key TEXT PRIMARY KEY, description TEXT NOT NULL, result TEXT NOT NULL, "
     "build TEXT NOT NULL DEFAULT '')";
 constexpr const char* kFailed = "failed ";  ///< and the key: name of the text that says why
+constexpr const char* kCost = "cost ";      ///< and the key: exit code, two times, bytes
 /// The fifth parameter is the build whose trials replace those of others.
 constexpr const char* kAddTrial =
     "INSERT INTO trials VALUES (?1, ?2, CAST(?3 AS BLOB), ?4) ON CONFLICT (key) DO UPDATE SET "
@@ -242,11 +244,35 @@ void ResultStore::add_failure(const std::string& key, const std::string& reason)
 }
 
 std::map<std::string, std::string> ResultStore::failures() const {
+  return texts_after(kFailed);
+}
+
+void ResultStore::add_cost(const std::string& key, const TrialCost& cost) {
+  set_text(kCost + key, fmt::format("{} {} {} {}", cost.exit_code, cost.wall_s, cost.processor_s,
+                                    cost.peak_bytes));
+}
+
+std::map<std::string, TrialCost> ResultStore::costs() const {
+  std::map<std::string, TrialCost> costs;
+  for (const auto& [key, text] : texts_after(kCost)) {
+    std::istringstream words(text);
+    TrialCost cost;
+    if (!(words >> cost.exit_code >> cost.wall_s >> cost.processor_s >> cost.peak_bytes))
+      fail(file_,
+           fmt::format("result store: the cost of trial {} is not readable; sweep again into "
+                       "another folder",
+                       shown(key)));
+    costs[key] = cost;
+  }
+  return costs;
+}
+
+std::map<std::string, std::string> ResultStore::texts_after(const std::string& prefix) const {
   Statement query(database_.get(), file_, "SELECT name, value FROM texts WHERE name LIKE ?",
-                  {std::string(kFailed) + '%'});
-  std::map<std::string, std::string> reasons;
-  while (query.step()) reasons[query.text(0).substr(std::string(kFailed).size())] = query.text(1);
-  return reasons;
+                  {prefix + '%'});
+  std::map<std::string, std::string> texts;
+  while (query.step()) texts[query.text(0).substr(prefix.size())] = query.text(1);
+  return texts;
 }
 
 std::optional<TrialResult> ResultStore::find(const std::string& key) const {

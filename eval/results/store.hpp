@@ -59,6 +59,13 @@ struct Accounting {
   bool operator==(const Accounting&) const = default;
 };
 
+/// What the command of a trial took. Measured, so not the same twice.
+struct TrialCost {
+  int exit_code = 0;  ///< 128 and its number where a signal ended it
+  double wall_s = 0.0, processor_s = 0.0;
+  std::uint64_t peak_bytes = 0;  ///< of memory, of the largest of its processes
+};
+
 /// One finished trial.
 struct TrialResult {
   Counts counts;  ///< by class id
@@ -104,6 +111,10 @@ class ResultStore {
   void add_failure(const std::string& key, const std::string& reason);
   /// Reasons by key.
   [[nodiscard]] std::map<std::string, std::string> failures() const;
+  /// Keeps what a trial's command took, whether it failed or not.
+  void add_cost(const std::string& key, const TrialCost& cost);
+  /// By key.
+  [[nodiscard]] std::map<std::string, TrialCost> costs() const;
   /// Takes over the trials of another store that are not here yet, or that this build made there
   /// and another here. Returns how many; all or, where it throws, none.
   int merge(const ResultStore& other);
@@ -118,6 +129,8 @@ class ResultStore {
   void refuse_foreign_schema();
   void tell_builds();
   void add_row(std::vector<std::string> row);
+  /// Texts whose names begin with `prefix`, by what follows it.
+  [[nodiscard]] std::map<std::string, std::string> texts_after(const std::string& prefix) const;
 
   std::unique_ptr<sqlite3, Close> database_;
   std::filesystem::path file_;

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "eval/study/grid.hpp"
+#include "eval/study/method_check.hpp"
 #include "eval/study/picture_view.hpp"
 #include "files/png.hpp"
 #include "files/text.hpp"
@@ -148,11 +149,6 @@ void check_ascending(const std::vector<T>& list, std::string_view path, const Bl
                               list[i - 1]));
 }
 
-void check_methods(const std::vector<MethodSettings>& methods, const Blame& blame) {
-  if (methods.empty())
-    blame("methods", "there is no method; write methods: {direct: {segmentation: {direct: {}}}}");
-}
-
 /// The controller creeps no slower (sim::WaypointController).
 void check_wheels(const Study& study, const Blame& blame) {
   constexpr double kSlowest_mps = 0.01;
@@ -215,7 +211,7 @@ void check_view(const Study& study, const Blame& blame) try {
 /// One point of the grid, or a study without a sweep.
 void check_leaves(const Study& study, const Blame& blame) {
   check_input(study, blame);
-  check_methods(study.methods, blame);
+  check_methods(study, blame);
   check_cameras(study.cameras, blame);
   check_span(study.cameras, "cameras", blame);
   check_span(study.lidar, "lidar", blame);
@@ -292,7 +288,7 @@ void check(const Study& study, const Blame& blame) {
   check_size(study, blame);
   if (study.sweep.empty()) return check_leaves(study, blame);
   check_input(study, blame);
-  check_methods(study.methods, blame);
+  check_methods(study, blame);
   for (const Cell& cell : cells(study)) check_cell(study, cell, blame);
 }
 

@@ -45,6 +45,7 @@ class Reference {
     if constexpr (std::same_as<T, Methods>) {
       row(path, "map", "", "required", "", field.meaning);
       section(path + ".NAME", MethodSettings{});
+      section(path + ".NAME", CommandMethod{});
     } else if constexpr (std::same_as<T, Sweep>) {
       row(path + ".PATH", "list of values of the leaf", "", "-", "", field.meaning);
     } else if constexpr (Choice<T>) {

@@ -103,6 +103,7 @@ inline void read_methods(const YamlValue& at, Methods& methods) {
   for (const auto& [name, child] : at.entries()) {
     check_method_name(child, name);
     methods.emplace_back().name = name;
+    if (child.has("command")) methods.back().command.emplace();
     read_section(child, methods.back());
   }
 }

@@ -104,15 +104,64 @@ struct NoRefinement : NoFields {
 /// What happens to the finished map before it is scored.
 using Refinement = std::variant<NoRefinement, Crf>;
 
+/// A mapper of others: a program that makes a map file of a trial folder.
+struct CommandMethod {
+  std::vector<std::string> command;  ///< words; {trial} and {map} stand for paths
+  std::string map;
+  double timeout_s = 600;
+  int threads = 1;
+  std::vector<std::string> depends{};  ///< files; in a trial's key the hashes of what they hold
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.command, Field{.key = "command",
+                           .meaning = "a program that maps a trial, and its arguments, which no "
+                                      "shell reads: {trial} is the folder of the trial, {map} the "
+                                      "file to write (docs/external_methods.md); in place of "
+                                      "segmentation, place, fusion and refinement",
+                           .required = true,
+                           .swept = false});
+    visit(s.map, Field{.key = "map",
+                       .meaning = "name of that file, whose ending says its format",
+                       .required = true,
+                       .swept = false});
+    visit(s.timeout_s, Field{.key = "timeout_s",
+                             .meaning = "seconds after which it is ended, and its trial failed",
+                             .range = above(0, 1e6),
+                             .swept = false});
+    visit(s.threads, Field{.key = "threads",
+                           .meaning = "how many of --jobs it takes up",
+                           .range = {1, 1024},
+                           .swept = false});
+    UnlessEmpty depends_unless_empty{s.depends};
+    visit(depends_unless_empty,
+          Field{.key = "depends",
+                .meaning = "files whose content is part of a trial's key: a changed one makes its "
+                           "trials new",
+                .swept = false});
+  }
+  bool operator==(const CommandMethod&) const = default;
+};
+
 struct MethodSettings {
   std::string name;  ///< letters, digits, _ and -
   Segmentation segmentation;
   std::optional<Place> place{};  ///< empty: the study's
   MethodFusion fusion{};
   Refinement refinement{};
-  std::optional<std::string> title{};  ///< for people; changes no result
+  std::optional<std::string> title{};      ///< for people; changes no result
+  std::optional<CommandMethod> command{};  ///< in place of all above but the name
 
+  /// Of a command its own keys, else those of a method of ours.
   static void fields(auto& s, auto&& visit) {
+    if (s.command)
+      CommandMethod::fields(*s.command, visit);
+    else
+      own_fields(s, visit);
+    visit(s.title, Field{.key = "title",
+                         .meaning = "its name in figures, and in tables for papers",
+                         .swept = false});
+  }
+  static void own_fields(auto& s, auto&& visit) {
     visit(s.segmentation, Field{.key = "segmentation",
                                 .meaning = "from a detection and a registered cloud to points",
                                 .required = true});
@@ -120,9 +169,6 @@ struct MethodSettings {
     visit(s.fusion, later({"fusion", "how this method's observations change the map"}));
     visit(s.refinement,
           later({"refinement", "what happens to this method's map before it is scored"}));
-    visit(s.title, Field{.key = "title",
-                         .meaning = "its name in figures, and in tables for papers",
-                         .swept = false});
   }
   bool operator==(const MethodSettings&) const = default;
 };

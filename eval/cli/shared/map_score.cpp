@@ -8,8 +8,8 @@
 #include "eval/map_files/map_file.hpp"
 #include "eval/map_files/map_transform.hpp"
 #include "eval/score/reduced_tables.hpp"
+#include "eval/score/surface_share.hpp"
 #include "eval/score/voxel_score.hpp"
-#include "eval/score/voxel_window.hpp"
 
 #include <fmt/format.h>
 
@@ -19,9 +19,6 @@
 namespace mapscore::eval {
 namespace {
 
-/// A share of occupied voxels on or beside surfaces that no map falls below by being bad: in a home
-/// even voxels thrown at random do better.
-constexpr double kLeastShareAtSurfaces = 0.01;
 /// Below it a map is more likely turned or shifted than bad.
 constexpr double kDoubtfulShareAtSurfaces = 0.25;
 
@@ -54,29 +51,23 @@ std::string words_of(Placing placing, double file_edge_m, bool is_moved) {
 std::string check_frame(const MapFlags& flags, const MapSnapshot& map,
                         const SurfaceTruth& surface) {
   if (flags.trust_frame) return {};
-  std::size_t occupied = 0, at_surfaces = 0;
-  Eigen::AlignedBox3d map_box, truth_box;
-  const auto touched = [&](const VoxelKey& key) { return surface.touches_any(key); };
-  for (const MapVoxel& voxel : map.voxels()) {
-    if (!voxel.occupied) continue;
-    ++occupied;
-    map_box.extend(centre_of(voxel.key, surface.edge_m()));
-    at_surfaces += touched(voxel.key) || any_in_shell(voxel.key, 1, touched) ? 1 : 0;
-  }
-  const auto share = static_cast<double>(at_surfaces) / static_cast<double>(occupied);
-  if (occupied == 0 || share >= kDoubtfulShareAtSurfaces) return {};
-  if (share >= kLeastShareAtSurfaces)
+  const SurfaceShare at = surface_share(map, surface);
+  if (at.share() >= kDoubtfulShareAtSurfaces) return {};
+  if (!at.in_another_frame())
     return fmt::format(
         "only {:.0f} % of the map's occupied voxels lie on or beside a surface; is it in the frame "
         "that --transform, --origin_m and --yaw_deg say?",
-        100.0 * share);
+        100.0 * at.share());
+  Eigen::AlignedBox3d map_box, truth_box;
+  for (const MapVoxel& voxel : map.voxels())
+    if (voxel.occupied) map_box.extend(centre_of(voxel.key, surface.edge_m()));
   for (const SurfaceVoxel& row : surface.voxels())
     truth_box.extend(centre_of(row.key, surface.edge_m()));
   throw Error(fmt::format(
       "{}: only {} of {} occupied voxels lie on or beside a surface, so the map seems to lie in "
       "another frame (map {}; truth {}); give --transform, --origin_m or --yaw_deg, or score it "
       "as it is with --trust_frame",
-      flags.file, at_surfaces, occupied, span_of(map_box),
+      flags.file, at.at_surfaces, at.occupied, span_of(map_box),
       surface.voxels().empty() ? "empty" : span_of(truth_box)));
 }
 

@@ -48,6 +48,9 @@ OtherStores stores_of(const std::vector<std::string>& folders) {
 
 int take_over(ResultStore& store, const ResultStore& other) {
   const int taken = store.merge(other);
+  const auto costs = store.costs();
+  for (const auto& [key, cost] : other.costs())
+    if (!costs.contains(key)) store.add_cost(key, cost);
   const auto failures = other.failures();
   if (failures.empty()) return taken;
   const auto held = store.keys();

@@ -111,6 +111,7 @@ RunnerOutcome computed(const Workplace& at, ResultStore& store, const StopSignal
   const bool keep_builds = at.flags.keep_builds;
   RunnerOptions options{work.jobs, work.memory_bytes, shard,
                         shards,    keep_builds,       held_elsewhere(at)};
+  if (!at.flags.retry_failed) options.held_elsewhere.merge(failed_commands(store, at.plan.tasks));
   auto held = kept_keys(store, keep_builds);
   held.insert(options.held_elsewhere.begin(), options.held_elsewhere.end());
   first.missing =
@@ -129,8 +130,16 @@ RunnerOutcome computed(const Workplace& at, ResultStore& store, const StopSignal
   return outcome;
 }
 
-/// The failures, and what to do about them. Throws Error where all there is failed.
-void tell_failures(const RunnerOutcome& outcome, const std::filesystem::path& results) {
+/// The failures, and what to do about them; `commands`: how many are of commands, of earlier sweeps
+/// too. Throws Error where all there is failed.
+void tell_failures(const RunnerOutcome& outcome, std::size_t commands,
+                   const std::filesystem::path& results) {
+  const std::string list = shell_word(results.native());
+  if (outcome.failures.empty() && commands > 0)
+    std::cerr << fmt::format(
+        "sweep: {} trials failed before; `mapscore trials {} --state failed` lists them, "
+        "--retry_failed tries them again\n",
+        commands, list);
   if (outcome.failures.empty()) return;
   const TrialFailure& first = outcome.failures.front();
   const std::string how = outcome.failures.size() > 1 ? fmt::format("{} trials failed, the first: ",
@@ -139,8 +148,9 @@ void tell_failures(const RunnerOutcome& outcome, const std::filesystem::path& re
   if (outcome.computed + outcome.reused == 0 && !outcome.stopped) throw Error(how + first.reason);
   std::cerr << fmt::format(
       "sweep: {}{}; `mapscore trials {} --state failed` lists them, the same sweep tries them "
-      "again\n",
-      how, shown(first.reason), shell_word(results.native()));
+      "again{}\n",
+      how, shown(first.reason), list,
+      commands > 0 ? fmt::format(" (the {} of commands with --retry_failed)", commands) : "");
 }
 
 /// Computes what is missing.
@@ -148,7 +158,8 @@ int compute(const Workplace& at, ResultStore& store) {
   const TaskList& tasks = at.plan.tasks;
   const StopSignal stop;
   const RunnerOutcome outcome = computed(at, store, stop);
-  tell_failures(outcome, at.results);
+  const std::size_t failed = failed_commands(store, tasks).size();
+  tell_failures(outcome, failed, at.results);
   if (outcome.stopped) {
     std::cerr << fmt::format(
         "sweep: stopped; {} of {} trials are in {}; the same command goes on where it stopped\n",
@@ -161,7 +172,7 @@ int compute(const Workplace& at, ResultStore& store) {
         outcome.computed, outcome.reused, shown(at.results / "results.sqlite"));
   if (const std::string note = lattice_note(tasks, store, at.table); !note.empty())
     std::cerr << "sweep: note: " << note << '\n';
-  return outcome.failures.empty() ? 0 : 1;
+  return outcome.failures.empty() && failed == 0 ? 0 : 1;
 }
 
 int sweep(const SweepFlags& flags) {
@@ -208,7 +219,8 @@ void add_sweep(CLI::App& program, int& exit_code) {
   verb->footer(
       "Records the scene first if its recording is not there. A trial that this build made is\n"
       "never computed again, so a killed sweep goes on where it stopped. A trial that fails is\n"
-      "left out, and tried again by the next sweep. `mapscore status` tells from another shell "
+      "left out, and tried again by the next sweep; one whose command failed by --retry_failed. "
+      "`mapscore status` tells from another shell "
       "how\n"
       "far it is.\n"
       "Ends with 1 when some trials failed, with 130 by Ctrl-C; then what is done is kept.\n"

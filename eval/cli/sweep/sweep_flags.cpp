@@ -32,6 +32,8 @@ void SweepFlags::add_to(CLI::App& verb) {
   verb.add_option("--tasks", tasks, "How many batches [of about a minute each]")
       ->check(CLI::Range(1, 1'000'000));
   verb.add_option("SBATCH", sbatch_options, "With --slurm: -- and options of sbatch");
+  verb.add_flag("--retry_failed", retry_failed,
+                "Compute trials anew whose command failed; those of our own methods always are");
   verb.add_flag("--keep_builds", keep_builds, "Keep trials that another build of mapscore made");
 }
 
@@ -68,6 +70,7 @@ std::vector<std::string> SweepFlags::words(const std::filesystem::path& results,
         std::string("--memory"), std::to_string(work.memory_bytes)})
     words.push_back(word);
   if (yes) words.emplace_back("--yes");
+  if (retry_failed) words.emplace_back("--retry_failed");
   if (keep_builds) words.emplace_back("--keep_builds");
   return words;
 }

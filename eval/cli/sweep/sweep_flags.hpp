@@ -23,6 +23,7 @@ struct SweepFlags {
   std::string shard = "1/1";
   std::vector<std::string> merged;
   bool yes = false, dry_run = false, keep_builds = false, merge_only = false, slurm = false;
+  bool retry_failed = false;
   std::optional<int> tasks;
   std::vector<std::string> sbatch_options;
 

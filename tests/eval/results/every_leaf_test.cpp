@@ -34,6 +34,9 @@ const std::map<std::string, std::string> kReasons{
     {"cameras.", "the recording's hash stands for it"},
     {"lidar.", "the recording's hash stands for it"},
     {"methods.NAME.title", "of figures and tables, which only show"},
+    {"methods.NAME.timeout_s", "a trial that takes longer fails, and has no result"},
+    {"methods.NAME.threads", "of the sweep's own work"},
+    {"methods.NAME.depends", "the content of the files is in the key (command_method_test)"},
     {"class_titles", "of figures and tables, which only show"},
     {"picture_view", "of pictures, which are not scored"},
     {"localization.trajectory", "the content of the file is in the key (pose_sources_test)"},
@@ -90,7 +93,24 @@ std::string perception_at(const std::string& path) {
                      folder.path().string());
 }
 
+/// A method as a command, for its keys.
+constexpr const char* kCopyCommand =
+    "{command: [cp, \"{trial}/frames.csv\", \"{map}\"], map: map.csv}";
+
+bool is_of_command(const std::string& path) {
+  bool found = false;
+  CommandMethod command;
+  CommandMethod::fields(command, [&](const auto&, const Field& field) {
+    found = found || path == fmt::format("methods.NAME.{}", field.key);
+  });
+  return found;
+}
+
 Study study_for(const std::string& path, const std::string& base) {
+  if (is_of_command(path))
+    return parse_study(
+        fmt::format("recording: tiny\nmethods: {{NAME: {}}}\n{}", kCopyCommand, base),
+        "study.yaml");
   return parse_study(
       fmt::format(
           "recording: tiny\nmap_yaw_deg: 1\nmethods: {{NAME: {{segmentation: {}, fusion: {}, "

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/lab/command_trials.hpp"
+
+#include "core/error.hpp"
+#include "eval/lab/command_map.hpp"
+#include "eval/lab/command_words.hpp"
+#include "eval/lab/trial_writer.hpp"
+#include "files/command.hpp"
+#include "files/file_bytes.hpp"
+#include "files/text.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <new>
+#include <string>
+#include <utility>
+
+namespace mapscore::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kScratchName = "mapscore-scratch-";
+
+/// What a command may write into one file.
+constexpr std::uint64_t kMostFileBytes = std::uint64_t{1} << 30;
+/// What is kept of the beginning and of the end of what it prints.
+constexpr std::size_t kKeptBytes = 64 << 10;
+
+/// Removes what killed sweeps left.
+void remove_leftovers(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (!entry.path().filename().string().starts_with(kScratchName) ||
+        !entry.is_directory(ignored) || entry.is_symlink(ignored))
+      continue;
+    if (const FolderLock lock(entry.path(), WhenTaken::go_on); !lock.taken())
+      remove_tree(entry.path());
+  }
+}
+
+/// "; its log ends: 'LINES'", of at most so many bytes and lines.
+std::string end_of(const std::string& log) {
+  constexpr std::size_t kMost = 1000, kMostLines = 12;
+  std::string_view rest = log;
+  while (!rest.empty() && (rest.back() == '\n' || rest.back() == '\r')) rest.remove_suffix(1);
+  if (rest.empty()) return "; it printed nothing";
+  std::size_t first = rest.size() > kMost ? rest.size() - kMost : 0, at = rest.size();
+  for (std::size_t lines = 0; lines < kMostLines && at != rest.npos && at > 0; ++lines)
+    at = rest.rfind('\n', at - 1);
+  if (at != rest.npos && at > 0) first = std::max(first, at + 1);
+  return fmt::format("; its log ends: '{}'", shown(rest.substr(first)));
+}
+
+std::string how_it_ended(const CommandOutcome& outcome, double timeout_s) {
+  if (outcome.timed_out) return fmt::format("the command took longer than {} s", timeout_s);
+  if (outcome.exit_code > 128)
+    return fmt::format("the command was ended by signal {} ({}), or with exit code {}",
+                       outcome.exit_code - 128, strsignal(outcome.exit_code - 128),
+                       outcome.exit_code);
+  return fmt::format("the command ended with exit code {}", outcome.exit_code);
+}
+
+}  // namespace
+
+CommandTrials::CommandTrials(Bench& bench, std::function<bool()> stop)
+    : bench_(bench),
+      stop_(std::move(stop)),
+      scratch_(fs::temp_directory_path() / fmt::format("{}{}", kScratchName, getpid())) {
+  remove_leftovers(scratch_.parent_path());
+  hold_.emplace(scratch_, WhenTaken::go_on);
+  if (hold_->taken())
+    throw Error(scratch_.string() + ": another process holds it; set TMPDIR to another folder");
+  make_folder(scratch_);
+  fs::permissions(scratch_, fs::perms::owner_all);
+}
+
+CommandTrials::~CommandTrials() {
+  remove_tree(scratch_);
+}
+
+std::unique_ptr<CommandTrials::Place> CommandTrials::take_place() {
+  const std::lock_guard lock(mutex_);
+  if (free_.empty()) return std::make_unique<Place>(Place{scratch_ / std::to_string(++places_)});
+  std::unique_ptr<Place> place = std::move(free_.back());
+  free_.pop_back();
+  return place;
+}
+
+void CommandTrials::give_back(std::unique_ptr<Place> place) {
+  const std::lock_guard lock(mutex_);
+  free_.push_back(std::move(place));
+}
+
+std::optional<TrialResult> CommandTrials::run(const Task& task, std::optional<TrialCost>& cost) {
+  std::unique_ptr<Place> place = take_place();
+  std::optional<TrialResult> result;
+  std::exception_ptr failure;
+  try {
+    result = run_in(*place, task, cost);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  remove_tree(place->folder / "work");
+  give_back(std::move(place));
+  if (failure) std::rethrow_exception(failure);
+  return result;
+}
+
+std::optional<TrialResult> CommandTrials::run_in(Place& place, const Task& task,
+                                                 std::optional<TrialCost>& cost) {
+  const CommandMethod& method = *task.config.methods.front().command;
+  const std::vector<std::string> words = command_words(task.config);
+  const std::unique_ptr<TrialRun> trial = bench_.start(task);
+  const fs::path work = place.folder / "work", given = work / "trial", map = work / method.map;
+  if (!place.images) place.images.emplace(bench_.recording(), place.folder / "images");
+  remove_tree(work);
+  make_folder(given);
+  write_trial({task, bench_.recording(), *trial->sights(), trial->beliefs(), place.images->folder(),
+               [&](int index, int depth_index) { return bench_.frame(index, depth_index); }},
+              given);
+  const CommandOutcome outcome =
+      run_command(with_paths(words, given, map), work,
+                  {method.timeout_s, kMostFileBytes, kKeptBytes, true, stop_});
+  if (outcome.stopped) return std::nullopt;
+  cost = TrialCost{outcome.exit_code, outcome.wall_s, outcome.processor_s, outcome.peak_bytes};
+  try {
+    if (const auto changed = place.images->changed()) {
+      place.images.reset();
+      remove_tree(place.folder / "images");
+      throw Error(fmt::format("the command changed its input {}", *changed));
+    }
+    if (outcome.timed_out || outcome.exit_code != 0)
+      throw Error(how_it_ended(outcome, method.timeout_s));
+    return trial->judge(
+        read_command_map(map, bench_.table(), task.config.voxel_m, trial->truth().surface));
+  } catch (const std::bad_alloc&) {
+    throw Error("its map takes more memory than there is" + end_of(outcome.out));
+  } catch (const Error& error) {
+    throw Error(error.what() + end_of(outcome.out));
+  }
+}
+
+}  // namespace mapscore::eval

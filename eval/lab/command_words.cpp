@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/lab/command_words.hpp"
+
+#include "core/error.hpp"
+#include "eval/map_files/map_file.hpp"
+#include "files/command.hpp"
+#include "files/text.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <optional>
+#include <system_error>
+
+namespace mapscore::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The absolute path of a word that names a file beside the study.
+std::optional<fs::path> beside(const Study& config, const std::string& word) {
+  std::error_code none;
+  const fs::path file = fs::absolute(resolve_path(config, word), none);
+  if (none || word.empty() || !fs::is_regular_file(file, none)) return std::nullopt;
+  return file;
+}
+
+fs::path program_of(const Study& config, const std::string& name, const std::string& key) {
+  std::optional<fs::path> program = beside(config, name);
+  if (!program && name.find('/') == name.npos) program = program_on_path(name);
+  if (!program)
+    throw Error(fmt::format(
+        "{}: '{}' is neither a program on the PATH nor a file beside the study; install it, or "
+        "mend the path",
+        key, shown(name)));
+  if (access(program->c_str(), X_OK) != 0)
+    throw Error(
+        fmt::format("{}: {} cannot be executed; `chmod +x` it, or write its interpreter "
+                    "before it",
+                    key, shown(*program)));
+  return *program;
+}
+
+void replace_all(std::string& word, std::string_view from, const std::string& to) {
+  for (std::size_t at = 0; (at = word.find(from, at)) != word.npos; at += to.size())
+    word.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+std::vector<std::string> command_words(const Study& config) {
+  const MethodSettings& method = config.methods.front();
+  const std::string key = fmt::format("methods.{}", method.name);
+  if (!has_ending_of_a_map(method.command->map))
+    throw Error(fmt::format("{}.map: '{}' has no ending of a map; write one of {}", key,
+                            shown(method.command->map), map_endings()));
+  std::vector<std::string> words = method.command->command;
+  words.front() = program_of(config, words.front(), key + ".command");
+  for (std::size_t n = 1; n < words.size(); ++n)
+    if (const auto file = beside(config, words[n])) words[n] = *file;
+  return words;
+}
+
+std::vector<std::string> with_paths(std::vector<std::string> words, const fs::path& trial,
+                                    const fs::path& map) {
+  for (std::string& word : words) {
+    replace_all(word, "{trial}", trial);
+    replace_all(word, "{map}", map);
+  }
+  return words;
+}
+
+}  // namespace mapscore::eval

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/study/study.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// The words of the command that a study's first method is: its program as an absolute path, files
+/// that lie beside the study likewise, {trial} and {map} as they are. Throws Error naming the key
+/// when the program is neither on the PATH nor beside the study, or cannot be executed, or {map}
+/// has no ending of a map.
+[[nodiscard]] std::vector<std::string> command_words(const Study& config);
+
+/// The words with these paths in the place of {trial} and {map}, wherever they stand in a word.
+[[nodiscard]] std::vector<std::string> with_paths(std::vector<std::string> words,
+                                                  const std::filesystem::path& trial,
+                                                  const std::filesystem::path& map);
+
+}  // namespace mapscore::eval

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "eval/score/map_snapshot.hpp"
+#include "eval/score/voxel_window.hpp"
+#include "eval/truth/surface_truth.hpp"
+
+#include <cstddef>
+
+namespace mapscore::eval {
+
+/// How many occupied voxels of a map lie on or beside a surface.
+struct SurfaceShare {
+  /// A share that no map falls below by being bad: in a home even voxels thrown at random do
+  /// better.
+  static constexpr double kLeast = 0.01;
+
+  std::size_t occupied = 0, at_surfaces = 0;
+
+  /// 1 for a map without occupied voxels.
+  [[nodiscard]] double share() const {
+    return occupied == 0 ? 1.0 : static_cast<double>(at_surfaces) / static_cast<double>(occupied);
+  }
+  [[nodiscard]] bool in_another_frame() const { return share() < kLeast; }
+};
+
+[[nodiscard]] inline SurfaceShare surface_share(const MapSnapshot& map,
+                                                const SurfaceTruth& surface) {
+  SurfaceShare count;
+  const auto touched = [&](const VoxelKey& key) { return surface.touches_any(key); };
+  for (const MapVoxel& voxel : map.voxels()) {
+    if (!voxel.occupied) continue;
+    ++count.occupied;
+    count.at_surfaces += touched(voxel.key) || any_in_shell(voxel.key, 1, touched) ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace mapscore::eval

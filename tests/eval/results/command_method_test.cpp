@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/results/plan.hpp"
+#include "files/file_bytes.hpp"
+#include "tests/support/expect_error.hpp"
+#include "tests/support/tiny_recording.hpp"
+
+#include <gmock/gmock.h>
+
+// A method that is a command: what may stand in a study, and what decides a trial's key.
+
+namespace mapscore::eval {
+namespace {
+
+using mapscore::testing::expect_error;
+
+class CommandMethodTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] Study study(const std::string& keys, const std::string& more = "") const {
+    return parse_study(
+        "recording: tiny\nmethods:\n  direct: {segmentation: {direct: {}}}\n  mine: {" + keys +
+            "}\n" + more,
+        folder_.path() / "study.yaml");
+  }
+  /// Of the command's trial.
+  [[nodiscard]] Task task(const Study& of) const {
+    return task_of(of, {0, "mine", cells(of)[0], 0}, Labels::detected, "recording");
+  }
+  [[nodiscard]] std::string key(const std::string& keys, const std::string& more = "") const {
+    return task(study(keys, more)).key;
+  }
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const {
+    return folder_.path() / name;
+  }
+
+ private:
+  mapscore::testing::TemporaryFolder folder_;
+};
+
+const std::string kCommand = "command: [mapper, \"{trial}\", \"{map}\"]";
+const std::string kPlain = kCommand + ", map: voxels.csv";
+
+TEST_F(CommandMethodTest, IsReadAndWrittenAsItStands) {
+  const Study of = study(kPlain + ", timeout_s: 7, threads: 2, title: My mapper");
+  const MethodSettings& mine = of.methods.at(1);
+  ASSERT_TRUE(mine.command);
+  EXPECT_EQ(mine.command->command, (std::vector<std::string>{"mapper", "{trial}", "{map}"}));
+  EXPECT_EQ(mine.command->timeout_s, 7);
+  EXPECT_EQ(mine.command->threads, 2);
+  EXPECT_EQ(method_title(of, "mine"), "My mapper");
+  EXPECT_EQ(parse_study(to_yaml(of), file("study.yaml")), of);
+  EXPECT_FALSE(of.methods.at(0).command);
+}
+
+TEST_F(CommandMethodTest, KeyHoldsTheCommandAndWhatItDependsOn) {
+  write_file(file("my.py"), "first");
+  const std::string depends = kPlain + ", depends: [my.py]";
+  const std::string first = key(depends);
+  EXPECT_NE(first, key(kPlain));
+  EXPECT_NE(key(kPlain), key("command: [mapper, -v, \"{trial}\", \"{map}\"], map: voxels.csv"));
+  EXPECT_NE(key(kPlain), key(kCommand + ", map: voxels.ply"));
+  EXPECT_EQ(key(kPlain), key(kPlain + ", timeout_s: 7, threads: 2, title: My mapper"));
+  write_file(file("my.py"), "other");
+  EXPECT_NE(key(depends), first);
+  write_file(file("my.py"), "first");
+  EXPECT_EQ(key(depends), first);
+  expect_error("gone.py", [&] { (void)key(kPlain + ", depends: [gone.py]"); });
+}
+
+TEST_F(CommandMethodTest, OtherMethodsKeepTheirKeys) {
+  const Study with = study(kPlain);
+  Study without = with;
+  without.methods.pop_back();
+  const auto of_direct = [](const Study& of) {
+    return task_of(of, {0, "direct", cells(of)[0], 0}, Labels::detected, "recording").description;
+  };
+  EXPECT_EQ(of_direct(with), of_direct(without));
+  EXPECT_THAT(of_direct(with), ::testing::Not(::testing::HasSubstr("command")));
+}
+
+TEST_F(CommandMethodTest, CeilingsAreItsOwnAndThoseOfAll) {
+  const Study of = study(kPlain, "faults: {pose: {sigma_xy_m: 0.1}}\n");
+  const Plan plan = plan_of(of, "recording");
+  EXPECT_TRUE(plan.tasks.config(plan.trials[1].registration_ceiling).methods.front().command);
+  EXPECT_EQ(plan.trials[0].lattice_ceiling, plan.trials[1].lattice_ceiling);
+}
+
+TEST_F(CommandMethodTest, WhatItCannotFollowIsRefused) {
+  const auto refused = [&](const std::string& part, const std::string& keys,
+                           const std::string& more = "") {
+    expect_error(part, [&] { (void)study(keys, more); });
+  };
+  refused("unknown key 'segmentation'", kPlain + ", segmentation: {direct: {}}");
+  refused("unknown key 'refinement'", kPlain + ", refinement: {crf: {}}");
+  refused("names no program", "command: [], map: voxels.csv");
+  refused("'map' is missing", kCommand);
+  refused("does not name {map}", "command: [mapper, \"{trial}\"], map: voxels.csv");
+  refused("does not name {trial}", "command: [mapper, \"{map}\"], map: voxels.csv");
+  refused("no name of a file", kCommand + ", map: ../voxels.csv");
+  refused("no name of a file", kCommand + ", map: .csv");
+  refused("timeout_s", kPlain + ", timeout_s: 0");
+  refused("threads", kPlain + ", threads: 0");
+  refused("score.unit", kPlain, "score: {unit: frame}\n");
+  refused("methods.mine.timeout_s cannot be swept", kPlain,
+          "sweep: {methods.mine.timeout_s: [1]}\n");
+  refused("'segmentation' is missing", "title: nothing");
+}
+
+}  // namespace
+}  // namespace mapscore::eval
