@@ -64,6 +64,9 @@ std::optional<Study> study_of(const MapVerbFlags& flags) {
 
 /// What a folder cannot do as a trial does it.
 void check_mappable(const Study& study, const MethodSettings& method) {
+  if (method.command)
+    throw Error(
+        fmt::format("--method {}: is a command; take a method of ours, or `sweep`", method.name));
   if (!std::holds_alternative<LabelPerception>(study.perception))
     throw Error("perception: `map` takes the folder's labels; leave the key out, or use `run`");
   const auto* crf = std::get_if<Crf>(&method.refinement);
@@ -150,6 +153,9 @@ Mapped mapped_trial(const MapVerbFlags& flags, const FramesDone& shown_done) {
   refuse_beside_trial(flags);
   const TrialFolder folder(flags.folder);
   const Study study = load_study(std::filesystem::path(flags.folder) / "method.yaml");
+  if (study.methods.front().command)
+    throw Error(fmt::format("{}: is the trial of a command (method.yaml), which maps it itself",
+                            shown(flags.folder)));
   ClassTable table{folder.sheet().classes};
   FolderMapping mapping{mapping_of(study, table), {}, study.methods.front().refinement};
   MappedCounts counts;

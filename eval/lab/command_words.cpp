@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <optional>
 #include <system_error>
 
@@ -49,6 +50,11 @@ void replace_all(std::string& word, std::string_view from, const std::string& to
 }
 
 }  // namespace
+
+bool is_command(const Study& study, const std::string& method) {
+  const auto found = std::ranges::find(study.methods, method, &MethodSettings::name);
+  return found != study.methods.end() && found->command;
+}
 
 std::vector<std::string> command_words(const Study& config) {
   const MethodSettings& method = config.methods.front();

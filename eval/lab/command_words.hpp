@@ -11,6 +11,9 @@
 
 namespace mapscore::eval {
 
+/// Whether the method of that name is a command, which only a sweep runs: its maps are not kept.
+[[nodiscard]] bool is_command(const Study& study, const std::string& method);
+
 /// The words of the command that a study's first method is: its program as an absolute path, files
 /// that lie beside the study likewise, {trial} and {map} as they are. Throws Error naming the key
 /// when the program is neither on the PATH nor beside the study, or cannot be executed, or {map}

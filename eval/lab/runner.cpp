@@ -270,8 +270,11 @@ std::vector<std::size_t> missing_by_shard(const TaskList& tasks,
 std::unordered_set<std::string> failed_commands(const ResultStore& store, const TaskList& tasks) {
   std::unordered_set<std::string> keys;
   const auto failures = store.failures();
+  const auto held = store.keys();
   for (std::size_t n = 0; n < tasks.size() && !failures.empty(); ++n)
-    if (command_of(tasks, n) && failures.contains(tasks.key(n))) keys.insert(tasks.key(n));
+    if (const std::string key = tasks.key(n);
+        command_of(tasks, n) && failures.contains(key) && !held.contains(key))
+      keys.insert(key);
   return keys;
 }
 

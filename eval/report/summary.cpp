@@ -4,6 +4,7 @@
 #include "eval/report/summary.hpp"
 
 #include "core/error.hpp"
+#include "eval/lab/runner.hpp"
 #include "eval/report/best_threshold.hpp"
 #include "eval/results/study_store.hpp"
 #include "eval/score/lattice_check.hpp"
@@ -133,6 +134,20 @@ std::string interim_note(const HeldTasks& held, const TaskList& tasks) {
                      held.all, tasks.size());
 }
 
+/// How many trials of each method failed, where all that is not there are trials of commands that
+/// did; empty where others are missing.
+std::string only_failed_text(const HeldTasks& held, const Source& source) {
+  const auto failed = failed_commands(source.store, source.plan.tasks);
+  if (failed.empty() || held.all + failed.size() < source.plan.tasks.size()) return "";
+  std::map<std::string, int> by_method;
+  for (const PlannedTrial& trial : source.plan.trials)
+    if (failed.contains(source.plan.tasks.key(trial.task))) ++by_method[trial.spec.method];
+  std::vector<std::string> counts;
+  for (const auto& [method, count] : by_method)
+    counts.push_back(fmt::format("{} failed of {}", count, method));
+  return fmt::format("FAILED: {}", fmt::join(counts, ", "));
+}
+
 Estimate estimate(const BestThreshold& best, std::optional<double> ChosenScore::*figure) {
   std::vector<std::optional<double>> values;
   for (const ChosenScore& score : best.by_seed) values.push_back(score.*figure);
@@ -191,9 +206,12 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
     require_one_of(summary.groups(), group,
                    fmt::format("class '{}': not scored in this study", group));
   std::unordered_set<std::string> keys;
-  if (options.interim && held.all < tasks.size()) {
+  const std::string failed =
+      options.failed_commands && held.all < tasks.size() ? only_failed_text(held, *source) : "";
+  if ((options.interim || !failed.empty()) && held.all < tasks.size()) {
     keys = source->store.keys();
-    summary.interim = interim_note(held, tasks) + failed_text(*source, results);
+    summary.interim =
+        (failed.empty() ? interim_note(held, tasks) : failed) + failed_text(*source, results);
   } else {
     check_all_there(held, *source, results);
   }

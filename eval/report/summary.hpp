@@ -106,6 +106,8 @@ struct SummaryOptions {
   /// Take an unfinished sweep: of each line the seeds that are there with both ceilings; lines
   /// without any are left out.
   bool interim = false;
+  /// Take a sweep that lacks nothing but trials whose command failed, in the same way.
+  bool failed_commands = false;
 };
 
 /// Opens the store of a study (`results` is the folder or its results.sqlite) and forms the figures

@@ -17,13 +17,20 @@ foreach(source IN LISTS sources rendered)
 endforeach()
 list(REMOVE_DUPLICATES suites)
 
+# A rival as a command of a study.
+add_executable(octomap_mapper ${PROJECT_SOURCE_DIR}/configs/external/octomap_mapper.cpp)
+target_link_libraries(octomap_mapper PRIVATE mapscore_foreign)
+
+find_program(PYTHON3 python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(PYTHON3 python3 REQUIRED)
 add_executable(end_to_end_test ${sources} ${rendered})
 target_link_libraries(end_to_end_test PRIVATE mapscore_lab mapscore_test_support GTest::gtest_main
                       GTest::gmock)
 target_compile_definitions(end_to_end_test PRIVATE MAPSCORE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                           MAPSCORE_PROGRAM="$<TARGET_FILE:mapscore>")
+                           MAPSCORE_PROGRAM="$<TARGET_FILE:mapscore>"
+                           MAPSCORE_PYTHON="${PYTHON3}" OCTOMAP_MAPPER="$<TARGET_FILE:octomap_mapper>")
 mapscore_use_precompiled(end_to_end_test mapscore_test_headers)
-add_dependencies(end_to_end_test mapscore)
+add_dependencies(end_to_end_test mapscore octomap_mapper)
 foreach(suite IN LISTS suites)
   add_test(NAME end_to_end.${suite}
            COMMAND end_to_end_test --gtest_filter=${suite}.*:*/${suite}.*:${suite}/*)
@@ -62,8 +69,6 @@ mapscore_mutant(mapscore_eroding_more eroding_more segmentation/erosion cv::Mat1
 set_target_properties(mapscore_losing_voxels mapscore_eroding_more PROPERTIES EXCLUDE_FROM_ALL ON)
 
 # The same counts from a second implementation, written from the documents alone.
-find_program(PYTHON3 python3 PATHS /usr/bin NO_DEFAULT_PATH)
-find_program(PYTHON3 python3 REQUIRED)
 foreach(drive apartment person)
   add_test(NAME independent_ruler.${drive}
            COMMAND ${PYTHON3} ${CMAKE_CURRENT_SOURCE_DIR}/independent/compare.py

@@ -90,7 +90,7 @@ void figures(const FiguresFlags& flags) {
   const Study study = read_study(ResultStore::open_existing(file), file.parent_path()).study;
   const PictureChoice choice = choice_of(flags, study);
   check_choice(study, choice);
-  const StudySummary summary = summarise_store(flags.results, {{}, flags.interim});
+  const StudySummary summary = summarise_store(flags.results, {{}, flags.interim, true});
   const fs::path folder =
       !flags.folder.empty()
           ? fs::path(flags.folder)

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/cli/shared/trial_maps.hpp"
+#include "eval/lab/command_words.hpp"
 #include "eval/report/pictures/caption.hpp"
 #include "eval/report/pictures/contact_sheet.hpp"
 #include "eval/results/study_store.hpp"
@@ -44,7 +45,8 @@ std::vector<TrialYields> first_seed_yields(const SweptStudy& swept, std::uint64_
                                            const std::function<bool(const TrialSpec&)>& is_asked) {
   std::vector<TrialSpec> specs;
   for (const TrialSpec& spec : trials(swept.record.study))
-    if (spec.seed_index == 0 && is_asked(spec)) specs.push_back(spec);
+    if (spec.seed_index == 0 && is_asked(spec) && !is_command(swept.record.study, spec.method))
+      specs.push_back(spec);
   Study drawn = swept.record.study;
   drawn.seed = seed;
   Bench bench = swept.bench();

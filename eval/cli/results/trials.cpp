@@ -7,9 +7,13 @@
 #include "eval/results/searched_trials.hpp"
 #include "eval/results/study_store.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <map>
+#include <string>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -58,6 +62,17 @@ std::vector<std::string> paths_of(const std::vector<TrialRow>& rows) {
   return paths;
 }
 
+/// What the trial's command took; of a method of ours `-`.
+void add_cost(const std::map<std::string, TrialCost>& costs, const std::string& key,
+              std::vector<std::string>& row) {
+  const auto found = costs.find(key);
+  if (found == costs.end()) return void(row.insert(row.end(), 4, "-"));
+  const TrialCost& cost = found->second;
+  row.insert(row.end(), {std::to_string(cost.exit_code), fmt::format("{:.3f}", cost.wall_s),
+                         fmt::format("{:.3f}", cost.processor_s),
+                         fmt::format("{:.1f}", 1e-6 * static_cast<double>(cost.peak_bytes))});
+}
+
 void print_trials(const TrialsFlags& flags) {
   const std::filesystem::path file = store_file(flags.results);
   const ResultStore store = ResultStore::open_existing(file);
@@ -65,9 +80,12 @@ void print_trials(const TrialsFlags& flags) {
   const std::vector<std::string> paths = paths_of(rows);
   const auto held = store.keys();
   const auto failures = store.failures();
+  const auto costs = store.costs();
   Table table;
   table.columns = {"key", "role", "method", "seed", "state"};
   table.columns.insert(table.columns.end(), paths.begin(), paths.end());
+  if (!costs.empty())
+    table.columns.insert(table.columns.end(), {"exit_code", "wall_s", "processor_s", "peak_MB"});
   table.columns.emplace_back("reason");
   for (const auto& [key, role, spec] : rows) {
     const auto failure = failures.find(key);
@@ -81,6 +99,7 @@ void print_trials(const TrialsFlags& flags) {
           std::ranges::find(spec.cell.doses, path, [](const auto& of) { return of.first; });
       row.push_back(dose == spec.cell.doses.end() ? "-" : dose->second);
     }
+    if (!costs.empty()) add_cost(costs, key, row);
     row.push_back(state == kStates[1] ? failure->second : "-");
     table.rows.push_back(std::move(row));
   }

@@ -4,6 +4,7 @@
 #include "eval/cli/shared/trial_maps.hpp"
 
 #include "core/error.hpp"
+#include "eval/lab/command_words.hpp"
 
 #include <fmt/format.h>
 
@@ -39,6 +40,7 @@ std::vector<JudgedMap> map_trials(const Study& study, Bench& bench, const Pictur
   for (const TrialSpec& spec : trials(study)) {
     if (spec.cell != cell || spec.seed_index != choice.seed_index) continue;
     if (choice.method && *choice.method != spec.method) continue;
+    if (is_command(study, spec.method)) continue;
     const Task task = task_of(undistanced, spec, Labels::detected, recording.content_hash());
     const std::unique_ptr<TrialRun> run = bench.start(task);
     if (alone) {

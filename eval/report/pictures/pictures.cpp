@@ -170,6 +170,7 @@ Pictures draw_pictures(const Study& study, const ClassTable& table, const Record
   }
   fs::create_directories(folder);
   const std::vector<JudgedMap> maps = judged_maps();
+  if (maps.empty()) return {{}, "its method is a command, whose maps are not kept"};
   const std::optional<sim::View> chosen = chosen_view(study, choice);
   const std::vector<sim::View> views = error_views(maps, chosen, depth_camera_poses(recording));
   const sim::View plan = chosen ? narrowed(*chosen, kColumn_px) : plan_view(maps, kColumn_px);

@@ -96,7 +96,6 @@ TEST_F(CommandMethodTest, WhatItCannotFollowIsRefused) {
   refused("names no program", "command: [], map: voxels.csv");
   refused("'map' is missing", kCommand);
   refused("does not name {map}", "command: [mapper, \"{trial}\"], map: voxels.csv");
-  refused("does not name {trial}", "command: [mapper, \"{map}\"], map: voxels.csv");
   refused("no name of a file", kCommand + ", map: ../voxels.csv");
   refused("no name of a file", kCommand + ", map: .csv");
   refused("timeout_s", kPlain + ", timeout_s: 0");
