@@ -56,6 +56,13 @@ std::string end_of(const std::string& log) {
   return fmt::format("; its log ends: '{}'", shown(rest.substr(first)));
 }
 
+/// The text without the name of the scratch folder, which means nothing later.
+std::string without(const std::string& folder, std::string text) {
+  for (std::size_t at = 0; (at = text.find(folder, at)) != text.npos;)
+    text.erase(at, folder.size());
+  return text;
+}
+
 std::string how_it_ended(const CommandOutcome& outcome, double timeout_s) {
   if (outcome.timed_out) return fmt::format("the command took longer than {} s", timeout_s);
   if (outcome.exit_code > 128)
@@ -141,7 +148,7 @@ std::optional<TrialResult> CommandTrials::run_in(Place& place, const Task& task,
   } catch (const std::bad_alloc&) {
     throw Error("its map takes more memory than there is" + end_of(outcome.out));
   } catch (const Error& error) {
-    throw Error(error.what() + end_of(outcome.out));
+    throw Error(without(work.string() + '/', shown(error.what())) + end_of(outcome.out));
   }
 }
 

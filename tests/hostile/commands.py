@@ -58,10 +58,10 @@ WAYS = {
     "map_is_folder": ('mkdir "$2"', "is no file"),
     "map_is_pipe": ('mkfifo "$2"', "is no file"),
     "map_is_link": ('ln -s /dev/zero "$2"', "is no file"),
-    "rubbish": ('head -c 100000 /dev/urandom > "$2"', "voxels.csv"),
+    "rubbish": ('head -c 100000 /dev/urandom > "$2"', "voxels.csv:"),
     "unknown_classes": ('printf "i,j,k,class\\n0,0,0,unicorn\\n" > "$2"', "unicorn"),
     "without_classes": ('printf "i,j,k\\n0,0,0\\n" > "$2"', "no classes"),
-    "twice_the_same": ('printf "i,j,k,class\\n0,0,0,1\\n0,0,0,1\\n" > "$2"', "twice"),
+    "twice_the_same": ('printf "i,j,k,class\\n0,0,0,1\\n0,0,0,1\\n" > "$2"', "already"),
     "stays_unheard": ("exec >&- 2>&-; sleep 1000", "took longer than"),
     "leaves_locked_folders": ("mkdir -p a/b; touch a/b/c; chmod -R 0 a; exit 1", "exit code 1"),
     "controls_terminal": ("printf '\\033[2J\\033]0;owned\\007'; exit 1", "\\x1b[2J"),
@@ -127,6 +127,7 @@ class Trial:
 
     def rows(self, results):
         with sqlite3.connect(f"{results}/results.sqlite") as store:
+            store.text_factory = lambda text: text.decode("utf-8", "backslashreplace")
             trials = {key: row for key, *row in store.execute("SELECT * FROM trials")}
             reasons = {name[7:]: value for name, value in store.execute("SELECT * FROM texts WHERE name LIKE 'failed %'")}
         return trials, reasons
