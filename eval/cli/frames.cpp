@@ -74,7 +74,7 @@ std::vector<MethodFrames> walk(const Study& study, const std::vector<Task>& task
 
 void compare_frames(const FramesFlags& flags) {
   const FigureStyle style = flags.style.style();
-  const Study study = flags.study.load();
+  const Study study = study_of_only_scene(flags.study.load());
   if (study.score.unit != ScoreUnit::frame)
     throw Error("score.unit: each frame is scored by itself here; --set score.unit=frame");
   if (flags.seed < 0 || flags.seed >= study.seeds)

@@ -51,8 +51,9 @@ Study study_of_recording(const fs::path& folder, const std::vector<std::string>&
 }
 
 Study study_of(const ObjectFlags& flags) {
-  Study study = fs::is_directory(flags.source) ? study_of_recording(flags.source, flags.overrides)
-                                               : load_study(flags.source, flags.overrides);
+  Study study = fs::is_directory(flags.source)
+                    ? study_of_recording(flags.source, flags.overrides)
+                    : study_of_only_scene(load_study(flags.source, flags.overrides));
   study.sweep.clear();
   return study;
 }

@@ -27,7 +27,7 @@ void record(const RecordFlags& flags) {
                 ": a scene by itself says no way to drive; add --trajectory FILE, or record a "
                 "study");
   Study study = is_scene ? study_of_scene(flags.source, flags.overrides)
-                         : load_study(flags.source, flags.overrides);
+                         : study_of_only_scene(load_study(flags.source, flags.overrides));
   if (study.scene && study.recording)
     throw Error("recording: `record` renders the scene anew and would not read it; leave it out");
   if (!flags.motion.empty()) study.motion = std::filesystem::absolute(flags.motion).string();

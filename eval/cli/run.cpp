@@ -108,7 +108,7 @@ ChosenTrial trial_of_study(const RunFlags& flags) {
     throw Error(fmt::format(
         "{0}: holds results; `mapscore trials {0}` lists its trials, --trial KEY repeats one",
         file));
-  Study study = flags.study.load();
+  Study study = study_of_only_scene(flags.study.load());
   std::filesystem::path results = flags.study.results_folder(study);
   TrialSpec spec = spec_of(study, flags);
   Recording recording = shown_recording("run", study, results, flags.work.jobs, flags.work.quiet);
@@ -168,11 +168,14 @@ ChosenTrial trial_of_store(const RunFlags& flags) {
                     flags.key, results));
   }
   StudyRecord record = read_study(store, file.parent_path());
-  const Plan plan = plan_of(record.study, record.recording_hash);
+  const Plan plan = plan_of(record.study, record.hashes());
   ListedTask listed = task_of_key(plan, store, flags.key, results);
-  Recording recording = recording_of(record, file.parent_path());
   Task task = plan.tasks[listed.task];
   auto stored = store.find(task.key);
+  auto [of_scene, recording] =
+      scene_of(record, file.parent_path(), scene_of(record.study, listed.spec.cell));
+  listed.spec.cell.doses = doses_of_scene(record.study, listed.spec.cell.doses);
+  record = std::move(of_scene);
   return {
       std::move(record.study),
       flags.study.results.empty() ? file.parent_path() : std::filesystem::path(flags.study.results),

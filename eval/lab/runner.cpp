@@ -283,8 +283,10 @@ RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const Class
   const TaskList& tasks = plan.tasks;
   std::unordered_set<std::string> held = kept_keys(store, options.keep_builds);
   held.insert(options.held_elsewhere.begin(), options.held_elsewhere.end());
-  const std::vector<std::size_t> missing =
-      missing_tasks(tasks, held, options.shard, options.shards);
+  std::vector<std::size_t> missing = missing_tasks(tasks, held, options.shard, options.shards);
+  std::erase_if(missing, [&](std::size_t task) {
+    return tasks.recording_hash(task) != recording.content_hash();
+  });
   for (const std::size_t position : missing)
     if (command_of(tasks, position)) static_cast<void>(command_words(tasks.config(position)));
   RunnerOutcome outcome;

@@ -37,7 +37,7 @@ struct TrialFailure {
 
 struct RunnerOutcome {
   std::size_t computed = 0;  ///< tasks done now
-  std::size_t reused = 0;    ///< tasks that the store had, or that other shards have
+  std::size_t reused = 0;    ///< tasks that the store had, or that other shards or scenes have
   std::size_t sights = 0;  ///< frames under faults that were made, each for all trials that see it
   std::vector<TrialFailure> failures;  ///< in no order
   bool stopped = false;                ///< by RunnerOptions::stop
@@ -63,14 +63,14 @@ struct RunnerOutcome {
                                                         const std::unordered_set<std::string>& held,
                                                         int shards);
 
-/// Computes the tasks of a plan that the store does not hold, or holds of another build, and adds
-/// each to it as soon as it is done. Trials walk the frames together in blocks that fit the memory,
-/// so that a frame is decoded once for many trials. The results depend on neither jobs, memory nor
-/// shards. Trials whose method is a command are run first; what they take is stored beside them.
-/// One whose program is not there is refused before any trial. A trial that throws is stored as
-/// failed, with its reason, and the others go on. What the store or a function of the options
-/// throws ends all and is rethrown, std::bad_alloc as an Error that says what helps; what was done
-/// stays in the store.
+/// Computes the tasks of a plan that are of this recording and that the store does not hold, or
+/// holds of another build, and adds each to it as soon as it is done. Trials walk the frames
+/// together in blocks that fit the memory, so that a frame is decoded once for many trials. The
+/// results depend on neither jobs, memory nor shards. Trials whose method is a command are run
+/// first; what they take is stored beside them. One whose program is not there is refused before
+/// any trial. A trial that throws is stored as failed, with its reason, and the others go on. What
+/// the store or a function of the options throws ends all and is rethrown, std::bad_alloc as an
+/// Error that says what helps; what was done stays in the store.
 RunnerOutcome run_plan(const Plan& plan, const Recording& recording, const ClassTable& table,
                        ResultStore& store, const RunnerOptions& options);
 

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/lab/runner.hpp"
 #include "eval/report/best_threshold.hpp"
+#include "eval/report/pooled_scenes.hpp"
 #include "eval/results/study_store.hpp"
 #include "eval/score/lattice_check.hpp"
 #include "files/suggestion.hpp"
@@ -25,13 +26,16 @@ namespace {
 /// A store and the tasks of its study, shared by the lines that read their results from it.
 struct Source {
   ResultStore store;
+  StudyRecord record;
   Plan plan;
 };
 
-TrialResult read_result(const Source& source, std::size_t task) {
+/// `scene`: whose trial it is.
+TrialResult read_result(const Source& source, std::size_t task, const std::string& scene) {
   const std::string key = source.plan.tasks.key(task);
   auto result = source.store.find(key);
   if (!result) throw Error("trial " + key + ": gone from the store; sweep again");
+  result->counts = in_table(source.record, scene, std::move(result->counts));
   return std::move(*result);
 }
 
@@ -97,8 +101,9 @@ class LineReader {
   [[nodiscard]] ResultLine line(Role role, const LineTasks& of,
                                 const std::vector<std::size_t>& tasks) {
     ResultLine line{role, of.spec.method, of.spec.cell, of.seeds, {}, {}};
-    line.in_store = [source = source_, tasks](std::size_t seed) {
-      return read_result(*source, tasks.at(seed));
+    line.in_store = [source = source_, tasks,
+                     scene = scene_of(source_->record.study, of.spec.cell)](std::size_t seed) {
+      return read_result(*source, tasks.at(seed), scene);
     };
     std::shared_ptr<const LineDigest>& digest = digests_[tasks];
     if (!digest) {
@@ -198,7 +203,7 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
   ResultStore store = ResultStore::open_existing(file);
   const StudyRecord record = read_study(store, file.parent_path());
   const auto source = std::make_shared<const Source>(
-      Source{std::move(store), plan_of(record.study, record.recording_hash)});
+      Source{std::move(store), record, plan_of(record.study, record.hashes())});
   const TaskList& tasks = source->plan.tasks;
   const HeldTasks held = held_tasks(source->store, tasks);
   StudySummary summary{record.study, record.table, record.recording_hash, held.builds, {}, {}, {}};
@@ -215,8 +220,9 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
   } else {
     check_all_there(held, *source, results);
   }
-  LineReader reader(source, summary.table,
-                    options.groups.empty() ? summary.groups() : options.groups);
+  const std::vector<std::string> groups =
+      options.groups.empty() ? summary.groups() : options.groups;
+  LineReader reader(source, summary.table, groups);
   for (const LineTasks& line : lines_of(source->plan, record.study, [&](std::size_t task) {
          return summary.interim.empty() || keys.contains(tasks.key(task));
        })) {
@@ -238,6 +244,7 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
   if (summary.trials.empty())
     throw Error(fmt::format("{}: no trial is there with both of its ceilings yet{}; wait, or go on",
                             results.string(), failed_text(*source, results)));
+  if (options.pool_scenes) add_pooled_scenes(summary, groups);
   return summary;
 }
 

@@ -108,6 +108,7 @@ struct SummaryOptions {
   bool interim = false;
   /// Take a sweep that lacks nothing but trials whose command failed, in the same way.
   bool failed_commands = false;
+  bool pool_scenes = false;  ///< and the lines of all scenes together (pooled_scenes.hpp)
 };
 
 /// Opens the store of a study (`results` is the folder or its results.sqlite) and forms the figures

@@ -109,6 +109,7 @@ SeedlessTask make_task(Study config, Labels labels, const std::string& recording
   task.after_seed = '\n' + to_key_yaml(decides) + revisions(decides);
   task.config = std::move(config);
   task.labels = labels;
+  task.recording_hash = recording_hash;
   return task;
 }
 
@@ -135,10 +136,10 @@ class Configurations {
   std::size_t first_ = 0;
 };
 
-void refuse_recorded(const std::string& path) {
-  if (decides_recording(path))
-    throw Error("sweep." + path +
-                ": decides what is recorded; make one study for each of its values");
+void refuse_recorded(const Study& study, const std::string& path) {
+  if (!decides_recording(path) || (path == kSceneAxis && !study.scenes.empty())) return;
+  throw Error("sweep." + path +
+              ": decides what is recorded; give each of its values a name under `scenes`");
 }
 
 /// What of a cell without_faults leaves: cells that are alike in it have the same ceilings.
@@ -157,27 +158,37 @@ struct TrialConfigurations {
 
 }  // namespace
 
+const std::string& RecordingHashes::of(const std::string& scene) const {
+  const auto found = hashes_.find(scene);
+  if (found == hashes_.end())
+    throw Error(fmt::format("scene '{}': its recording is not known; sweep again", scene));
+  return found->second;
+}
+
 Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
-             const std::string& recording_hash) {
+             const RecordingHashes& recordings) {
   const Study config = resolve(study, spec.cell);
   InputFiles files;
   return make_task(labels == Labels::truth ? for_lattice_ceiling(config)
                                            : with_method(config, spec.method),
-                   labels, recording_hash, files)
+                   labels, recordings.of(scene_of(study, spec.cell)), files)
       .task(spec.seed_index);
 }
 
-Plan plan_of(const Study& study, const std::string& recording_hash) {
-  for (const SweepAxis& axis : study.sweep) refuse_recorded(axis.path);
+Plan plan_of(const Study& study, const RecordingHashes& recordings) {
+  for (const SweepAxis& axis : study.sweep) refuse_recorded(study, axis.path);
   Configurations configurations;
   std::vector<TrialConfigurations> of_trials;  // by cell, then method
   InputFiles files;
+  const Cell* at = nullptr;
   const auto add = [&](Study&& config, Labels labels) {
-    return configurations.add(make_task(std::move(config), labels, recording_hash, files));
+    return configurations.add(
+        make_task(std::move(config), labels, recordings.of(scene_of(study, *at)), files));
   };
   std::map<decltype(Cell::doses), std::vector<TrialConfigurations>> ceilings;  // by method
   for (const Cell& cell : cells(study)) {
     configurations.next_cell();
+    at = &cell;
     const Study resolved = resolve(study, cell);
     auto& of_cell = ceilings[doses_of_ceilings(cell)];
     for (std::size_t m = 0; m < study.methods.size(); ++m) {
@@ -207,15 +218,16 @@ Plan plan_of(const Study& study, const std::string& recording_hash) {
 }
 
 TrialTasks tasks_of_trials(const Study& study, const std::vector<TrialSpec>& trials,
-                           const std::string& recording_hash) {
+                           const RecordingHashes& recordings) {
   InputFiles files;
   std::vector<TaskList::Configuration> list;
   std::unordered_map<std::string, std::size_t> places;
   std::vector<std::size_t> positions;
   for (const TrialSpec& trial : trials) {
-    for (const auto& [path, value] : trial.cell.doses) refuse_recorded(path);
-    SeedlessTask task = make_task(with_method(resolve(study, trial.cell), trial.method),
-                                  Labels::detected, recording_hash, files);
+    for (const auto& [path, value] : trial.cell.doses) refuse_recorded(study, path);
+    SeedlessTask task =
+        make_task(with_method(resolve(study, trial.cell), trial.method), Labels::detected,
+                  recordings.of(scene_of(study, trial.cell)), files);
     const auto [place, is_new] = places.try_emplace(task.key(trial.seed_index), list.size());
     positions.push_back(place->second);
     if (is_new) list.push_back({std::move(task), list.size(), 1, trial.seed_index});

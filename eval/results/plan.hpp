@@ -7,10 +7,27 @@
 #include "eval/study/grid.hpp"
 
 #include <cstddef>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mapscore::eval {
+
+/// Content hashes of the recordings of a study: of the only one, or of each scene by name.
+class RecordingHashes {
+ public:
+  RecordingHashes(std::string only) : hashes_{{"", std::move(only)}} {}
+  RecordingHashes(const char* only) : RecordingHashes(std::string(only)) {}
+  explicit RecordingHashes(std::map<std::string, std::string> of_scenes)
+      : hashes_(std::move(of_scenes)) {}
+
+  /// Throws Error when there is none of the name; "" in a study without scenes.
+  [[nodiscard]] const std::string& of(const std::string& scene) const;
+
+ private:
+  std::map<std::string, std::string> hashes_;
+};
 
 /// One trial of the sweep and its two ceilings, as positions in Plan::tasks.
 struct PlannedTrial {
@@ -27,12 +44,12 @@ struct Plan {
   LazyList<PlannedTrial> trials;
 };
 
-/// Throws Error when the sweep names a leaf that decides what is recorded.
-[[nodiscard]] Plan plan_of(const Study& study, const std::string& recording_hash);
+/// Throws Error when the sweep names a leaf that decides what is recorded, but for scenes.
+[[nodiscard]] Plan plan_of(const Study& study, const RecordingHashes& recordings);
 
 /// The task of one trial by itself.
 [[nodiscard]] Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
-                           const std::string& recording_hash);
+                           const RecordingHashes& recordings);
 
 /// Tasks of single trials.
 struct TrialTasks {
@@ -43,6 +60,6 @@ struct TrialTasks {
 /// The tasks of these trials without their ceilings; `index` of trial and cell are not read. Throws
 /// as plan_of, and as resolve.
 [[nodiscard]] TrialTasks tasks_of_trials(const Study& study, const std::vector<TrialSpec>& trials,
-                                         const std::string& recording_hash);
+                                         const RecordingHashes& recordings);
 
 }  // namespace mapscore::eval

@@ -4,6 +4,7 @@
 #include "eval/results/study_store.hpp"
 
 #include "core/error.hpp"
+#include "files/file_bytes.hpp"
 #include "files/suggestion.hpp"
 #include "files/text.hpp"
 #include "files/yaml_value.hpp"
@@ -12,6 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 #include <utility>
 
 namespace mapscore::eval {
@@ -29,6 +32,64 @@ std::string table_to_json(const ClassTable& table) {
   for (const Instance& i : table.instances)
     object["instances"].push_back({{"id", i.id}, {"name", i.name}, {"class", i.class_id}});
   return object.dump();
+}
+
+std::string scenes_to_json(const std::vector<SceneRecord>& scenes) {
+  json list = json::array();
+  for (const SceneRecord& scene : scenes)
+    list.push_back({{"name", scene.name},
+                    {"recording_hash", scene.recording_hash},
+                    {"recording", scene.recording},
+                    {"classes", scene.classes}});
+  return list.dump();
+}
+
+std::vector<SceneRecord> scenes_from_json(const std::string& text) {
+  std::vector<SceneRecord> scenes;
+  if (text.empty()) return scenes;
+  for (const json& scene : json::parse(text))
+    scenes.push_back(
+        {scene.at("name"), scene.at("recording_hash"), scene.at("recording"), scene.at("classes")});
+  return scenes;
+}
+
+const SceneRecord& scene_named(const StudyRecord& record, const std::string& name) {
+  const auto scene = std::ranges::find(record.scenes, name, &SceneRecord::name);
+  if (scene == record.scenes.end())
+    throw Error(
+        fmt::format("scene '{}': the study's trials are of none of this name; sweep again", name));
+  return *scene;
+}
+
+/// Adds the classes that the table lacks. Throws Error where a class is detected in one alone.
+void join_classes(const ClassTable& added, const std::string& scene, ClassTable& table) {
+  for (const SemanticClass& c : added.classes) {
+    const auto known = std::ranges::find(table.classes, c.name, &SemanticClass::name);
+    if (known == table.classes.end()) {
+      table.classes.push_back(c);
+      table.classes.back().id = static_cast<ClassId>(table.classes.size() - 1);
+    } else if (known->detect != c.detect) {
+      throw Error(
+          fmt::format("scenes.{}: class {} is {}detected there, not so in another scene; "
+                      "name what is under the study's `detect`",
+                      scene, c.name, c.detect ? "" : "not "));
+    }
+  }
+}
+
+/// The zero counts of a class that was counted with the options of another.
+ClassCounts zero_like(const ClassCounts& counts) {
+  ClassCounts zero;
+  for (const ToleranceCounts& at : counts.at_tolerance) zero.at_tolerance.push_back({at.voxels});
+  zero.accuracy = DistanceTally(counts.accuracy.limits_m());
+  zero.completeness = DistanceTally(counts.completeness.limits_m());
+  const auto take = [](const auto& of, auto& part) {
+    if constexpr (requires { of.has_value(); })
+      if (of) part.emplace();
+  };
+  std::apply([&](const auto&... part) { (take(counts.*part.second, zero.*part.second), ...); },
+             ClassCounts::parts());
+  return zero;
 }
 
 /// Ids are places in the table, of which counts are kept by place.
@@ -111,6 +172,46 @@ std::string holds_no_study(const ResultStore& store) {
 
 }  // namespace
 
+RecordingHashes StudyRecord::hashes() const {
+  if (scenes.empty()) return recording_hash;
+  std::map<std::string, std::string> of_scenes;
+  for (const SceneRecord& scene : scenes) of_scenes[scene.name] = scene.recording_hash;
+  return RecordingHashes(std::move(of_scenes));
+}
+
+StudyRecord record_of(const Study& study,
+                      const std::vector<std::pair<SceneRecord, ClassTable>>& scenes) {
+  if (study.scenes.empty()) {
+    const auto& [only, table] = scenes.front();
+    return {study, table, only.recording_hash, only.recording};
+  }
+  StudyRecord record{study, {}, "", ""};
+  std::string hashes;
+  for (const auto& [scene, table] : scenes) {
+    join_classes(table, scene.name, record.table);
+    hashes += scene.name + ' ' + scene.recording_hash + '\n';
+    record.scenes.push_back(scene);
+    for (const SemanticClass& c : table.classes) record.scenes.back().classes.push_back(c.name);
+  }
+  record.recording_hash = hash_of(hashes);
+  return record;
+}
+
+Counts in_table(const StudyRecord& record, const std::string& scene, Counts counts) {
+  if (record.scenes.empty()) return counts;
+  const std::vector<std::string>& names = scene_named(record, scene).classes;
+  if (names.size() != counts.size())
+    throw Error(fmt::format(
+        "scene '{}': a trial counts other classes than were stored; sweep again", scene));
+  Counts joined(record.table.classes.size(), zero_like(counts.front()));
+  for (std::size_t c = 0; c < counts.size(); ++c) {
+    const auto place = std::ranges::find(record.table.classes, names[c], &SemanticClass::name);
+    joined.at(static_cast<std::size_t>(place - record.table.classes.begin())) =
+        std::move(counts[c]);
+  }
+  return joined;
+}
+
 void write_study(ResultStore& store, const StudyRecord& record,
                  const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
@@ -123,6 +224,8 @@ void write_study(ResultStore& store, const StudyRecord& record,
                    {"recording_hash", record.recording_hash},
                    {"recording", record.recording},
                    {"mapscore_version", MAPSCORE_VERSION}});
+  if (!record.scenes.empty() || !store.text("scenes").empty())
+    store.set_text("scenes", record.scenes.empty() ? "" : scenes_to_json(record.scenes));
 }
 
 StudyRecord read_study(const ResultStore& store, const std::filesystem::path& folder) try {
@@ -131,19 +234,34 @@ StudyRecord read_study(const ResultStore& store, const std::filesystem::path& fo
   const std::filesystem::path base = folder / store.text("study_folder");
   return {parse_study(study, (base / "stored study").lexically_normal()),
           table_from_json(store.text("classes")), store.text("recording_hash"),
-          store.text("recording")};
+          store.text("recording"), scenes_from_json(store.text("scenes"))};
 } catch (const json::exception& error) {
   throw Error(std::string("result store: class table not readable (") + error.what() +
               "); sweep again into another folder");
 }
 
-Recording recording_of(const StudyRecord& record, const std::filesystem::path& folder) {
-  const std::filesystem::path place = (folder / record.recording).lexically_normal();
+Recording recording_of(const StudyRecord& record, const std::filesystem::path& folder,
+                       const std::string& scene) {
+  const bool only = record.scenes.empty();
+  const std::string& path = only ? record.recording : scene_named(record, scene).recording;
+  const std::filesystem::path place = (folder / path).lexically_normal();
   Recording recording = Recording::open(place);
-  if (recording.content_hash() != record.recording_hash)
+  if (recording.content_hash() !=
+      (only ? record.recording_hash : scene_named(record, scene).recording_hash))
     throw Error(place.string() +
                 ": is another recording than that of the study's trials; sweep again");
   return recording;
+}
+
+std::pair<StudyRecord, Recording> scene_of(const StudyRecord& record,
+                                           const std::filesystem::path& folder,
+                                           const std::string& scene) {
+  Recording recording = recording_of(record, folder, scene);
+  if (record.scenes.empty()) return {record, std::move(recording)};
+  const Study study = with_scene(record.study, scene);
+  StudyRecord only{study, detected_table(study, recording.info().table), recording.content_hash(),
+                   scene_named(record, scene).recording};
+  return {std::move(only), std::move(recording)};
 }
 
 ClassTable detected_table(const Study& study, ClassTable table) {

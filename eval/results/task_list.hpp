@@ -38,6 +38,7 @@ struct SeedlessTask {
   Study config;
   Labels labels = Labels::detected;
   std::string before_seed, after_seed;  ///< the description, without the index of the seed
+  std::string recording_hash = {};
 
   [[nodiscard]] std::string description(int seed_index) const;
   [[nodiscard]] std::string key(int seed_index) const;
@@ -71,6 +72,10 @@ class TaskList {
   }
   [[nodiscard]] Labels labels(std::size_t position) const {
     return member_at(position).shared.labels;
+  }
+  /// Content hash of the recording that the task maps.
+  [[nodiscard]] const std::string& recording_hash(std::size_t position) const {
+    return member_at(position).shared.recording_hash;
   }
   /// Where the task of a configuration and its n-th seed stands.
   [[nodiscard]] std::size_t position_of(std::size_t configuration, int seed_index) const;

@@ -109,11 +109,25 @@ std::uint64_t trial_seed(std::uint64_t study_seed, int seed_index) {
 }
 
 Study resolve(const Study& study, const Cell& cell) {
-  Study resolved = study;
+  const std::string scene = scene_of(study, cell);
+  Study resolved = scene.empty() ? study : with_scene(study, scene);
   resolved.sweep.clear();
   resolved.sampling = {};
-  for (const auto& [path, value] : cell.doses) set_dose(resolved, path, value);
+  for (const auto& [path, value] : cell.doses)
+    if (scene.empty() || path != kSceneAxis) set_dose(resolved, path, value);
   return resolved;
+}
+
+std::string scene_of(const Study& study, const Cell& cell) {
+  for (const auto& [path, value] : cell.doses)
+    if (!study.scenes.empty() && path == kSceneAxis) return value;
+  return "";
+}
+
+decltype(Cell::doses) doses_of_scene(const Study& study, decltype(Cell::doses) doses) {
+  if (!study.scenes.empty())
+    std::erase_if(doses, [](const auto& dose) { return dose.first == kSceneAxis; });
+  return doses;
 }
 
 std::string text_of(const Cell& cell) {

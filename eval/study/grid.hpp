@@ -87,6 +87,12 @@ class LazyList {
 /// does not fit; never for a cell of a loaded study.
 [[nodiscard]] Study resolve(const Study& study, const Cell& cell);
 
+/// The name of a cell's scene; empty in a study without scenes.
+[[nodiscard]] std::string scene_of(const Study& study, const Cell& cell);
+
+/// The doses without that of the scene.
+[[nodiscard]] decltype(Cell::doses) doses_of_scene(const Study& study, decltype(Cell::doses) doses);
+
 /// "path = value, path = value", for people; empty without doses.
 [[nodiscard]] std::string text_of(const Cell& cell);
 

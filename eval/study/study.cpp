@@ -11,13 +11,14 @@
 
 namespace mapscore::eval {
 
-void check_method_name(const YamlValue& at, const std::string& name) {
+void check_word(const YamlValue& at, const std::string& name, const char* of) {
   constexpr std::string_view kAllowed =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
   if (name.empty() || name.find_first_not_of(kAllowed) != name.npos)
-    at.fail(fmt::format("{} cannot name a method; use letters, digits, _ and -", yaml_text(name)));
+    at.fail(fmt::format("{} cannot name a {}; use letters, digits, _ and -", yaml_text(name), of));
   if (name == "null" || name == "Null" || name == "NULL")
-    at.fail("null cannot name a method, since YAML reads it as nothing; write another name");
+    at.fail(fmt::format("null cannot name a {}, since YAML reads it as nothing; write another name",
+                        of));
 }
 
 void set_leaf(Study& study, std::string_view path, const YamlValue& at) {

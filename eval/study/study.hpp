@@ -21,6 +21,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mapscore::eval {
@@ -80,6 +81,20 @@ struct SweepAxis {
   bool operator==(const SweepAxis&) const = default;
 };
 
+/// One scene of a study that has several: the keys of its recording, by dotted path, as canonical
+/// texts.
+struct SceneSettings {
+  std::string name;  ///< letters, digits, _ and -
+  std::vector<std::pair<std::string, std::string>> leaves = {};
+  bool operator==(const SceneSettings&) const = default;
+};
+
+/// The swept path whose values are the names of `Study::scenes`.
+inline constexpr std::string_view kSceneAxis = "scene";
+
+/// Its value in tables and figures for all scenes together; no scene may be called so.
+inline constexpr std::string_view kAllScenes = "all";
+
 /// One study file (docs/study_reference.md lists its keys). Paths stay as they are written; those
 /// that are relative start at `base_folder`, which is not part of the file.
 struct Study {
@@ -87,6 +102,7 @@ struct Study {
   std::uint64_t seed = 1;
   int seeds = 1;
   std::optional<std::string> scene, classes, robot, motion, recording;
+  std::vector<SceneSettings> scenes;  ///< swept as kSceneAxis, in place of `scene`
   TrajectorySettings trajectory;
   CameraSettings cameras;
   LidarStudySettings lidar;
@@ -127,6 +143,13 @@ struct Study {
     recorded(s.robot, "robot", "MJCF of the robot; default: robot.xml beside the scene");
     recorded(s.motion, "motion", "motion file (CSV): how joints of the scene move; needs a scene");
     recorded(s.recording, "recording", "folder of a recording to replay in place of rendering one");
+    visit(s.scenes, Field{.key = "scenes",
+                          .meaning = "several recordings, by name: {home: {scene: home.xml, "
+                                     "trajectory: {...}}, hall: {recording: hall}}; the keys that "
+                                     "decide a recording, over those of the study; swept as "
+                                     "`scene` (docs/scoring.md)",
+                          .later = true,
+                          .swept = false});
     recorded(s.trajectory, "trajectory", "drive of the robot");
     recorded(s.cameras, "cameras", "the RGB-D camera");
     recorded(s.lidar, "lidar", "the lidar, with trajectory.drive wheels; exact ranges are recorded",
@@ -278,6 +301,17 @@ void check(const Study& study);
 
 /// Whether the leaf at a dotted path is a whole number. Throws as set_leaf.
 [[nodiscard]] bool is_whole_number(Study study, std::string_view path);
+
+/// The study of one of its scenes: their keys are its own, and it has no scenes and does not sweep
+/// them. Throws Error when it has no scene of the name.
+[[nodiscard]] Study with_scene(Study study, const std::string& name);
+
+/// The study of each of its scenes that are swept, by name; of a study without scenes itself, under
+/// no name.
+[[nodiscard]] std::vector<std::pair<std::string, Study>> studies_of_scenes(const Study& study);
+
+/// The only one of them. Throws Error where there are several.
+[[nodiscard]] Study study_of_only_scene(const Study& study);
 
 /// True when the leaf decides what a recording holds (scene, trajectory, cameras, ...), so that a
 /// sweep over it needs a recording for each of its values.

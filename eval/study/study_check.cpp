@@ -57,6 +57,20 @@ void check_input(const Study& study, const Blame& blame) {
           "the trajectory is empty; write at least one waypoint, [[x, y, yaw], ...]");
 }
 
+/// Each has a scene or a recording of its own.
+void check_scenes(const Study& study, const Blame& blame) {
+  if (study.scene || study.recording)
+    blame(study.scene ? "scene" : "recording",
+          "stands beside scenes, of which each has its own; "
+          "write it below one of them");
+  if (points_of(study.sampling) > 0)
+    blame("sampling", "stands beside scenes, of which every point would have one; leave one out");
+  for (const auto& [name, one] : studies_of_scenes(study))
+    check_input(one, [&, scene = name](std::string_view path, const std::string& problem) {
+      blame("scenes." + scene, fmt::format("{}: {}", path, problem));
+    });
+}
+
 void check_cameras(const CameraSettings& cameras, const Blame& blame) {
   if (const std::string problem = too_many_pixels(cameras.width_px, cameras.height_px);
       !problem.empty())
@@ -287,7 +301,10 @@ void check(const Study& study, const Blame& blame) {
   check_sampling(study, blame);
   check_size(study, blame);
   if (study.sweep.empty()) return check_leaves(study, blame);
-  check_input(study, blame);
+  if (study.scenes.empty())
+    check_input(study, blame);
+  else
+    check_scenes(study, blame);
   check_methods(study, blame);
   for (const Cell& cell : cells(study)) check_cell(study, cell, blame);
 }

@@ -111,6 +111,15 @@ YamlValue source_of(std::string_view path, const YamlValue& root,
   return find(root, path);
 }
 
+/// Scenes are swept, the last path of all where the sweep does not name them.
+void sweep_scenes(Study& study) {
+  if (study.scenes.empty() || std::ranges::count(study.sweep, kSceneAxis, &SweepAxis::path) > 0)
+    return;
+  SweepAxis axis{std::string(kSceneAxis), {}};
+  for (const SceneSettings& scene : study.scenes) axis.values.push_back(scene.name);
+  study.sweep.push_back(std::move(axis));
+}
+
 /// A recording is replayed as it is. Keys of the file stay where a flag alone names the recording,
 /// which then takes the place of what they would render.
 void refuse_beside_recording(const Study& study, const YamlValue& root,
@@ -158,6 +167,7 @@ Study parse_study(const std::string& text, const std::filesystem::path& file,
   }
   refuse_swept(overrides, sweep);
   study.sweep = sweep.read(study);
+  sweep_scenes(study);
   check(study, [&](std::string_view path, const std::string& problem) {
     source_of(path, root, overrides).fail(problem);
   });

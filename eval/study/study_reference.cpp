@@ -48,6 +48,8 @@ class Reference {
       section(path + ".NAME", CommandMethod{});
     } else if constexpr (std::same_as<T, Sweep>) {
       row(path + ".PATH", "list of values of the leaf", "", "-", "", field.meaning);
+    } else if constexpr (std::same_as<T, Scenes>) {
+      row(path, "map", "", "-", "", field.meaning);
     } else if constexpr (Choice<T>) {
       choice(path, field, value);
     } else if constexpr (Section<const T>) {

@@ -26,6 +26,11 @@ namespace mapscore::eval {
 
 using Methods = std::vector<MethodSettings>;
 using Sweep = std::vector<SweepAxis>;
+using Scenes = std::vector<SceneSettings>;
+
+/// Lists of settings by name or path that have no leaves of their own.
+template <class T>
+concept Listing = std::same_as<T, Sweep> || std::same_as<T, Scenes>;
 
 /// What has keys.
 template <class T>
@@ -95,13 +100,16 @@ void read_choice(const YamlValue& at, Any& choice) {
   choice = *read;
 }
 
-/// Throws Error when the name cannot be a part of a dotted path.
-void check_method_name(const YamlValue& at, const std::string& name);
+/// Throws Error when the name of a method or a scene cannot be a part of a dotted path.
+void check_word(const YamlValue& at, const std::string& name, const char* of);
+
+/// Reads scenes, whose keys are those of a recording. Throws Error.
+void read_scenes(const YamlValue& at, Scenes& scenes);
 
 inline void read_methods(const YamlValue& at, Methods& methods) {
   methods.clear();
   for (const auto& [name, child] : at.entries()) {
-    check_method_name(child, name);
+    check_word(child, name, "method");
     methods.emplace_back().name = name;
     if (child.has("command")) methods.back().command.emplace();
     read_section(child, methods.back());
@@ -112,6 +120,8 @@ template <class T>
 void read_tree(const YamlValue& at, const Field& field, T& value) {
   if constexpr (std::same_as<T, Methods>) {
     read_methods(at, value);
+  } else if constexpr (std::same_as<T, Scenes>) {
+    read_scenes(at, value);
   } else if constexpr (Choice<T>) {
     read_choice(at, value);
   } else if constexpr (Section<T>) {
@@ -182,8 +192,9 @@ void at_leaf(const YamlValue& at, const Field& field, T& value, std::string_view
     if (rest.empty())
       return act({field, [&](const YamlValue& yaml) { read_choice(yaml, value); },
                   [&] { return std::string(kind_of(value)); }, false, true});
-  if constexpr (std::same_as<T, Sweep>) {
-    at.fail("the sweep is not a leaf; change it in the file or by a flag sweep.PATH=[...]");
+  if constexpr (Listing<T>) {
+    at.fail(fmt::format("the {} is not a leaf; change it in the file or by a flag sweep.PATH=[...]",
+                        field.key));
   } else if constexpr (Node<T>) {
     at_leaf_below(at, value, rest, act);
   } else {

@@ -44,7 +44,7 @@ class Dumper {
         texts[field.key] = kind_of(member);
       else if constexpr (Section<const M>)
         texts[field.key] = "{}";
-      else if constexpr (!std::same_as<M, Methods> && !std::same_as<M, Sweep>)
+      else if constexpr (!std::same_as<M, Methods> && !Listing<M>)
         texts[field.key] = Leaf<M>::text(member);
     });
     return texts;
@@ -53,7 +53,9 @@ class Dumper {
   /// `plain`: text that a key leaves out; empty: none.
   template <class T>
   void key(const Field& field, const T& value, std::string_view plain) {
-    if constexpr (Node<const T> || std::same_as<T, Sweep>) {
+    if constexpr (std::same_as<T, Scenes>)
+      if (value.empty()) return;
+    if constexpr (Node<const T> || Listing<T>) {
       if constexpr (Choice<T>)
         if (!is_written(kind_of(value), plain)) return;
       nest(field, plain, [&] { body(value); });
@@ -69,6 +71,15 @@ class Dumper {
   void body(const Sweep& sweep) {
     for (const SweepAxis& axis : sweep)
       line(fmt::format("{}: [{}]", axis.path, fmt::join(axis.values, ", ")));
+  }
+
+  void body(const Scenes& scenes) {
+    for (const SceneSettings& scene : scenes) {
+      line(fmt::format("{}:", scene.name));
+      ++depth_;
+      for (const auto& [path, text] : scene.leaves) line(fmt::format("{}: {}", path, text));
+      --depth_;
+    }
   }
 
   /// "key:" over an indented body, or "key: {}" where the body is empty.
@@ -109,7 +120,7 @@ void add_leaves(const std::string& path, const T& value,
       add_leaves(path.empty() ? std::string(field.key) : fmt::format("{}.{}", path, field.key),
                  child, leaves);
     });
-  else if constexpr (!std::same_as<T, Sweep>)
+  else if constexpr (!Listing<T>)
     leaves[path] = Leaf<T>::text(value);
 }
 

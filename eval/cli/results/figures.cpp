@@ -60,28 +60,45 @@ void print(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) std::cout << shown(file) << std::endl;
 }
 
-void draw_from_recording(const FiguresFlags& flags, const PictureChoice& choice,
-                         const FigureStyle& style, const fs::path& folder) {
-  const fs::path file = store_file(flags.results);
-  const StudyRecord record = read_study(ResultStore::open_existing(file), file.parent_path());
-  const fs::path place = (file.parent_path() / record.recording).lexically_normal();
+/// `path`: of the recording, from the folder of the store.
+void draw_scene(const StudyRecord& all, const std::string& scene, const std::string& path,
+                const fs::path& store, const PictureChoice& choice, const FigureStyle& style,
+                const fs::path& folder) {
+  const fs::path place = (store / path).lexically_normal();
   if (!fs::exists(place)) {
     std::cerr << "mapscore: no pictures: the recording " << shown(place)
               << " is not there; `mapscore sweep` renders it\n";
     return;
   }
-  const Recording recording = recording_of(record, file.parent_path());
-  print({write_picture(folder / "contact_sheet.png",
-                       contact_sheet(record.study, record.table, recording))});
-  print(draw_believed(record.study, recording, choice, folder, style));
-  const Pictures pictures =
-      draw_pictures(record.study, record.table, recording, choice, folder, [&] {
-        Bench bench(recording, record.table, reads_colour(record.study), choice.memory_bytes);
-        return map_trials(record.study, bench, choice);
-      });
+  const auto [record, recording] = scene_of(all, store, scene);
+  const Study& study = record.study;
+  const ClassTable& table = record.table;
+  const Recording& drawn = recording;
+  fs::create_directories(folder);
+  print({write_picture(folder / "contact_sheet.png", contact_sheet(study, table, drawn))});
+  print(draw_believed(study, drawn, choice, folder, style));
+  const Pictures pictures = draw_pictures(study, table, drawn, choice, folder, [&] {
+    Bench bench(drawn, table, reads_colour(study), choice.memory_bytes);
+    return map_trials(study, bench, choice);
+  });
   print(pictures.files);
   if (!pictures.skipped.empty())
     std::cerr << "mapscore: no pictures of the map: " << shown(pictures.skipped) << '\n';
+}
+
+/// Pictures of the recording, or of each scene in a folder of its own.
+void draw_from_recording(const FiguresFlags& flags, PictureChoice choice, const FigureStyle& style,
+                         const fs::path& folder) {
+  const fs::path file = store_file(flags.results);
+  const StudyRecord record = read_study(ResultStore::open_existing(file), file.parent_path());
+  if (record.scenes.empty())
+    return draw_scene(record, "", record.recording, file.parent_path(), choice, style, folder);
+  const std::string asked = scene_of(record.study, {0, choice.doses});
+  choice.doses = doses_of_scene(record.study, choice.doses);
+  for (const SceneRecord& scene : record.scenes)
+    if (asked.empty() || asked == scene.name)
+      draw_scene(record, scene.name, scene.recording, file.parent_path(), choice, style,
+                 folder / scene.name);
 }
 
 void figures(const FiguresFlags& flags) {
@@ -90,7 +107,8 @@ void figures(const FiguresFlags& flags) {
   const Study study = read_study(ResultStore::open_existing(file), file.parent_path()).study;
   const PictureChoice choice = choice_of(flags, study);
   check_choice(study, choice);
-  const StudySummary summary = summarise_store(flags.results, {{}, flags.interim, true});
+  const StudySummary summary = summarise_store(
+      flags.results, {.interim = flags.interim, .failed_commands = true, .pool_scenes = true});
   const fs::path folder =
       !flags.folder.empty()
           ? fs::path(flags.folder)

@@ -33,9 +33,23 @@ struct SweptStudy {
   }
 };
 
+/// `cell`: of the whole study, whose scene is wanted. Its doses become those of the scene's study.
+SweptStudy swept_study(const std::filesystem::path& results, Cell& cell) {
+  const std::filesystem::path file = store_file(results);
+  const StudyRecord all = read_study(ResultStore::open_existing(file), file.parent_path());
+  auto [record, recording] = scene_of(all, file.parent_path(), scene_of(all.study, cell));
+  cell.doses = doses_of_scene(all.study, cell.doses);
+  return {std::move(record), std::move(recording)};
+}
+
+/// Of a study without scenes.
 SweptStudy swept_study(const std::filesystem::path& results) {
   const std::filesystem::path file = store_file(results);
   StudyRecord record = read_study(ResultStore::open_existing(file), file.parent_path());
+  if (!record.scenes.empty())
+    throw Error(
+        "--frames: frames of a study of several scenes are not kept; leave the flag out, or check "
+        "each scene by itself");
   Recording recording = recording_of(record, file.parent_path());
   return {std::move(record), std::move(recording)};
 }
@@ -91,11 +105,13 @@ std::optional<FrameTrace> trace_frames(const std::filesystem::path& results, con
 
 void draw_fallen(const std::filesystem::path& results, const JudgedFigure& worst,
                  const std::optional<FrameTrace>& trace, const std::filesystem::path& folder) {
-  const SweptStudy swept = swept_study(results);
-  const auto& [study, table, hash, place] = swept.record;
+  Cell cell = worst.cell;
+  const SweptStudy swept = swept_study(results, cell);
+  const Study& study = swept.record.study;
+  const ClassTable& table = swept.record.table;
   const FolderLock lock(folder);
   std::filesystem::create_directories(folder);
-  const PictureChoice choice{worst.cell.doses, worst.method, 0, kMemory_bytes, {}};
+  const PictureChoice choice{cell.doses, worst.method, 0, kMemory_bytes, {}};
   Pictures pictures = draw_pictures(study, table, swept.recording, choice, folder, [&] {
     Bench bench = swept.bench();
     std::vector<JudgedMap> maps = map_trials(swept.record.study, bench, choice);
@@ -111,7 +127,7 @@ void draw_fallen(const std::filesystem::path& results, const JudgedFigure& worst
   if (!frames.empty())
     pictures.files.push_back(
         write_picture(folder / "frames.png",
-                      contact_sheet(resolve(study, worst.cell), table, swept.recording, frames)));
+                      contact_sheet(resolve(study, cell), table, swept.recording, frames)));
   for (const auto& file : pictures.files) std::cerr << "check: " << shown(file) << '\n';
   if (!pictures.skipped.empty())
     std::cerr << "check: no pictures of the map: " << shown(pictures.skipped) << '\n';

@@ -28,7 +28,11 @@ void print_table(const TableFlags& flags) {
   std::vector<std::string> groups = flags.question.groups;  // none: all
   if (groups.empty() && !places(flags.question, "class")) groups.emplace_back(kPooled);
   const StudySummary summary =
-      selected(summarise_store(flags.results, {groups, flags.interim, true}), flags.selection);
+      selected(summarise_store(flags.results, {.groups = groups,
+                                               .interim = flags.interim,
+                                               .failed_commands = true,
+                                               .pool_scenes = !flags.tidy}),
+               flags.selection);
   if (flags.tidy) return write_tidy_csv(summary, std::cout);
   const Reader reader = reader_of(flags.format);
   std::cout << formatted(flags.is_plain() ? score_table(summary, groups.front(), reader)

@@ -24,9 +24,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace mapscore::eval {
 namespace {
@@ -53,26 +57,36 @@ void note_other_builds(const HeldTasks& held, bool keep) {
                              keep ? "kept" : "computed anew (--keep_builds keeps them)");
 }
 
-/// What the lattice ceilings that are there say of the recording.
-std::string lattice_note(const TaskList& tasks, const ResultStore& store, const ClassTable& table) {
-  LatticeCheck check(table);
-  for (std::size_t task = 0; task < tasks.size(); ++task) {
-    if (tasks.labels(task) != Labels::truth) continue;
-    if (const auto ceiling = store.find(tasks.key(task))) check.add(ceiling->counts);
-  }
-  return check.note();
-}
+/// A scene of the study, or all of one without scenes.
+struct SweptScene {
+  std::string name;
+  Recording recording;
+  ClassTable table;
+};
 
 /// Where a sweep works.
 struct Workplace {
   const SweepFlags& flags;
   const Study& study;
-  std::filesystem::path whole;    ///< the results folder, with the recording
+  std::filesystem::path whole;    ///< the results folder, with the recordings
   std::filesystem::path results;  ///< where this sweep's store is: the same, or that of its shard
-  const Recording& recording;
-  const ClassTable& table;
+  const std::vector<SweptScene>& scenes;
+  const StudyRecord& record;
   const Plan& plan;
 };
+
+/// What the lattice ceilings that are there say of a recording.
+std::string lattice_note(const TaskList& tasks, const ResultStore& store, const SweptScene& scene) {
+  LatticeCheck check(scene.table);
+  for (std::size_t task = 0; task < tasks.size(); ++task) {
+    if (tasks.labels(task) != Labels::truth ||
+        tasks.recording_hash(task) != scene.recording.content_hash())
+      continue;
+    if (const auto ceiling = store.find(tasks.key(task))) check.add(ceiling->counts);
+  }
+  const std::string note = check.note();
+  return note.empty() || scene.name.empty() ? note : fmt::format("{}: {}", scene.name, note);
+}
 
 /// The store, bound to the study, with the trials of `merged` and, unless it is itself of a shard,
 /// of the shards in its folder.
@@ -80,10 +94,7 @@ ResultStore bound_store(const Workplace& at, const OtherStores& merged) {
   const bool quiet = at.flags.work.quiet;
   ResultStore store = ResultStore::open(at.results / "results.sqlite");
   note_other_study(store, at.results, at.study, at.flags.merge_only, quiet);
-  write_study(store,
-              {at.study, at.table, at.recording.content_hash(),
-               std::filesystem::relative(at.recording.folder(), at.results).string()},
-              at.results);
+  write_study(store, at.record, at.results);
   for (const auto& [name, other] : merged) {
     const int taken = take_over(store, other);
     if (!quiet) std::cerr << fmt::format("sweep: {} trials taken over from {}\n", taken, name);
@@ -101,6 +112,20 @@ std::unordered_set<std::string> held_elsewhere(const Workplace& at) {
   return kept_keys(ResultStore::open_existing(file), at.flags.keep_builds);
 }
 
+/// Frame evaluations that each scene misses.
+std::vector<std::int64_t> evaluations(const Workplace& at,
+                                      const std::vector<std::size_t>& missing) {
+  std::vector<std::int64_t> of_scenes;
+  for (const SweptScene& scene : at.scenes) {
+    const auto is_of = [&](std::size_t task) {
+      return at.plan.tasks.recording_hash(task) == scene.recording.content_hash();
+    };
+    of_scenes.push_back(std::ranges::count_if(missing, is_of) * scene.recording.frame_count());
+  }
+  return of_scenes;
+}
+
+/// One scene after the other.
 RunnerOutcome computed(const Workplace& at, ResultStore& store, const StopSignal& stop) {
   const WorkFlags& work = at.flags.work;
   const auto [shard, shards] = at.flags.shard_of();
@@ -114,20 +139,37 @@ RunnerOutcome computed(const Workplace& at, ResultStore& store, const StopSignal
   if (!at.flags.retry_failed) options.held_elsewhere.merge(failed_commands(store, at.plan.tasks));
   auto held = kept_keys(store, keep_builds);
   held.insert(options.held_elsewhere.begin(), options.held_elsewhere.end());
-  first.missing =
-      static_cast<std::int64_t>(missing_tasks(at.plan.tasks, held, shard, shards).size());
+  const std::vector<std::size_t> missing = missing_tasks(at.plan.tasks, held, shard, shards);
+  const std::vector<std::int64_t> planned = evaluations(at, missing);
+  first.missing = static_cast<std::int64_t>(missing.size());
   if (!work.quiet) note_other_builds(held_tasks(store, at.plan.tasks), keep_builds);
-  LiveStatus status(std::move(first), at.results, at.recording.frame_count());
+  std::int64_t before = 0, after = std::reduce(planned.begin(), planned.end());
+  const int frames = missing.empty() ? at.scenes.front().recording.frame_count()
+                                     : static_cast<int>(after / first.missing);
+  LiveStatus status(std::move(first), at.results, frames);
   Progress progress("sweep", "frame evaluations", work.quiet);
+  RunnerOutcome all;
   options.progress = [&](std::int64_t done, std::int64_t total) {
-    progress.show(done, total);
-    status.progress(done, total);
+    progress.show(before + done, before + total + after);
+    status.progress(before + done, before + total + after);
   };
-  options.ended = [&](std::size_t done, std::size_t failed) { status.ended(done, failed); };
+  options.ended = [&](std::size_t done, std::size_t failed) {
+    status.ended(all.computed + done, all.failures.size() + failed);
+  };
   options.stop = [&] { return stop.taken() != 0; };
-  RunnerOutcome outcome = run_plan(at.plan, at.recording, at.table, store, options);
-  status.end(outcome.stopped ? "stopped" : "finished");
-  return outcome;
+  all.reused = at.plan.tasks.size() - missing.size();
+  for (std::size_t n = 0; n < at.scenes.size() && !all.stopped; ++n) {
+    after -= planned[n];
+    const RunnerOutcome one =
+        run_plan(at.plan, at.scenes[n].recording, at.scenes[n].table, store, options);
+    all.computed += one.computed;
+    all.sights += one.sights;
+    all.failures.insert(all.failures.end(), one.failures.begin(), one.failures.end());
+    all.stopped = one.stopped;
+    before += planned[n];
+  }
+  status.end(all.stopped ? "stopped" : "finished");
+  return all;
 }
 
 /// The failures, and what to do about them; `commands`: how many are of commands, of earlier sweeps
@@ -170,9 +212,34 @@ int compute(const Workplace& at, ResultStore& store) {
     std::cerr << fmt::format(
         "sweep {}: {} trials computed, {} already there or of other shards; {}\n", at.study.name,
         outcome.computed, outcome.reused, shown(at.results / "results.sqlite"));
-  if (const std::string note = lattice_note(tasks, store, at.table); !note.empty())
-    std::cerr << "sweep: note: " << note << '\n';
+  for (const SweptScene& scene : at.scenes)
+    if (const std::string note = lattice_note(tasks, store, scene); !note.empty())
+      std::cerr << "sweep: note: " << note << '\n';
   return outcome.failures.empty() && failed == 0 ? 0 : 1;
+}
+
+/// Records what is not there, scene by scene.
+std::vector<SweptScene> scenes_of(const Study& study, const std::filesystem::path& whole,
+                                  const WorkFlags& work) {
+  std::vector<SweptScene> scenes;
+  for (const auto& [name, one] : studies_of_scenes(study)) {
+    Recording recording = shown_recording("sweep", one, whole, work.jobs, work.quiet);
+    ClassTable table = detected_table(one, recording.info().table);
+    scenes.push_back({name, std::move(recording), std::move(table)});
+  }
+  return scenes;
+}
+
+StudyRecord recorded(const Study& study, const std::vector<SweptScene>& scenes,
+                     const std::filesystem::path& results) {
+  std::vector<std::pair<SceneRecord, ClassTable>> records;
+  for (const SweptScene& scene : scenes)
+    records.push_back({{scene.name,
+                        scene.recording.content_hash(),
+                        std::filesystem::relative(scene.recording.folder(), results).string(),
+                        {}},
+                       scene.table});
+  return record_of(study, records);
 }
 
 int sweep(const SweepFlags& flags) {
@@ -187,16 +254,16 @@ int sweep(const SweepFlags& flags) {
   }
   SweepSize(study, whole).refuse_many(flags.yes);
 
-  const Recording recording =
-      shown_recording("sweep", study, whole, flags.work.jobs, flags.work.quiet);
-  const ClassTable table = detected_table(study, recording.info().table);
-  const Plan plan = plan_of(study, recording.content_hash());
-  check_truth_size(study, recording, plan.tasks.size(), flags.yes);
-
   const std::filesystem::path results = shards > 1 ? shard_folder(whole, shard, shards) : whole;
+  const std::vector<SweptScene> scenes = scenes_of(study, whole, flags.work);
+  const StudyRecord record = recorded(study, scenes, results);
+  const Plan plan = plan_of(study, record.hashes());
+  for (const SweptScene& scene : scenes)
+    check_truth_size(study, scene.recording, plan.tasks.size(), flags.yes);
+
   std::optional<FolderLock> lock;
   enter_results("sweep", results, flags.work.quiet, lock);
-  const Workplace at{flags, study, whole, results, recording, table, plan};
+  const Workplace at{flags, study, whole, results, scenes, record, plan};
   ResultStore store = bound_store(at, merged);
   const SharedOutSweep shared_out{flags, whole, study.name, plan.tasks, store};
   if (flags.slurm) {

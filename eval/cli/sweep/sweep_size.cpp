@@ -16,6 +16,8 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
+#include <string>
 
 namespace mapscore::eval {
 namespace {
@@ -61,9 +63,20 @@ void SweepSize::refuse_many(bool yes) const {
 void print_dry_run(const Study& study, const std::filesystem::path& results, int shard, int shards,
                    bool keep_builds) {
   const SweepSize size(study, results);
-  const std::optional<Recording> recording = recording_there(study, results);
-  if (recording) static_cast<void>(detected_table(study, recording->info().table));
-  const TaskList tasks = plan_of(study, recording ? recording->content_hash() : "").tasks;
+  std::map<std::string, std::string> hashes;
+  std::string recordings;
+  bool recording = true;  // all are there
+  for (const auto& [name, one] : studies_of_scenes(study)) {
+    const std::optional<Recording> there = recording_there(one, results);
+    if (there) static_cast<void>(detected_table(one, there->info().table));
+    recording = recording && there;
+    hashes[name] = there ? there->content_hash() : "";
+    recordings += fmt::format(
+        "recording{}: {}\n", name.empty() ? "" : " of " + name,
+        there ? fmt::format("{}, {} frames", shown(there->folder()), there->frame_count())
+              : "not there, is rendered first");
+  }
+  const TaskList tasks = plan_of(study, RecordingHashes(hashes)).tasks;
   std::unordered_set<std::string> held;
   std::size_t failed = 0;
   const std::filesystem::path file = store_file(results);
@@ -85,11 +98,7 @@ void print_dry_run(const Study& study, const std::filesystem::path& results, int
                    "{}: {} there, {} missing{}{}\n", shown(results), tasks.size() - missing,
                    missing, failed ? fmt::format(", {} of them failed before", failed) : "",
                    shards > 1 ? fmt::format(", {} in shard {}/{}", ours, shard, shards) : "")
-            << "recording: "
-            << (recording ? fmt::format("{}, {} frames", shown(recording->folder()),
-                                        recording->frame_count())
-                          : "not there, is rendered first")
-            << fmt::format("\ntime: {}\n", size.time_of(ours));
+            << recordings << fmt::format("time: {}\n", size.time_of(ours));
 }
 
 }  // namespace mapscore::eval

@@ -48,7 +48,7 @@ std::string reference_method(const std::string& named, const std::vector<Toleran
 
 int tolerance(const ToleranceFlags& flags) {
   const FigureStyle style = flags.style.style();
-  const Study study = flags.study.load();
+  const Study study = study_of_only_scene(flags.study.load());
   const std::filesystem::path results = flags.study.results_folder(study);
   const Recording recording =
       shown_recording("tolerance", study, results, flags.work.jobs, flags.work.quiet);

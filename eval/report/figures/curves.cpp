@@ -24,6 +24,9 @@ constexpr double kNamePlace = 0.7;
 constexpr const char* kLatticeStyle = "lw 1.2 dt (6,4) lc rgb '#000000'";
 
 std::string source_of(const Study& study) {
+  std::vector<std::string> scenes;
+  for (const SceneSettings& scene : study.scenes) scenes.push_back(scene.name);
+  if (!scenes.empty()) return fmt::format("{}", fmt::join(scenes, ", "));
   const auto& source = study.recording ? study.recording : study.scene;
   return source ? std::filesystem::path(*source).filename().string() : study.name;
 }
