@@ -83,48 +83,73 @@ class Kept {
   throw Error(name + ": cannot be started in " + folder.string() + ": " + std::strerror(problem));
 }
 
-/// Waits for the report while the program prints; ends the program at its limits.
-class Watch {
+/// A program under way: what it prints, and how it ends.
+class Watched {
  public:
-  Watch(pid_t supervisor, const CommandLimits& limits) : supervisor_(supervisor), limits_(limits) {}
+  explicit Watched(const CommandLimits& limits)
+      : limits_(limits), out_(limits.kept_bytes), err_(limits.kept_bytes) {}
 
-  SupervisorReport until_it_ends(const Pipe& reports, const Pipe& out, Kept& kept_out,
-                                 const Pipe& err, Kept& kept_err, CommandOutcome& outcome) {
+  /// Starts it; false where it cannot be, errno says why.
+  [[nodiscard]] bool start(SupervisedProgram program) {
+    program.out = out_pipe_.in();
+    program.err = limits_.one_log ? program.out : err_pipe_.in();
+    program.reports = reports_.in();
+    if (limits_.server == nullptr) child_ = fork_supervisor(program);
+    const bool started = limits_.server != nullptr ? limits_.server->start(program) : child_ > 0;
+    for (Pipe* pipe : {&out_pipe_, &err_pipe_, &reports_}) pipe->close_in();
+    return started;
+  }
+
+  /// Takes what it prints, and ends it at its limits, until it has ended.
+  SupervisorReport until_it_ends(CommandOutcome& outcome) {
     constexpr int kMilliseconds = 100;
-    SupervisorReport report;
-    report.status = SIGKILL;  // where the supervisor itself was killed
     std::array<pollfd, 3> watched{
-        {{reports.out(), POLLIN, 0}, {out.out(), POLLIN, 0}, {err.out(), POLLIN, 0}}};
-    while (watched[0].revents == 0) {
+        {{reports_.out(), POLLIN, 0}, {out_pipe_.out(), POLLIN, 0}, {err_pipe_.out(), POLLIN, 0}}};
+    SupervisorReport report;
+    for (bool ended = false; !ended;) {
       poll(watched.data(), watched.size(), kMilliseconds);
-      kept_out.take(out.out());
-      kept_err.take(err.out());
+      take_output();
       for (std::size_t n = 1; n < watched.size(); ++n)  // closed by all: not asked any more
         if ((watched[n].revents & POLLHUP) != 0) watched[n].fd = -1;
+      if (watched[0].revents != 0) ended = take_report(report);
       mind_limits(outcome);
     }
-    [[maybe_unused]] const ssize_t size = read(reports.out(), &report, sizeof report);
-    kept_out.take(out.out());
-    kept_err.take(err.out());
+    take_output();
     outcome.wall_s = seconds();
-    while (waitpid(supervisor_, nullptr, 0) < 0 && errno == EINTR) {
+    outcome.out = out_.text();
+    outcome.err = err_.text();
+    while (child_ > 0 && waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
     }
     return report;
   }
 
  private:
+  void take_output() {
+    out_.take(out_pipe_.out());
+    err_.take(err_pipe_.out());
+  }
+  /// True after the last report; where the supervisor itself was killed there is none.
+  [[nodiscard]] bool take_report(SupervisorReport& report) {
+    report = {};
+    report.status = SIGKILL;
+    if (read(reports_.out(), &report, sizeof report) != sizeof report) return true;
+    if (report.begun > 0) supervisor_ = report.begun;
+    return report.begun == 0;
+  }
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
   void mind_limits(CommandOutcome& outcome) const {
-    if (outcome.timed_out || outcome.stopped) return;
+    if (supervisor_ <= 0 || outcome.timed_out || outcome.stopped) return;
     outcome.timed_out = seconds() > limits_.timeout_s;
     outcome.stopped = limits_.stop && limits_.stop();
     if (outcome.timed_out || outcome.stopped) kill(supervisor_, SIGTERM);
   }
 
-  pid_t supervisor_;
   const CommandLimits& limits_;
+  Pipe out_pipe_, err_pipe_, reports_;
+  Kept out_, err_;
+  pid_t child_ = -1, supervisor_ = -1;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -158,20 +183,12 @@ CommandOutcome run_command(const std::vector<std::string>& words,
   std::vector<char*> arguments;
   for (std::string& text : texts) arguments.push_back(text.data());
   arguments.push_back(nullptr);
-  Pipe out, err, reports;
-  const pid_t supervisor =
-      fork_supervisor({file.c_str(), arguments.data(), folder.c_str(), limits.file_bytes, out.in(),
-                       limits.one_log ? out.in() : err.in(), reports.in()});
-  if (supervisor < 0) fail_to_start(words.front(), folder, errno);
-  Watch watch(supervisor, limits);
-  for (Pipe* pipe : {&out, &err, &reports}) pipe->close_in();
-  Kept kept_out(limits.kept_bytes), kept_err(limits.kept_bytes);
+  Watched program(limits);
+  if (!program.start({file.c_str(), arguments.data(), folder.c_str(), limits.file_bytes}))
+    fail_to_start(words.front(), folder, errno);
   CommandOutcome outcome;
-  const SupervisorReport report =
-      watch.until_it_ends(reports, out, kept_out, err, kept_err, outcome);
+  const SupervisorReport report = program.until_it_ends(outcome);
   if (report.problem != 0) fail_to_start(words.front(), folder, report.problem);
-  outcome.out = kept_out.text();
-  outcome.err = kept_err.text();
   outcome.exit_code =
       WIFEXITED(report.status) ? WEXITSTATUS(report.status) : 128 + WTERMSIG(report.status);
   outcome.processor_s = seconds_of(report.usage.ru_utime) + seconds_of(report.usage.ru_stime);

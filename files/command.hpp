@@ -14,13 +14,16 @@
 
 namespace mapscore {
 
+class SupervisorServer;
+
 /// How far another program may go.
 struct CommandLimits {
   double timeout_s = std::numeric_limits<double>::infinity();
-  std::uint64_t file_bytes = 0;     ///< of each file that it writes; 0: any number
-  std::size_t kept_bytes = 0;       ///< of what it prints the first and the last so many; 0: all
-  bool one_log = false;             ///< errors stand between the output, as on a terminal
-  std::function<bool()> stop = {};  ///< asked about ten times a second
+  std::uint64_t file_bytes = 0;  ///< of each file that it writes; 0: any number
+  std::size_t kept_bytes = 0;    ///< of what it prints the first and the last so many; 0: all
+  bool one_log = false;          ///< errors stand between the output, as on a terminal
+  const SupervisorServer* server = nullptr;  ///< that starts it; without one this process does
+  std::function<bool()> stop = {};           ///< asked about ten times a second
 };
 
 /// How another program ended.

@@ -3,18 +3,22 @@
 
 #include "files/supervisor.hpp"
 
+#include "core/error.hpp"
+
 #include <fcntl.h>
-#include <linux/close_range.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <ctime>
+#include <string>
 
-// Runs in a fork of a program with threads: nothing here allocates or takes a lock.
+// What runs after a fork of a program with threads allocates nothing and takes no lock.
 
 namespace mapscore {
 namespace {
@@ -119,6 +123,7 @@ void end_all(pid_t program, int& status) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   take_descriptors(program);
+  report({.begun = getpid()});
   if (getppid() != parent) _exit(127);  // it ended before it could be told
   const pid_t self = getpid(), child = fork();
   if (child < 0) give_up(errno);
@@ -133,7 +138,109 @@ void end_all(pid_t program, int& status) {
   _exit(0);
 }
 
+// What is sent to the server: the head, then file, folder and arguments, each with its zero.
+struct Request {
+  std::uint64_t file_bytes = 0;
+  std::uint32_t arguments = 0;
+};
+constexpr std::size_t kMostRequestBytes = 1 << 17, kMostArguments = 1 << 12;
+
+/// Room for what is sent along: descriptors to print and report to.
+union Passed {
+  char bytes[CMSG_SPACE(3 * sizeof(int))];
+  cmsghdr aligned;
+};
+
+/// One request; false when the other end is closed.
+bool receive(int socket, char* bytes, std::size_t& size, int (&passed)[3]) {
+  iovec part{bytes, kMostRequestBytes};
+  Passed room{};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = room.bytes;
+  message.msg_controllen = sizeof room.bytes;
+  ssize_t received = 0;
+  do received = recvmsg(socket, &message, MSG_CMSG_CLOEXEC);
+  while (received < 0 && errno == EINTR);
+  const cmsghdr* control = CMSG_FIRSTHDR(&message);
+  if (received <= 0 || control == nullptr) return false;
+  std::memcpy(passed, CMSG_DATA(control), sizeof passed);
+  size = static_cast<std::size_t>(received);
+  return true;
+}
+
+[[noreturn]] void serve(int socket) {
+  static char bytes[kMostRequestBytes];
+  static char* words[kMostArguments + 3];
+  setsid();  // Ctrl-C is for the program that it serves
+  signal(SIGCHLD, SIG_IGN);
+  dup3(socket, kReports, O_CLOEXEC);
+  syscall(SYS_close_range, kReports + 1, ~0U, 0);
+  int passed[3]{};
+  for (std::size_t size = 0; receive(kReports, bytes, size, passed);) {
+    Request head;
+    std::memcpy(&head, bytes, sizeof head);
+    std::size_t count = 0;
+    for (char* next = bytes + sizeof head; next < bytes + size; next += std::strlen(next) + 1)
+      words[count++] = next;
+    words[count] = nullptr;
+    const pid_t self = getpid();
+    if (fork() == 0)
+      supervise({words[0], words + 2, words[1], head.file_bytes, passed[0], passed[1], passed[2]},
+                self);
+    for (const int descriptor : passed) close(descriptor);
+  }
+  _exit(0);
+}
+
 }  // namespace
+
+SupervisorServer::SupervisorServer() {
+  int ends[2]{-1, -1};
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
+    throw Error(std::string("no socket: ") + std::strerror(errno));
+  id_ = fork();
+  if (id_ == 0) serve(ends[1]);
+  close(ends[1]);
+  socket_ = ends[0];
+  if (id_ > 0) return;
+  close(socket_);
+  throw Error(std::string("no process: ") + std::strerror(errno));
+}
+
+SupervisorServer::~SupervisorServer() {
+  close(socket_);
+  while (waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+bool SupervisorServer::start(const SupervisedProgram& program) const {
+  Request head{program.file_bytes};
+  std::string bytes(sizeof head, '\0');
+  for (const char* word : {program.file, program.folder}) bytes.append(word) += '\0';
+  for (char* const* word = program.arguments; *word != nullptr; ++word, ++head.arguments)
+    bytes.append(*word) += '\0';
+  std::memcpy(bytes.data(), &head, sizeof head);
+  if (bytes.size() > kMostRequestBytes || head.arguments > kMostArguments) {
+    errno = E2BIG;
+    return false;
+  }
+  const int passed[3]{program.out, program.err, program.reports};
+  iovec part{bytes.data(), bytes.size()};
+  Passed room{};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = room.bytes;
+  message.msg_controllen = sizeof room.bytes;
+  cmsghdr* control = CMSG_FIRSTHDR(&message);
+  control->cmsg_level = SOL_SOCKET;
+  control->cmsg_type = SCM_RIGHTS;
+  control->cmsg_len = CMSG_LEN(sizeof passed);
+  std::memcpy(CMSG_DATA(control), passed, sizeof passed);
+  return sendmsg(socket_, &message, MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+}
 
 pid_t fork_supervisor(const SupervisedProgram& program) {
   const pid_t parent = getpid(), id = fork();

@@ -132,7 +132,7 @@ std::optional<TrialResult> CommandTrials::run_in(Place& place, const Task& task,
               given);
   const CommandOutcome outcome =
       run_command(with_paths(words, given, map), work,
-                  {method.timeout_s, kMostFileBytes, kKeptBytes, true, stop_});
+                  {method.timeout_s, kMostFileBytes, kKeptBytes, true, &server_, stop_});
   if (outcome.stopped) return std::nullopt;
   cost = TrialCost{outcome.exit_code, outcome.wall_s, outcome.processor_s, outcome.peak_bytes};
   try {

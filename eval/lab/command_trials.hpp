@@ -7,6 +7,7 @@
 #include "eval/lab/image_copy.hpp"
 #include "eval/results/task_list.hpp"
 #include "files/folder_lock.hpp"
+#include "files/supervisor.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -45,6 +46,7 @@ class CommandTrials {
   [[nodiscard]] std::optional<TrialResult> run_in(Place& place, const Task& task,
                                                   std::optional<TrialCost>& cost);
 
+  SupervisorServer server_;  ///< made first, while little memory is taken
   Bench& bench_;
   std::function<bool()> stop_;
   std::filesystem::path scratch_;

@@ -3,6 +3,7 @@
 
 #include "files/command.hpp"
 
+#include "files/supervisor.hpp"
 #include "tests/support/expect_error.hpp"
 #include "tests/support/tiny_recording.hpp"
 
@@ -157,14 +158,37 @@ TEST(Command, TellsWhatItTook) {
   EXPECT_GT(busy.peak_bytes, 70'000'000u);
 }
 
+TEST(Command, AServerStartsItAsWell) {
+  const testing::TemporaryFolder folder;
+  const SupervisorServer server;
+  const std::vector<char> much(300'000'000, 1);  // is not the program's
+  const CommandLimits limits{.timeout_s = 20, .server = &server};
+  const CommandOutcome outcome =
+      run_command({"sh", "-c", "pwd; echo \"$0\" >&2; setsid sleep 100 & exit 3", "a b\n'c'"},
+                  folder.path(), limits);
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(outcome.out, std::filesystem::canonical(folder.path()).string() + "\n");
+  EXPECT_EQ(outcome.err, "a b\n'c'\n");
+  EXPECT_LT(outcome.peak_bytes, 200'000'000u);
+  EXPECT_TRUE(run_command({"sleep", "100"}, "/", {.timeout_s = 0.2, .server = &server}).timed_out);
+  testing::expect_error("cannot be started",
+                        [&] { (void)run_command({"/proc/self/stat"}, "/", limits); });
+  testing::expect_error("cannot be started", [&] {
+    (void)run_command({"echo", std::string(200'000, 'x')}, "/", limits);
+  });
+  EXPECT_EQ(run_command({"echo", std::string(100'000, 'x')}, "/", limits).out.size(), 100'001u);
+}
+
 TEST(Command, SeveralAtATime) {
+  const SupervisorServer server;
   std::vector<std::jthread> threads;
   std::atomic<int> right = 0;
   for (int n = 0; n < 8; ++n)
-    threads.emplace_back([&right, n] {
+    threads.emplace_back([&right, &server, n] {
       for (int turn = 0; turn < 10; ++turn) {
         const std::string word = std::to_string(100 * n + turn);
-        right += run_command({"echo", word}, "/").out == word + '\n' ? 1 : 0;
+        const CommandLimits limits{.server = turn % 2 == 0 ? &server : nullptr};
+        right += run_command({"echo", word}, "/", limits).out == word + '\n' ? 1 : 0;
       }
     });
   threads.clear();
