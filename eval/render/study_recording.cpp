@@ -153,6 +153,14 @@ void record_world(const Study& study, const sim::World& world, const StudyDrive&
   writer.finish();
 }
 
+void note_light(const Study& study, const sim::World& world, const RecordingProgress& progress) {
+  if (world.has_light() || !progress.note) return;
+  progress.note(
+      fmt::format("{} has no light; a head light at the camera lights its images, a "
+                  "<light> in the scene would take its place",
+                  shown(study.scene.value_or("the scene"))));
+}
+
 /// Names what a recording is rendered from.
 std::string recording_name(const Study& study, const sim::World& world) {
   Study rendered;
@@ -196,6 +204,7 @@ void record_study(const Study& study, const fs::path& folder, int jobs,
                   const RecordingProgress& progress, const fs::path& trajectory, bool bake) {
   if (!study.scene) throw Error("scene: nothing to record; name an MJCF file");
   const sim::World world = world_of(study);
+  note_light(study, world, progress);
   StudyDrive drive;
   if (trajectory.empty())
     drive = drive_of(study, world, progress.waypoints);
@@ -213,9 +222,11 @@ Recording recording_of(const Study& study, const fs::path& results, int jobs,
   const sim::World world = world_of(study);
   const fs::path folder = rendered_folder(study, world, results);
   const FolderLock lock(folder.parent_path());  // of several shards one records, the others wait
-  if (!fs::exists(folder))
+  if (!fs::exists(folder)) {
+    note_light(study, world, progress);
     record_world(study, world, drive_of(study, world, progress.waypoints), folder, jobs,
                  progress.images);
+  }
   return opened(study, folder);
 }
 

@@ -17,9 +17,11 @@ namespace mapscore::eval {
 
 using FrameProgress = std::function<void(int done, int total)>;
 
-/// Called while a drive on wheels is simulated, and then while images are rendered.
+/// Called while a drive on wheels is simulated, and then while images are rendered; `note` before,
+/// with what the user may want to know of the scene.
 struct RecordingProgress {
   FrameProgress images = {}, waypoints = {};
+  std::function<void(const std::string& text)> note = {};
 };
 
 /// The scene and robot of a study. Throws Error when the program was built without the simulator or

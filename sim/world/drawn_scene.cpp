@@ -42,6 +42,21 @@ Box3 extent_in(const Pose& T_frame_world, const mjModel& model) {
   return {middle - half, middle + half};
 }
 
+/// MuJoCo's own head light as it is where a file does not change it.
+mjvLight head_light() {
+  mjvLight light{};
+  light.type = mjLIGHT_DIRECTIONAL;
+  light.texid = -1;
+  light.headlight = 1;
+  light.attenuation[0] = 1.0f;
+  light.cutoff = 180.0f;
+  light.dir[2] = -1.0f;
+  std::fill(std::begin(light.ambient), std::end(light.ambient), 0.1f);
+  std::fill(std::begin(light.diffuse), std::end(light.diffuse), 0.4f);
+  std::fill(std::begin(light.specular), std::end(light.specular), 0.5f);
+  return light;
+}
+
 }  // namespace
 
 Box3 geom_bounds(const mjModel& model, int geom) {
@@ -67,6 +82,7 @@ DrawnScene visible_scene(const mjModel& model, mjData& data) {
   std::copy_if(scene.geoms, scene.geoms + scene.ngeom, std::back_inserter(drawn.geoms),
                [](const mjvGeom& geom) { return geom.objtype == mjOBJ_GEOM && geom.rgba[3] > 0; });
   drawn.lights.assign(scene.lights, scene.lights + scene.nlight);
+  if (drawn.lights.empty()) drawn.lights.push_back(head_light());
   mjv_freeScene(&scene);
   std::stable_sort(drawn.geoms.begin(), drawn.geoms.end(),
                    [](const mjvGeom& a, const mjvGeom& b) { return a.objid < b.objid; });

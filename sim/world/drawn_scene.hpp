@@ -20,7 +20,8 @@ struct DrawnScene {
 };
 
 /// Every geom that MuJoCo draws at the pose that `data` holds (kinematics done), with its effective
-/// colour and alpha, and the lights. Groups 3 to 5, alpha 0, sites, flexes and skins are left out.
+/// colour and alpha, and the lights; where a scene has none and switches its head light off, a head
+/// light all the same. Groups 3 to 5, alpha 0, sites, flexes and skins are left out.
 [[nodiscard]] DrawnScene visible_scene(const mjModel& model, mjData& data);
 
 /// Least box along the axes of a geom that holds it, as MuJoCo has it.

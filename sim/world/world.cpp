@@ -214,6 +214,9 @@ const std::vector<Shape>& World::shapes() const {
 const std::vector<std::string>& World::unmatched_bodies() const {
   return state_->compiled->assignment.unmatched_bodies;
 }
+bool World::has_light() const {
+  return model().nlight > 0;
+}
 const std::string& World::hash() const {
   return state_->compiled->hash;
 }

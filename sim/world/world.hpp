@@ -74,6 +74,8 @@ class World {
   [[nodiscard]] const std::vector<Shape>& shapes() const;
   /// Names of bodies with drawn geoms that no class matches.
   [[nodiscard]] const std::vector<std::string>& unmatched_bodies() const;
+  /// Whether it has a light of its own; else the cameras' head light alone lights it.
+  [[nodiscard]] bool has_light() const;
   /// Content hash of scene, class file and robot (file bytes and included files as compiled).
   [[nodiscard]] const std::string& hash() const;
   [[nodiscard]] const mjModel_& model() const;

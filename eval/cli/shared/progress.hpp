@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <iostream>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -58,7 +59,10 @@ class ShownRecording {
   /// Valid as long as this is.
   [[nodiscard]] RecordingProgress progress() {
     return {[this](int done, int total) { show(images_, "record", "images", done, total); },
-            [this](int done, int total) { show(drive_, "drive", "waypoints", done, total); }};
+            [this](int done, int total) { show(drive_, "drive", "waypoints", done, total); },
+            [this](const std::string& text) {
+              if (!quiet_) std::cerr << "record: note: " << text << '\n';
+            }};
   }
 
  private:
