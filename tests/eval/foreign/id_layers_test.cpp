@@ -40,7 +40,7 @@ void expect_equal(const std::vector<Detection>& a, const std::vector<Detection>&
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t n = 0; n < a.size(); ++n) {
     EXPECT_EQ(a[n].class_id, b[n].class_id);
-    if (with_ids) EXPECT_EQ(a[n].instance, b[n].instance);
+    EXPECT_EQ(with_ids ? a[n].instance : 0, with_ids ? b[n].instance : 0);
     EXPECT_EQ(a[n].score, b[n].score);
     EXPECT_EQ(a[n].box, b[n].box);
     EXPECT_EQ(cv::countNonZero(a[n].mask != b[n].mask), 0);
