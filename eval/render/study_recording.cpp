@@ -156,8 +156,8 @@ void record_world(const Study& study, const sim::World& world, const StudyDrive&
 void note_light(const Study& study, const sim::World& world, const RecordingProgress& progress) {
   if (world.has_light() || !progress.note) return;
   progress.note(
-      fmt::format("{} has no light; a head light at the camera lights its images, a "
-                  "<light> in the scene would take its place",
+      fmt::format("{} has no light; a head light at the camera lights its images; add a <light> to "
+                  "the scene to light it otherwise",
                   shown(study.scene.value_or("the scene"))));
 }
 

@@ -48,6 +48,54 @@ TEST(StudyStore, OpensTheRecordingOfTheTrialsAndNoOther) {
                [&] { (void)recording_of(record, folder.path() / "results"); });
 }
 
+ClassTable table_of(const std::vector<std::string>& names) {
+  ClassTable table;
+  for (const std::string& name : names)
+    table.classes.push_back({static_cast<ClassId>(table.classes.size()), name, {}, true});
+  return table;
+}
+
+Study two_scenes() {
+  return parse_study(
+      "methods: {direct: {segmentation: {direct: {}}}}\n"
+      "scenes: {home: {recording: a}, hall: {recording: b}}\n",
+      "study.yaml");
+}
+
+TEST(StudyStore, ScenesHaveTheClassesOfAllByTheirNames) {
+  const TemporaryFolder folder;
+  ResultStore store = ResultStore::open(folder.path() / "results.sqlite");
+  const StudyRecord written =
+      record_of(two_scenes(), {{{"home", "h1", "a", {}}, table_of({"cup", "chair"})},
+                               {{"hall", "h2", "b", {}}, table_of({"chair", "lamp"})}});
+  write_study(store, written, folder.path());
+  const StudyRecord record = read_study(store, folder.path());
+  ASSERT_EQ(record.table.classes.size(), 4u);
+  EXPECT_EQ(record.table.classes[3].name, "lamp");
+  EXPECT_EQ(record.hashes().of("hall"), "h2");
+  EXPECT_EQ(record.recording_hash, written.recording_hash);
+  Counts of_hall = zero_counts(3, {.tolerances = {1}, .asked = {.thin = true}});
+  of_hall[1].predicted = 5;  // chair
+  of_hall[2].predicted = 7;  // lamp
+  const Counts joined = in_table(record, "hall", of_hall);
+  ASSERT_EQ(joined.size(), 4u);
+  EXPECT_EQ(joined[1], of_hall[0]) << "the hall has no cup";
+  EXPECT_EQ(joined[2].predicted, 5);
+  EXPECT_EQ(joined[3].predicted, 7);
+  expect_error("scene 'attic'", [&] { (void)in_table(record, "attic", of_hall); });
+  write_study(store, {study_of(""), table_of({"cup"}), "hash", "tiny"}, folder.path());
+  EXPECT_TRUE(read_study(store, folder.path()).scenes.empty());
+}
+
+TEST(StudyStore, AClassIsDetectedInAllScenesOrNone) {
+  ClassTable without = table_of({"cup"});
+  without.classes[1].detect = false;
+  expect_error("scenes.hall: class cup is not detected there", [&] {
+    (void)record_of(two_scenes(), {{{"home", "h1", "a", {}}, table_of({"cup"})},
+                                   {{"hall", "h2", "b", {}}, without}});
+  });
+}
+
 TEST(StudyStore, RefusesAStoreWithoutAStudy) {
   const TemporaryFolder folder;
   ResultStore store = ResultStore::open(folder.path() / "results.sqlite");
