@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "eval/cli/score_flags.hpp"
+#include "eval/cli/shared/frame_check.hpp"
 #include "eval/cli/shared/map_score.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/truth_source.hpp"
@@ -11,7 +12,7 @@
 #include "eval/report/pictures/map_pictures.hpp"
 #include "eval/report/pictures/view.hpp"
 #include "eval/report/table_formats.hpp"
-#include "eval/score/label_images.hpp"
+#include "eval/report/tidy_csv.hpp"
 
 #include <fmt/format.h>
 
@@ -91,7 +92,7 @@ void write_errors(const ScoreFlags& flags, const InputMap& map, const MapScore& 
   draw_error_picture(flags.picture, judged, painter, flags.view.view(), T_world_depth);
 }
 
-void note_labels(const ScoreFlags& flags, const InputMap& map) {
+void note_labels(const ScoreFlags& flags, const Labelling& map) {
   if (!map.leftovers.empty())
     note(flags,
          "labels without a meaning: " + text_of(map.leftovers) + "; --legend can give them one");
@@ -102,27 +103,87 @@ void note_labels(const ScoreFlags& flags, const InputMap& map) {
              text_of(map.unlisted));
 }
 
+/// A map as it was scored.
+struct ScoredMap {
+  InputMap map;
+  MapScore score;
+  std::vector<std::string> alignment;  ///< in words, with --align
+};
+
+ScoredMap score_at(const ScoreFlags& flags, const LabelledMap& map, const Pose& T_map_file,
+                   TruthSource& source) {
+  ScoredMap scored{placed(map, flags.map, T_map_file, flags.lattice.voxel_m), {}, {}};
+  const double threshold =
+      flags.threshold.value_or(map.geometry ? 0.0 : default_threshold(BlendRule{}));
+  scored.score = score_input(scored.map, flags.map, threshold, source, flags.work.jobs);
+  return scored;
+}
+
+/// Where the map's elements lie that are occupied, in the map frame.
+std::vector<Eigen::Vector3d> points_of(const MapFile& map, const Pose& T_map_file, double edge_m) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t n = 0; n < map.size(); ++n)
+    if (map.is_occupied(n))
+      points.emplace_back(T_map_file *
+                          (map.points.empty()
+                               ? centre_of(map.voxels[n], map.edge_m > 0 ? map.edge_m : edge_m)
+                               : map.points[n]));
+  return points;
+}
+
+/// Moves the map to where its geometry fits the truth's surfaces best, and says what that changed.
+ScoredMap score_aligned(const ScoreFlags& flags, const LabelledMap& map, TruthSource& source) {
+  const Pose T_map_file = flags.map.T_map_file();
+  const Alignment found =
+      source.aligner(flags.work.jobs).align(points_of(map.file, T_map_file, flags.lattice.voxel_m));
+  if (!found.refusal.empty())
+    throw Error(fmt::format("{}: --align: {}; give --transform, or leave --align out",
+                            flags.map.file, found.refusal));
+  ScoreFlags as_given = flags;
+  as_given.map.trust_frame = true;
+  const ScoredMap before = score_at(as_given, map, T_map_file, source);
+  const Pose T_aligned = found.best.motion * T_map_file;
+  ScoredMap after = score_at(flags, map, T_aligned, source);
+  const auto f1 = [](const MapScore& score) {
+    return value_of(tidy_metrics(score.counts, score.table, kPooled), "f1");
+  };
+  const Eigen::Quaterniond q(T_aligned.linear());
+  const Eigen::Vector3d t = T_aligned.translation();
+  after.alignment = {
+      fmt::format(
+          "aligned by {}: F1 {} -> {}, {:.1f} -> {:.1f} % of its surfaces on the truth's, {:.1f} % "
+          "at the next best place",
+          motion_text(found.best.motion), cell_text(f1(before.score)), cell_text(f1(after.score)),
+          100 * found.before.share, 100 * found.best.share, 100 * found.next.share),
+      fmt::format("the same: --transform '{:.6f} {:.6f} {:.6f} {:.9f} {:.9f} {:.9f} {:.9f}'", t.x(),
+                  t.y(), t.z(), q.x(), q.y(), q.z(), q.w())};
+  return after;
+}
+
 /// The tables of one map; `geometry`: whether the maps before it were without labels, if any were.
 std::vector<Table> score_map(const ScoreFlags& flags, TruthSource& source,
                              std::optional<bool>& geometry) {
-  const InputMap map = read_input_map(flags.map, source.table(), flags.lattice.voxel_m);
+  const LabelledMap map = read_labelled_map(flags.map, source.table());
   if (geometry.value_or(map.geometry) != map.geometry)
     throw Error(
-        fmt::format("{}: has {} labels, unlike the map before it; give --geometry to score "
-                    "the geometry of all, or score them one by one",
+        fmt::format("{}: has {} labels, unlike the map before it; give --geometry to score the "
+                    "geometry of all, or score them one by one",
                     flags.map.file, map.geometry ? "no" : "its own"));
   geometry = map.geometry;
-  note_labels(flags, map);
-  const double threshold =
-      flags.threshold.value_or(map.geometry ? 0.0 : default_threshold(BlendRule{}));
-  const MapScore score = score_input(map, flags.map, threshold, source, flags.work.jobs);
-  if (!score.note.empty()) note(flags, score.note);
-  write_errors(flags, map, score, source);
-  if (flags.tidy) return {tidy_table(score)};
-  std::vector<Table> tables{class_table(score)};
-  tables.front().caption = caption_of(flags, map, score, source);
+  note_labels(flags, map.labelling);
+  const ScoredMap scored = flags.align ? score_aligned(flags, map, source)
+                                       : score_at(flags, map, flags.map.T_map_file(), source);
+  if (!scored.score.note.empty()) note(flags, scored.score.note);
+  write_errors(flags, scored.map, scored.score, source);
+  if (flags.tidy) {
+    for (const std::string& line : scored.alignment) note(flags, line);
+    return {tidy_table(scored.score)};
+  }
+  std::vector<Table> tables{class_table(scored.score)};
+  tables.front().caption = caption_of(flags, scored.map, scored.score, source);
+  for (const std::string& line : scored.alignment) tables.front().caption.push_back(line);
   if (flags.details)
-    for (Table& table : detail_tables(score)) tables.push_back(std::move(table));
+    for (Table& table : detail_tables(scored.score)) tables.push_back(std::move(table));
   return tables;
 }
 
@@ -178,6 +239,9 @@ void add_score(CLI::App& program) {
                        "several: one table")
       ->required();
   flags->map.add_to(*verb);
+  verb->add_flag("--align", flags->align,
+                 "Move the map to where its geometry fits the truth's surfaces best, if one place "
+                 "is clearly the best");
   verb->add_option("--truth", flags->truth, "Recording, or scene (MJCF)")->required();
   verb->add_option("--threshold", flags->threshold,
                    "Least probability of a predicted voxel [0.25; 0 for geometry]")
@@ -202,6 +266,7 @@ void add_score(CLI::App& program) {
       "  mapscore score octomap.bt --truth scenes/apartment.xml\n"
       "  mapscore score map.ot --truth /data/apartment --picture errors.png --view 4 1 2 5 3 0.8\n"
       "  mapscore score cloud.pcd --transform '1 0 0 0 0 0.7071068 0.7071068' --truth /data/home\n"
+      "  mapscore score cloud.ply --align --truth /data/home\n"
       "  mapscore score predicted_labels/ --truth /data/apartment --frames 0:50");
 }
 

@@ -21,7 +21,7 @@ struct ScoreFlags {
   std::string truth, format = "text";
   std::vector<std::string> detect;
   std::optional<double> threshold;
-  bool details = false, tidy = false;
+  bool align = false, details = false, tidy = false;
   std::string picture, errors_ply;
   ViewFlag view;
   LatticeFlags lattice;

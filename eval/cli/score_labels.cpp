@@ -34,6 +34,8 @@ void check_label_flags(const ScoreFlags& flags) {
       {flags.threshold.has_value(), "--threshold"},
       {!flags.detect.empty(), "--detect"},
       {!flags.map.transform.empty(), "--transform"},
+      {flags.align, "--align"},
+      {flags.map.scale != 1.0, "--scale"},
       {flags.map.geometry, "--geometry"},
       {flags.map.resample, "--resample"},
       {flags.map.skip_nan, "--skip_nan"},

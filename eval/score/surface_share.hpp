@@ -26,14 +26,19 @@ struct SurfaceShare {
   [[nodiscard]] bool in_another_frame() const { return share() < kLeast; }
 };
 
+/// Whether a surface of any class meets the voxel or one beside it.
+[[nodiscard]] inline bool at_surface(const VoxelKey& key, const SurfaceTruth& surface) {
+  const auto touched = [&](const VoxelKey& at) { return surface.touches_any(at); };
+  return touched(key) || any_in_shell(key, 1, touched);
+}
+
 [[nodiscard]] inline SurfaceShare surface_share(const MapSnapshot& map,
                                                 const SurfaceTruth& surface) {
   SurfaceShare count;
-  const auto touched = [&](const VoxelKey& key) { return surface.touches_any(key); };
   for (const MapVoxel& voxel : map.voxels()) {
     if (!voxel.occupied) continue;
     ++count.occupied;
-    count.at_surfaces += touched(voxel.key) || any_in_shell(voxel.key, 1, touched) ? 1 : 0;
+    count.at_surfaces += at_surface(voxel.key, surface) ? 1 : 0;
   }
   return count;
 }

@@ -4,11 +4,11 @@
 #include "eval/cli/shared/map_score.hpp"
 
 #include "core/error.hpp"
+#include "eval/cli/shared/frame_check.hpp"
 #include "eval/map_files/lattice_map.hpp"
 #include "eval/map_files/map_file.hpp"
 #include "eval/map_files/map_transform.hpp"
 #include "eval/score/reduced_tables.hpp"
-#include "eval/score/surface_share.hpp"
 #include "eval/score/voxel_score.hpp"
 
 #include <fmt/format.h>
@@ -19,56 +19,15 @@
 namespace mapscore::eval {
 namespace {
 
-/// Below it a map is more likely turned or shifted than bad.
-constexpr double kDoubtfulShareAtSurfaces = 0.25;
-
-Pose transform_of(const std::string& text) {
-  if (text.empty()) return Pose::Identity();
-  if (std::filesystem::exists(text)) return read_transform(text);
-  if (text.find_first_not_of("0123456789+-.eE, \t\n") != std::string::npos)
-    throw Error(text +
-                ": no such file; --transform takes a file, or its 7 or 16 numbers in quotes");
-  return parse_transform(text, "--transform");
-}
-
-std::string span_of(const Eigen::AlignedBox3d& box) {
-  return fmt::format("x {:.2f}..{:.2f} y {:.2f}..{:.2f} z {:.2f}..{:.2f} m", box.min().x(),
-                     box.max().x(), box.min().y(), box.max().y(), box.min().z(), box.max().z());
-}
-
 std::string words_of(Placing placing, double file_edge_m, bool is_moved) {
   const std::string from =
       file_edge_m > 0.0 ? fmt::format("voxels of {} m", file_edge_m) : std::string("its voxels");
-  const char* moved = is_moved ? " moved by --transform and" : "";
+  const char* moved = is_moved ? " moved and" : "";
   if (placing == Placing::pulled)
     return fmt::format("{}{} read at the centres of the truth's", from, moved);
   if (placing == Placing::pushed)
     return fmt::format("{}{} put into the truth's by their centres", from, moved);
   return placing == Placing::binned ? fmt::format("points{} binned", moved) : std::string();
-}
-
-/// The note of score_input() on where the map lies, or its Error.
-std::string check_frame(const MapFlags& flags, const MapSnapshot& map,
-                        const SurfaceTruth& surface) {
-  if (flags.trust_frame) return {};
-  const SurfaceShare at = surface_share(map, surface);
-  if (at.share() >= kDoubtfulShareAtSurfaces) return {};
-  if (!at.in_another_frame())
-    return fmt::format(
-        "only {:.0f} % of the map's occupied voxels lie on or beside a surface; is it in the frame "
-        "that --transform, --origin_m and --yaw_deg say?",
-        100.0 * at.share());
-  Eigen::AlignedBox3d map_box, truth_box;
-  for (const MapVoxel& voxel : map.voxels())
-    if (voxel.occupied) map_box.extend(centre_of(voxel.key, surface.edge_m()));
-  for (const SurfaceVoxel& row : surface.voxels())
-    truth_box.extend(centre_of(row.key, surface.edge_m()));
-  throw Error(fmt::format(
-      "{}: only {} of {} occupied voxels lie on or beside a surface, so the map seems to lie in "
-      "another frame (map {}; truth {}); give --transform, --origin_m or --yaw_deg, or score it "
-      "as it is with --trust_frame",
-      flags.file, at.at_surfaces, at.occupied, span_of(map_box),
-      surface.voxels().empty() ? "empty" : span_of(truth_box)));
 }
 
 /// The table with the predicted classes detected too, so that samples of them are kept.
@@ -95,16 +54,30 @@ void MapFlags::add_to(CLI::App& verb) {
   verb.add_flag("--geometry", geometry, "Leave labels out: score where something is, not what");
   verb.add_option("--transform", transform,
                   "T_map_file: a file, or in quotes, with tx ty tz qx qy qz qw or a 4x4 matrix");
+  verb.add_option("--scale", scale, "Metres in a unit of the map: 0.001 for millimetres [1]")
+      ->check(finite_within(1e-6, 1e6));
   verb.add_flag("--resample", resample, "Bring voxels of another edge onto the lattice");
   verb.add_flag("--skip_nan", skip_nan, "Leave out points with coordinates that are not finite");
   verb.add_flag("--trust_frame", trust_frame, "Score a map that seems to lie in another frame");
 }
 
-InputMap read_input_map(const MapFlags& flags, const ClassTable& table, double edge_m) {
-  const MapFile file =
-      read_map_file(flags.file, flags.skip_nan ? NotFinite::skip : NotFinite::refuse);
-  InputMap map;
-  map.geometry = flags.geometry || file.label_kind == LabelKind::none;
+Pose MapFlags::T_map_file() const {
+  if (transform.empty()) return Pose::Identity();
+  if (std::filesystem::exists(transform)) return read_transform(transform);
+  if (transform.find_first_not_of("0123456789+-.eE, \t\n") != std::string::npos)
+    throw Error(transform +
+                ": no such file; --transform takes a file, or its 7 or 16 numbers in quotes");
+  return parse_transform(transform, "--transform");
+}
+
+LabelledMap read_labelled_map(const MapFlags& flags, const ClassTable& table) {
+  LabelledMap map;
+  map.file = read_map_file(flags.file, flags.skip_nan ? NotFinite::skip : NotFinite::refuse);
+  if (flags.scale != 1.0 && map.file.points.empty() && map.file.edge_m == 0.0)
+    throw Error(flags.file + ": --scale: voxels by their indices have no unit; leave it out");
+  map.file.edge_m *= flags.scale;
+  for (Eigen::Vector3d& point : map.file.points) point *= flags.scale;
+  map.geometry = flags.geometry || map.file.label_kind == LabelKind::none;
   if (flags.geometry && !flags.legend.empty())
     throw Error("--legend: --geometry leaves the labels out; give one of the two");
   if (map.geometry && !flags.legend.empty())
@@ -112,21 +85,33 @@ InputMap read_input_map(const MapFlags& flags, const ClassTable& table, double e
   std::optional<Legend> legend;
   if (!flags.legend.empty()) legend = read_legend(flags.legend, table);
   try {
-    Labelling labelling = map.geometry
-                              ? Labelling{std::vector<ClassId>(file.size(), kSurfaceClass), {}, {}}
-                              : apply_legend(file, legend, table);
-    map.leftovers = std::move(labelling.leftovers);
-    map.unlisted = std::move(labelling.unlisted);
-    LatticeMap lattice = on_lattice(file, labelling.classes, transform_of(flags.transform), edge_m,
-                                    flags.resample ? Resample::allow : Resample::refuse);
-    for (std::size_t n = 0; n < lattice.instances.size(); ++n)
-      map.numbers.push_back({lattice.voxels[n].key, lattice.instances[n]});
-    map.placing = words_of(lattice.placing, file.edge_m, !flags.transform.empty());
-    map.snapshot = MapSnapshot(std::move(lattice.voxels));
+    if (map.geometry)
+      map.labelling.classes.assign(map.file.size(), kSurfaceClass);
+    else
+      map.labelling = apply_legend(map.file, legend, table);
   } catch (const Error& error) {
     throw Error(flags.file + ": " + error.what());
   }
   return map;
+}
+
+InputMap placed(const LabelledMap& map, const MapFlags& flags, const Pose& T_map_file,
+                double edge_m) {
+  InputMap input;
+  input.geometry = map.geometry;
+  input.T_map_file = T_map_file;
+  try {
+    LatticeMap lattice = on_lattice(map.file, map.labelling.classes, T_map_file, edge_m,
+                                    flags.resample ? Resample::allow : Resample::refuse);
+    for (std::size_t n = 0; n < lattice.instances.size(); ++n)
+      input.numbers.push_back({lattice.voxels[n].key, lattice.instances[n]});
+    input.placing =
+        words_of(lattice.placing, map.file.edge_m, !T_map_file.isApprox(Pose::Identity(), 0.0));
+    input.snapshot = MapSnapshot(std::move(lattice.voxels));
+  } catch (const Error& error) {
+    throw Error(flags.file + ": " + error.what());
+  }
+  return input;
 }
 
 MapScore score_input(const InputMap& map, const MapFlags& flags, double threshold,
@@ -136,7 +121,8 @@ MapScore score_input(const InputMap& map, const MapFlags& flags, double threshol
   score.threshold = threshold;
   score.sampled = source.recording() != nullptr;
   score.truth = source.truth(sampled_table(score.table, map.snapshot), true);
-  score.note = check_frame(flags, map.snapshot, score.truth.surface);
+  if (!flags.trust_frame)
+    score.note = frame_note(flags.file, map, score.truth.surface, source, jobs);
   const ViewTruth& view = score.truth.view;
   const std::size_t classes = score.table.classes.size();
   score.counts = score.truth.score(map.snapshot, threshold, view, classes, {}, jobs);

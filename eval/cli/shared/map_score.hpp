@@ -4,8 +4,10 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "core/geometry/pose.hpp"
 #include "eval/cli/shared/truth_source.hpp"
 #include "eval/map_files/legend.hpp"
+#include "eval/map_files/map_file.hpp"
 #include "eval/report/table.hpp"
 #include "eval/score/confusion.hpp"
 #include "eval/score/instances/instance_pieces.hpp"
@@ -24,25 +26,37 @@ namespace mapscore::eval {
 /// Flags that say how a map's file is to be read.
 struct MapFlags {
   std::string file, legend, transform;
+  double scale = 1.0;  ///< metres in a unit of the file
   bool geometry = false, resample = false, skip_nan = false, trust_frame = false;
 
   void add_to(CLI::App& verb);
+  /// What --transform says. Throws Error.
+  [[nodiscard]] Pose T_map_file() const;
 };
+
+/// A map as its file holds it, in metres, with the class of each element.
+struct LabelledMap {
+  MapFile file;
+  Labelling labelling;
+  bool geometry = false;  ///< without classes: all elements are of kSurfaceClass
+};
+
+/// Reads the map and gives its labels their meaning in `table`. Throws Error with where and how to
+/// mend it.
+[[nodiscard]] LabelledMap read_labelled_map(const MapFlags& flags, const ClassTable& table);
 
 /// A map on the lattice of the truth.
 struct InputMap {
   MapSnapshot snapshot{{}};
   std::vector<NumberedVoxel> numbers;  ///< of objects; empty where the file has none
   bool geometry = false;               ///< without classes: occupied voxels are of kSurfaceClass
-  std::vector<Leftover> leftovers;     ///< labels that mean nothing
-  std::vector<Leftover> unlisted;      ///< labels that the legend leaves to the truth's table
-  std::string placing;                 ///< in words, how it came onto the lattice
+  Pose T_map_file = Pose::Identity();
+  std::string placing;  ///< in words, how it came onto the lattice
 };
 
-/// Reads the map, gives its labels their meaning in `table` and brings it onto the lattice of edge
-/// `edge_m`. Throws Error with where and how to mend it.
-[[nodiscard]] InputMap read_input_map(const MapFlags& flags, const ClassTable& table,
-                                      double edge_m);
+/// Brings the map onto the lattice of edge `edge_m`. Throws Error as on_lattice.
+[[nodiscard]] InputMap placed(const LabelledMap& map, const MapFlags& flags, const Pose& T_map_file,
+                              double edge_m);
 
 /// Everything that is counted of one map.
 struct MapScore {
@@ -57,9 +71,7 @@ struct MapScore {
   std::string note;                          ///< for the user, on where the map lies; often empty
 };
 
-/// Scores a map against a truth. Throws Error with the bounds of both when fewer than one occupied
-/// voxel in a hundred lies on or beside a surface: then the map lies in another frame. Below one in
-/// four it says so in a note. A map without occupied voxels passes.
+/// Scores a map against a truth. Throws Error as frame_note unless --trust_frame is given.
 [[nodiscard]] MapScore score_input(const InputMap& map, const MapFlags& flags, double threshold,
                                    TruthSource& source, int jobs);
 

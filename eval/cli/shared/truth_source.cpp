@@ -141,6 +141,10 @@ LatticeTruth TruthSource::truth(const ClassTable& table, bool distances) {
   return truth;
 }
 
+SurfaceAligner TruthSource::aligner(int jobs) const {
+  return {prepare(shapes_, lattice_.map_frame().T_map_world()), jobs};
+}
+
 OccupancyTruth TruthSource::occupancy(const SurfaceTruth& surface) {
   return make_occupancy_truth(*frames_, frames(), recording_->info().calibration,
                               lattice_.map_frame().T_map_world(), surface, lattice_.min_samples,

@@ -5,6 +5,7 @@
 
 #include "core/classes.hpp"
 #include "core/geometry/shape.hpp"
+#include "eval/alignment/surface_aligner.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/lab/lattice_truth.hpp"
 #include "eval/lab/map_frame.hpp"
@@ -69,6 +70,8 @@ class TruthSource {
   /// source, or another reading of its instances; depth samples are kept of its detected classes
   /// where `distances` are asked for.
   [[nodiscard]] LatticeTruth truth(const ClassTable& table, bool distances);
+  /// Brings maps onto all surfaces, frame map.
+  [[nodiscard]] SurfaceAligner aligner(int jobs) const;
   /// What the frames know to be occupied and free. Needs a recording.
   [[nodiscard]] OccupancyTruth occupancy(const SurfaceTruth& surface);
 

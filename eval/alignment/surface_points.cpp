@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/alignment/surface_points.hpp"
+
+#include "core/geometry/voxel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+#include <variant>
+
+namespace mapscore::eval {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Points = std::vector<OrientedPoint>;
+
+/// Middles of equal parts of [-half, half], each at most `spacing_m` long.
+std::vector<double> steps(double half_m, double spacing_m) {
+  const int count = std::max(1, static_cast<int>(std::ceil(2 * half_m / spacing_m)));
+  std::vector<double> middles;
+  for (int n = 0; n < count; ++n) middles.push_back(((n + 0.5) / count * 2 - 1) * half_m);
+  return middles;
+}
+
+/// Directions spread evenly over the sphere by the golden angle.
+std::vector<Vector3d> directions(double radius_m, double spacing_m) {
+  const double wanted = 4 * std::numbers::pi * std::pow(radius_m / spacing_m, 2);
+  const int count = std::max(12, static_cast<int>(std::ceil(wanted)));
+  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  std::vector<Vector3d> spread;
+  for (int n = 0; n < count; ++n) {
+    const double z = 1 - (n + 0.5) * 2 / count, r = std::sqrt(1 - z * z);
+    spread.emplace_back(r * std::cos(golden * n), r * std::sin(golden * n), z);
+  }
+  return spread;
+}
+
+/// The curved face about `axis` from -half to half along it.
+void add_side(const Vector3d& centre, const Vector3d& axis, double radius_m, double half_m,
+              double spacing_m, Points& points) {
+  const Vector3d x = axis.unitOrthogonal(), y = axis.cross(x);
+  for (const double angle : steps(std::numbers::pi, spacing_m / radius_m))
+    for (const double along : steps(half_m, spacing_m)) {
+      const Vector3d n = std::cos(angle) * x + std::sin(angle) * y;
+      points.push_back({centre + radius_m * n + along * axis, n});
+    }
+}
+
+void add(const OrientedBox& box, double spacing_m, Points& points) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool is_flat = box.half.z() == 0;  // a rectangle, which has one face
+    if (is_flat && axis != 2) continue;
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    for (const double side : {1.0, -1.0}) {
+      if (is_flat && side < 0) continue;
+      for (const double u : steps(box.half[b], spacing_m))
+        for (const double v : steps(box.half[c], spacing_m)) {
+          Vector3d p;
+          p[axis] = side * box.half[axis];
+          p[b] = u;
+          p[c] = v;
+          points.push_back({box.centre + box.R * p, side * box.R.col(axis)});
+        }
+    }
+  }
+}
+
+void add(const Ball& ball, double spacing_m, Points& points) {
+  for (const Vector3d& d : directions(ball.radius, spacing_m))
+    points.push_back({ball.centre + ball.radius * d, d});
+}
+
+void add(const Ellipsoid& form, double spacing_m, Points& points) {
+  for (const Vector3d& d : directions(form.radii.maxCoeff(), spacing_m))
+    points.push_back({form.centre + form.R * form.radii.cwiseProduct(d),
+                      form.R * d.cwiseQuotient(form.radii).normalized()});
+}
+
+void add(const Capsule& form, double spacing_m, Points& points) {
+  const Vector3d way = form.b - form.a;
+  const Vector3d axis = way.normalized();
+  add_side((form.a + form.b) / 2, axis, form.radius, way.norm() / 2, spacing_m, points);
+  for (const Vector3d& d : directions(form.radius, spacing_m))
+    points.push_back({(d.dot(axis) > 0 ? form.b : form.a) + form.radius * d, d});
+}
+
+void add(const Cylinder& form, double spacing_m, Points& points) {
+  add_side(form.centre, form.R.col(2), form.radius, form.half, spacing_m, points);
+  for (const double side : {1.0, -1.0})
+    for (const double u : steps(form.radius, spacing_m))
+      for (const double v : steps(form.radius, spacing_m))
+        if (std::hypot(u, v) <= form.radius)
+          points.push_back(
+              {form.centre + form.R * Vector3d(u, v, side * form.half), side * form.R.col(2)});
+}
+
+void add(const Triangle& t, double spacing_m, Points& points) {
+  const Vector3d u = t[1] - t[0], v = t[2] - t[0];
+  const Vector3d n = u.cross(v);
+  if (n.norm() == 0) return;
+  const double longest = std::max({u.norm(), v.norm(), (u - v).norm()});
+  const int parts = std::max(1, static_cast<int>(std::ceil(longest / spacing_m)));
+  for (int i = 0; i < parts; ++i)
+    for (int j = 0; i + j < parts; ++j)
+      points.push_back(
+          {t[0] + (i + 1.0 / 3) / parts * u + (j + 1.0 / 3) / parts * v, n.normalized()});
+}
+
+/// Which face of a cube the normal points through, opposite ones as one.
+int axis_of(const Vector3d& n) {
+  int axis = 0;
+  n.cwiseAbs().maxCoeff(&axis);
+  return axis;
+}
+
+/// Keeps one point for each cell and axis of the normal.
+void thin(Points& points, double spacing_m) {
+  const auto place = [&](const OrientedPoint& point) {
+    return std::tuple(voxel_of(point.p, spacing_m), axis_of(point.n));
+  };
+  std::ranges::stable_sort(points, {}, place);
+  const auto doubled = std::ranges::unique(points, {}, place);
+  points.erase(doubled.begin(), doubled.end());
+}
+
+/// Solids by slabs across x, so that a point is looked up in those near it alone.
+class SolidSlabs {
+ public:
+  explicit SolidSlabs(std::span<const PreparedShape> pieces) {
+    for (const PreparedShape& piece : pieces)
+      if (piece.solid())
+        for (int slab = slab_of(piece.bounds().min()); slab <= slab_of(piece.bounds().max());
+             ++slab)
+          slabs_[slab].push_back(&piece);
+  }
+
+  /// Whether a point lies inside of a solid, not on its surface.
+  [[nodiscard]] bool contain(const Vector3d& p) const {
+    const auto slab = slabs_.find(slab_of(p));
+    const Box at(p, p);
+    return slab != slabs_.end() &&
+           std::ranges::any_of(slab->second,
+                               [&](const PreparedShape* solid) { return inside_open(*solid, at); });
+  }
+
+ private:
+  static int slab_of(const Vector3d& p) {
+    constexpr double kSlab_m = 0.25, kFarthest_m = 1e6;
+    return static_cast<int>(std::floor(std::clamp(p.x(), -kFarthest_m, kFarthest_m) / kSlab_m));
+  }
+
+  std::map<int, std::vector<const PreparedShape*>> slabs_;
+};
+
+}  // namespace
+
+std::vector<OrientedPoint> surface_points(std::span<const PreparedShape> pieces, double spacing_m) {
+  Points points;
+  const SolidSlabs solids(pieces);
+  for (const PreparedShape& piece : pieces)
+    std::visit([&](const auto& form) { add(form, spacing_m, points); }, piece.form());
+  std::erase_if(points, [&](const OrientedPoint& point) { return solids.contain(point.p); });
+  thin(points, spacing_m);
+  return points;
+}
+
+}  // namespace mapscore::eval

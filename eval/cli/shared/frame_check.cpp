@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/cli/shared/frame_check.hpp"
+
+#include "core/error.hpp"
+#include "eval/alignment/surface_aligner.hpp"
+#include "eval/score/surface_share.hpp"
+#include "eval/score/voxel_window.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace mapscore::eval {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Below these a map is more likely turned or shifted than bad.
+constexpr double kDoubtfulShare = 0.25, kDoubtfulUpright = 0.5;
+/// Another unit, or other axes, explain a map that lies at surfaces this well with them.
+constexpr double kExplained = 0.5, kBetter = 0.1;
+/// A motion that is worth a word.
+constexpr double kFar_m = 0.1, kFarTurn = 2 * std::numbers::pi / 180.0;
+
+struct Share {
+  std::size_t near = 0, all = 0;
+
+  void count(bool is_near) {
+    ++all;
+    near += is_near ? 1 : 0;
+  }
+  [[nodiscard]] double value() const {
+    return all == 0 ? 1.0 : static_cast<double>(near) / static_cast<double>(all);
+  }
+};
+
+/// Where the occupied voxels of a map lie.
+struct Places {
+  Share surfaces, upright, detected;
+  std::vector<Vector3d> p_map;  ///< their centres
+  Eigen::AlignedBox3d bounds;
+
+  [[nodiscard]] bool odd() const {
+    return surfaces.value() < kDoubtfulShare || upright.value() < kDoubtfulUpright ||
+           detected.value() < kDoubtfulShare;
+  }
+};
+
+Places places_of(const InputMap& map, const SurfaceTruth& surface, const ClassTable& table) {
+  const auto occupied = [&](const VoxelKey& key) {
+    const MapVoxel* voxel = map.snapshot.find(key);
+    return voxel != nullptr && voxel->occupied;
+  };
+  Places places;
+  for (const auto& [key, best_class, probability, is_occupied] : map.snapshot.voxels()) {
+    if (!is_occupied) continue;
+    places.p_map.push_back(centre_of(key, surface.edge_m()));
+    places.bounds.extend(places.p_map.back());
+    const bool is_near = at_surface(key, surface);
+    places.surfaces.count(is_near);
+    if (occupied({key.i, key.j, key.k - 1}) && occupied({key.i, key.j, key.k + 1}))
+      places.upright.count(is_near);
+    if (!map.geometry && table.detected(best_class))
+      places.detected.count(surface.contains(key, best_class) ||
+                            any_in_shell(key, 1, [&, c = best_class](const VoxelKey& at) {
+                              return surface.contains(at, c);
+                            }));
+  }
+  return places;
+}
+
+std::string span_of(const Eigen::AlignedBox3d& box) {
+  return fmt::format("x {:.2f}..{:.2f} y {:.2f}..{:.2f} z {:.2f}..{:.2f} m", box.min().x(),
+                     box.max().x(), box.min().y(), box.max().y(), box.min().z(), box.max().z());
+}
+
+/// The share of some of the points, in the file's frame, that a change brings to surfaces.
+template <class Change>
+double share_after(const std::vector<Vector3d>& p_file, const SurfaceTruth& surface,
+                   const Change& change) {
+  constexpr std::size_t kSample = 5000;
+  Share share;
+  const std::size_t step = std::max(std::size_t{1}, p_file.size() / kSample);
+  for (std::size_t n = 0; n < p_file.size(); n += step)
+    if (const auto key = packable_voxel_of(change(p_file[n]), surface.edge_m()))
+      share.count(at_surface(*key, surface));
+  return share.value();
+}
+
+/// Another unit of length, by the bounds.
+std::string unit_trouble(const Eigen::AlignedBox3d& map, const Eigen::AlignedBox3d& truth) {
+  constexpr double kNearest = 2.5;
+  const double times = map.diagonal().norm() / truth.diagonal().norm();
+  for (const auto& [units, name] : {std::pair{1000.0, "millimetres"}, {100.0, "centimetres"}})
+    if (times > units / kNearest && times < units * kNearest)
+      return fmt::format(
+          "its bounds are {:.0f} times the truth's: it seems to be in {}; give --scale {}", times,
+          name, 1.0 / units);
+  for (const double units : {0.001, 0.01})
+    if (times > units / kNearest && times < units * kNearest)
+      return fmt::format(
+          "its bounds are {:.2g} of the truth's; if its unit is {:g} m, give --scale {:g}", times,
+          1.0 / units, 1.0 / units);
+  return {};
+}
+
+/// Axes of the file in another order, or pointing the other way.
+std::string axes_trouble(const std::vector<Vector3d>& p_file, const Pose& T_map_file,
+                         const SurfaceTruth& surface, double share_now) {
+  double most = std::max(kExplained, share_now + kBetter);
+  Pose best = Pose::Identity();
+  for (int x = 0; x < 6; ++x)
+    for (int y = 0; y < 6; ++y) {
+      if (x / 2 == y / 2) continue;
+      Pose turn = Pose::Identity();
+      const auto unit = [](int axis) {
+        return Vector3d((axis % 2 == 0 ? 1 : -1) * Vector3d::Unit(axis / 2));
+      };
+      turn.linear() << unit(x), unit(y), unit(x).cross(unit(y));
+      const double share = share_after(
+          p_file, surface, [&](const Vector3d& p) { return Vector3d(T_map_file * turn * p); });
+      if (share <= most) continue;
+      most = share;
+      best = turn;
+    }
+  if (best.isApprox(Pose::Identity())) return {};
+  int up = 0;
+  best.linear().row(2).cwiseAbs().maxCoeff(&up);
+  const Pose T = T_map_file * best;
+  const Eigen::Quaterniond q(T.linear());
+  return fmt::format(
+      "its axes are swapped ({}{} is up): {:.0f} % lie at surfaces with --transform '{:g} {:g} "
+      "{:g} "
+      "{:.7g} {:.7g} {:.7g} {:.7g}'",
+      best.linear()(2, up) < 0 ? "-" : "", "xyz"[up], 100 * most, T.translation().x(),
+      T.translation().y(), T.translation().z(), q.x(), q.y(), q.z(), q.w());
+}
+
+/// A rigid motion that explains the map better.
+std::string motion_trouble(const std::vector<Vector3d>& p_map, const TruthSource& source,
+                           int jobs) {
+  const Alignment found = source.aligner(jobs).align(p_map);
+  const Pose& motion = found.best.motion;
+  const Vector3d p = p_map[p_map.size() / 2];
+  const bool is_far =
+      (motion * p - p).norm() > kFar_m || Eigen::AngleAxisd(motion.linear()).angle() > kFarTurn;
+  if (!found.refusal.empty() || !is_far || found.best.share < found.before.share + kBetter)
+    return {};
+  return fmt::format(
+      "it fits better after {}: {:.0f} % of its surfaces then lie on the truth's, {:.0f} % now; "
+      "--align scores it there",
+      motion_text(motion), 100 * found.best.share, 100 * found.before.share);
+}
+
+}  // namespace
+
+std::string motion_text(const Pose& motion) {
+  const Eigen::Matrix3d& R = motion.linear();
+  const double degrees = 180.0 / std::numbers::pi;
+  return fmt::format(
+      "a shift of {:.3f} {:.3f} {:.3f} m and a turn of yaw {:.2f}, pitch {:.2f}, roll {:.2f} deg",
+      motion.translation().x(), motion.translation().y(), motion.translation().z(),
+      degrees * std::atan2(R(1, 0), R(0, 0)), degrees * std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
+      degrees * std::atan2(R(2, 1), R(2, 2)));
+}
+
+std::string frame_note(const std::string& name, const InputMap& map, const SurfaceTruth& surface,
+                       const TruthSource& source, int jobs) {
+  const Places places = places_of(map, surface, source.table());
+  if (places.p_map.empty() || !places.odd()) return {};
+  Eigen::AlignedBox3d truth;
+  for (const SurfaceVoxel& row : surface.voxels())
+    truth.extend(centre_of(row.key, surface.edge_m()));
+  std::string trouble;
+  if (!truth.isEmpty()) {
+    std::vector<Vector3d> p_file;
+    for (const Vector3d& p : places.p_map) p_file.push_back(map.T_map_file.inverse() * p);
+    trouble = unit_trouble(places.bounds, truth);
+    if (trouble.empty())
+      trouble = axes_trouble(p_file, map.T_map_file, surface, places.surfaces.value());
+    if (trouble.empty()) trouble = motion_trouble(places.p_map, source, jobs);
+  }
+  if (places.surfaces.value() < SurfaceShare::kLeast)
+    throw Error(fmt::format(
+        "{}: only {} of {} occupied voxels lie on or beside a surface, so the map seems to lie in "
+        "another frame (map {}; truth {}); {}, or score it as it is with --trust_frame",
+        name, places.surfaces.near, places.surfaces.all, span_of(places.bounds),
+        truth.isEmpty() ? "empty" : span_of(truth),
+        trouble.empty() ? "give --transform, --origin_m or --yaw_deg, or try --align" : trouble));
+  if (!trouble.empty()) return "the map seems to lie in another frame: " + trouble;
+  if (places.surfaces.value() < kDoubtfulShare)
+    return fmt::format(
+        "only {:.0f} % of the map's occupied voxels lie on or beside a surface; is it in the frame "
+        "that --transform, --origin_m and --yaw_deg say?",
+        100.0 * places.surfaces.value());
+  return {};
+}
+
+}  // namespace mapscore::eval

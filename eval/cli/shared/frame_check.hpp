@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/pose.hpp"
+#include "eval/cli/shared/map_score.hpp"
+#include "eval/cli/shared/truth_source.hpp"
+#include "eval/truth/surface_truth.hpp"
+
+#include <string>
+
+namespace mapscore::eval {
+
+/// A motion in words: its shift in metres, its yaw, pitch and roll in degrees
+/// (R = Rz(yaw) Ry(pitch) Rx(roll)).
+[[nodiscard]] std::string motion_text(const Pose& motion);
+
+/// Whether a map lies where its truth does, in words for a note; empty where nothing is odd. Odd
+/// are: fewer than one in four of its occupied voxels on or beside a surface, fewer than one in
+/// four of its detected classes' voxels on or beside a surface of their class, fewer than half of
+/// those within upright surfaces (an occupied voxel above and below) on or beside a surface. Then
+/// it says what is wrong, where that can be told: the unit, the axes, or a motion that explains the
+/// map better. Throws Error, with the bounds of both and the same, when fewer than one in a hundred
+/// lie on or beside a surface.
+[[nodiscard]] std::string frame_note(const std::string& name, const InputMap& map,
+                                     const SurfaceTruth& surface, const TruthSource& source,
+                                     int jobs);
+
+}  // namespace mapscore::eval
