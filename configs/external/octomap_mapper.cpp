@@ -44,7 +44,9 @@ octomap::Pointcloud cloud_of(const Sight& sight, const Pose& T_map_depth) {
 void add_frame(const eval::TrialFolder& trial, int n, octomap::OcTree& tree, Votes& votes) {
   const Sight sight = trial.sight(n);
   const Pose T_map_depth = mean_sensor_pose(trial.frame(n).belief, sight.believed());
-  tree.insertPointCloud(cloud_of(sight, T_map_depth), point_of(T_map_depth.translation()));
+  constexpr bool kLazy = false, kOneRayAVoxel = true;  // the second: a tenth of the time
+  tree.insertPointCloud(cloud_of(sight, T_map_depth), point_of(T_map_depth.translation()), -1.0,
+                        kLazy, kOneRayAVoxel);
   for (const Detection& one : sight.detections())
     for (const Eigen::Vector3d& p : points_behind(one.mask, one.box, sight.cloud()))
       ++votes[voxel_of(T_map_depth * p, trial.sheet().voxel_m)][one.class_id];
