@@ -61,6 +61,18 @@ std::vector<std::pair<std::string, std::string>> doses_asked(const Study& study,
   return doses;
 }
 
+/// The study, of one of its scenes where it has several; `cell` loses the one that names it.
+Study study_of(const TrialFlags& flags, std::vector<std::string>& cell) {
+  const Study study = load_study(flags.file, flags.overrides);
+  const std::string prefix = std::string(kSceneAxis) + '=';
+  const auto scene =
+      std::ranges::find_if(cell, [&](const std::string& text) { return text.starts_with(prefix); });
+  if (study.scenes.empty() || scene == cell.end()) return study_of_only_scene(study);
+  const std::string name = scene->substr(prefix.size());
+  cell.erase(scene);
+  return with_scene(study, name);
+}
+
 /// The first trial of the sweep that the flags leave.
 TrialSpec spec_of(const Study& study, const TrialFlags& flags) {
   if (flags.seed < 0 || flags.seed >= study.seeds)
@@ -82,8 +94,9 @@ TrialSpec spec_of(const Study& study, const TrialFlags& flags) {
 }
 
 void write(const TrialFlags& flags) {
-  const Study study = load_study(flags.file, flags.overrides);
-  const TrialSpec spec = spec_of(study, flags);
+  TrialFlags chosen = flags;
+  const Study study = study_of(flags, chosen.cell);
+  const TrialSpec spec = spec_of(study, chosen);
   WholeFolder whole(flags.output);
   const std::filesystem::path results =
       flags.results.empty() ? "results/" + study.name : flags.results;

@@ -118,13 +118,23 @@ std::optional<TrialResult> CommandTrials::run(const Task& task, std::optional<Tr
   return result;
 }
 
+void CommandTrials::count_labels(TrialRun& trial) {
+  for (int index = 0; index < bench_.recording().frame_count(); ++index) {
+    const auto frame = bench_.frame(index, trial.depth_of(index));
+    trial.count_labels(*frame, trial.sights()->of(*frame));
+  }
+}
+
 std::optional<TrialResult> CommandTrials::run_in(Place& place, const Task& task,
                                                  std::optional<TrialCost>& cost) {
   const CommandMethod& method = *task.config.methods.front().command;
   const std::vector<std::string> words = command_words(task.config);
   const std::unique_ptr<TrialRun> trial = bench_.start(task);
   const fs::path work = place.folder / "work", given = work / "trial", map = work / method.map;
-  if (!place.images) place.images.emplace(bench_.recording(), place.folder / "images");
+  if (!place.images) {
+    remove_tree(place.folder / "images");  // what a full disk left of it
+    place.images.emplace(bench_.recording(), place.folder / "images");
+  }
   remove_tree(work);
   make_folder(given);
   write_trial({task, bench_.recording(), *trial->sights(), trial->beliefs(), place.images->folder(),
@@ -138,11 +148,11 @@ std::optional<TrialResult> CommandTrials::run_in(Place& place, const Task& task,
   try {
     if (const auto changed = place.images->changed()) {
       place.images.reset();
-      remove_tree(place.folder / "images");
       throw Error(fmt::format("the command changed its input {}", *changed));
     }
     if (outcome.timed_out || outcome.exit_code != 0)
       throw Error(how_it_ended(outcome, method.timeout_s));
+    if (task.config.score.asked.labels) count_labels(*trial);
     return trial->judge(
         read_command_map(map, bench_.table(), task.config.voxel_m, trial->truth().surface));
   } catch (const std::bad_alloc&) {

@@ -43,6 +43,8 @@ class CommandTrials {
   };
   [[nodiscard]] std::unique_ptr<Place> take_place();
   void give_back(std::unique_ptr<Place> place);
+  /// What the detections say in their images, which no command changes.
+  void count_labels(TrialRun& trial);
   [[nodiscard]] std::optional<TrialResult> run_in(Place& place, const Task& task,
                                                   std::optional<TrialCost>& cost);
 

@@ -77,6 +77,11 @@ void TrialRun::advance(const Frame& frame, const Sight& sight) {
     frames_.push_back({frame.index, frame.stamp_s, std::move(counts), mapper_.times()});
 }
 
+void TrialRun::count_labels(const Frame& frame, const Sight& sight) {
+  if (score_options_.asked.labels)
+    score_detections(sight.detections(), frame.label, table_, result_.counts);
+}
+
 TrialResult TrialRun::judge(const MapSnapshot& map) {
   result_.accounting.frames = static_cast<std::int64_t>(beliefs_.size());
   score(map, result_.counts);

@@ -52,6 +52,8 @@ class TrialRun {
 
   /// Scores the map and gives the counts of the whole trial.
   [[nodiscard]] TrialResult finish();
+  /// In place of advance: counts a frame's detections in its image, where the study asks for that.
+  void count_labels(const Frame& frame, const Sight& sight);
   /// In place of advance and finish: scores a map of all frames that was made elsewhere, by a
   /// command.
   [[nodiscard]] TrialResult judge(const MapSnapshot& map);

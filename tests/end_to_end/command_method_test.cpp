@@ -66,7 +66,7 @@ bool is_of_map(const std::string& line) {
 }
 
 TEST_F(CommandSweep, NumpysDirectIsOursVoxelByVoxel) {
-  write_methods(numpy());
+  write_methods(numpy(), "score: {labels: true, instances: true}\n");
   expect_done(sweep({"-j", "2"}));
   std::vector<std::string> ours = scores_of("direct"), theirs = scores_of("numpy");
   std::erase_if(ours, std::not_fn(is_of_map));
@@ -122,8 +122,7 @@ TEST_F(CommandSweep, ResumesShardsAndMergesToTheSameResults) {
 }
 
 TEST_F(CommandSweep, FailedTrialsAreToldAndTriedAgainWhenAsked) {
-  write_methods(shell("broken", "echo oh no; exit 3") +
-                shell("silent", "true"));
+  write_methods(shell("broken", "echo oh no; exit 3") + shell("silent", "true"));
   const Outcome first = sweep();
   EXPECT_EQ(first.exit_code, 1);
   EXPECT_THAT(first.err, HasSubstr("8 trials failed"));

@@ -52,6 +52,19 @@ class TinyScenes : public TinyStudy {
   }
 };
 
+TEST_F(TinyScenes, ATrialsFolderIsOfOneOfThem) {
+  const auto trial = [&](const std::vector<std::string>& cell) {
+    std::vector<std::string> arguments{"trial", path("two.yaml"), "-o", path("trial"), "-q"};
+    arguments.insert(arguments.end(), cell.begin(), cell.end());
+    return mapscore(arguments);
+  };
+  expect_refused(trial({}), {"boxed", "flat"});
+  expect_refused(trial({"--cell", "scene=other"}), {"other"});
+  EXPECT_FALSE(std::filesystem::exists(path("trial")));
+  expect_done(trial({"--cell", "scene=flat", "--cell", "magnitude_m=0.03"}));
+  expect_done(mapscore({"map", path("trial"), "-o", path("map.ot"), "-q"}));
+}
+
 TEST_F(TinyScenes, ScoresAreThoseOfEachByItself) {
   expect_done(mapscore({"sweep", path("two.yaml"), "-o", results(), "-q"}));
   const std::string both = tidy(results());

@@ -168,6 +168,24 @@ TEST_F(FaultyTrial, TakesSegmentationAndRefinementFromMethodYaml) {
   }
 }
 
+TEST_F(FaultyTrial, OfANetworksLabelImagesIsMappedToo) {
+  make_folder(path("labels"));
+  for (int index = 0; index < recording().frame_count(); ++index) {
+    cv::Mat1w image = cv::Mat1w::zeros(recording().read(index).label.size());
+    image.setTo(56, recording().read(index).label == 1);
+    image(cv::Rect(index, 2, 9, 7)).setTo(56);  // another piece
+    write_file(path("labels") / fs::path(recording().color_path(index)).filename(),
+               encode_png(image));
+  }
+  write_file(path("classes.yaml"), "classes: [{name: crate, label: 56}]\n");
+  for (const char* more : {"", "faults: {labels: {scores: 1}, pose: {sigma_xy_m: 0.02}}\n",
+                           "faults: {labels: {boundary_px: 1}, depth: {axial: 2}}\n"}) {
+    const Task of = task("perception: {images: {folder: " + path("labels").string() +
+                         ", classes: " + path("classes.yaml").string() + "}}\n" + more);
+    EXPECT_EQ(map_of(written(of)), map_of(of)) << more;
+  }
+}
+
 TEST_F(FaultyTrial, HoldsNothingOfTheTruth) {
   const fs::path folder =
       written(task("faults: {labels: {confusion: 1, miss: 0.2}, pose: {sigma_xy_m: 0.1}}\n"));
