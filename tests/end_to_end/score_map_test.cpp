@@ -245,6 +245,25 @@ TEST_F(ScoreMap, SeveralMapsStandInOneTable) {
   expect_refused(rows({path("bare.csv")}), {"bare.csv", "no labels", "--geometry"});
 }
 
+TEST_F(ScoreMap, AMapInAnotherUnitIsNamedForWhatItIs) {
+  std::string metres = "x,y,z,class\n", millimetres = metres;
+  const auto points = seen().front();
+  for (const SeenPoint& point : points) {
+    const Eigen::Vector3d p = point.p_world;
+    const char* name = point.class_id == 1 ? "crate" : "wall";
+    metres += fmt::format("{},{},{},{}\n", p.x(), p.y(), p.z(), name);
+    millimetres += fmt::format("{},{},{},{}\n", 1e3 * p.x(), 1e3 * p.y(), 1e3 * p.z(), name);
+  }
+  write_text(path("metres.csv"), metres);
+  write_text(path("millimetres.csv"), millimetres);
+  expect_refused(score("millimetres.csv"), {"millimetres.csv", "--scale 0.001", "--trust_frame"});
+  EXPECT_EQ(figure("millimetres.csv", "crate,f1", {"--scale", "0.001"}),
+            figure("metres.csv", "crate,f1"));
+  write_text(path("voxels.csv"), "1,1,1,crate\n");
+  expect_refused(score("voxels.csv", {"--scale", "0.001"}), {"voxels.csv", "--scale"});
+  expect_refused(score("voxels.csv", {"--align"}), {"voxels.csv", "--align", "too few"});
+}
+
 TEST_F(ScoreMap, LabelImagesAgainstThemselves) {
   expect_refused(mapscore({"score", path("tiny/label"), "--truth", path("tiny")}),
                  {"tiny/label", "ids of instances"});
