@@ -27,7 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kNoLight =
-    "no light shines: colour images will be black; pictures by class have a light of their own";
+    "no light shines: a head light at the camera will light the images; add a <light> to the scene "
+    "to light it otherwise";
 
 std::vector<int> instances_by_class(const ClassTable& table) {
   std::vector<int> counts(table.classes.size(), 0);

@@ -204,7 +204,6 @@ void record_study(const Study& study, const fs::path& folder, int jobs,
                   const RecordingProgress& progress, const fs::path& trajectory, bool bake) {
   if (!study.scene) throw Error("scene: nothing to record; name an MJCF file");
   const sim::World world = world_of(study);
-  note_light(study, world, progress);
   StudyDrive drive;
   if (trajectory.empty())
     drive = drive_of(study, world, progress.waypoints);
@@ -213,6 +212,7 @@ void record_study(const Study& study, const fs::path& folder, int jobs,
   std::optional<BakedFrames> baked;
   if (bake) baked.emplace(study, world.classes(), world.calibration().depth);
   record_world(study, world, drive, folder, jobs, progress.images, baked ? &*baked : nullptr);
+  note_light(study, world, progress);
 }
 
 Recording recording_of(const Study& study, const fs::path& results, int jobs,
@@ -223,9 +223,9 @@ Recording recording_of(const Study& study, const fs::path& results, int jobs,
   const fs::path folder = rendered_folder(study, world, results);
   const FolderLock lock(folder.parent_path());  // of several shards one records, the others wait
   if (!fs::exists(folder)) {
-    note_light(study, world, progress);
     record_world(study, world, drive_of(study, world, progress.waypoints), folder, jobs,
                  progress.images);
+    note_light(study, world, progress);
   }
   return opened(study, folder);
 }

@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"swept_recording",
                 "faults.misregistration.magnitude_m: [0, 0.03]",
                 "cameras.width_px: [64, 128]",
-                {"cameras.width_px", "one study for each"}},
+                {"cameras.width_px", "a name under `scenes`"}},
         BadLine{"broken_yaml", "seeds: 2", "seeds: [2", {"study.yaml:", "YAML"}},
         BadLine{"empty_trajectory",
                 "recording: tiny",

@@ -58,7 +58,7 @@ TEST_F(TinyScenes, ATrialsFolderIsOfOneOfThem) {
     arguments.insert(arguments.end(), cell.begin(), cell.end());
     return mapscore(arguments);
   };
-  expect_refused(trial({}), {"boxed", "flat"});
+  expect_refused(trial({}), {"--set sweep.scene=[boxed]"});
   expect_refused(trial({"--cell", "scene=other"}), {"other"});
   EXPECT_FALSE(std::filesystem::exists(path("trial")));
   expect_done(trial({"--cell", "scene=flat", "--cell", "magnitude_m=0.03"}));
