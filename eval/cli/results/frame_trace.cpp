@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/cli/shared/trial_maps.hpp"
-#include "eval/lab/command_words.hpp"
+#include "eval/lab/commands/command_words.hpp"
 #include "eval/report/pictures/caption.hpp"
 #include "eval/report/pictures/contact_sheet.hpp"
 #include "eval/results/study_store.hpp"

@@ -4,7 +4,7 @@
 #include "eval/cli/shared/trial_maps.hpp"
 
 #include "core/error.hpp"
-#include "eval/lab/command_words.hpp"
+#include "eval/lab/commands/command_words.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/lab/command_map.hpp"
+#include "eval/lab/commands/command_map.hpp"
 
 #include "core/error.hpp"
 #include "eval/map_files/lattice_map.hpp"

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/lab/command_trials.hpp"
+#include "eval/lab/commands/command_trials.hpp"
 
 #include "core/error.hpp"
-#include "eval/lab/command_map.hpp"
-#include "eval/lab/command_words.hpp"
+#include "eval/lab/commands/command_map.hpp"
+#include "eval/lab/commands/command_words.hpp"
 #include "eval/lab/trial_writer.hpp"
 #include "files/command.hpp"
 #include "files/file_bytes.hpp"
@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 #include <string>
@@ -41,6 +43,15 @@ void remove_leftovers(const fs::path& folder) {
     if (const FolderLock lock(entry.path(), WhenTaken::go_on); !lock.taken())
       remove_tree(entry.path());
   }
+}
+
+/// A folder of this sweep alone.
+fs::path new_scratch() {
+  std::string folder = fs::temp_directory_path() / fmt::format("{}XXXXXX", kScratchName);
+  if (mkdtemp(folder.data()) == nullptr)
+    throw Error(fmt::format("{}: cannot be made ({}); set TMPDIR to a folder that can be written",
+                            folder, std::strerror(errno)));
+  return folder;
 }
 
 /// "; its log ends: 'LINES'", of at most so many bytes and lines.
@@ -75,15 +86,12 @@ std::string how_it_ended(const CommandOutcome& outcome, double timeout_s) {
 }  // namespace
 
 CommandTrials::CommandTrials(Bench& bench, std::function<bool()> stop)
-    : bench_(bench),
-      stop_(std::move(stop)),
-      scratch_(fs::temp_directory_path() / fmt::format("{}{}", kScratchName, getpid())) {
-  remove_leftovers(scratch_.parent_path());
-  hold_.emplace(scratch_, WhenTaken::go_on);
-  if (hold_->taken())
-    throw Error(scratch_.string() + ": another process holds it; set TMPDIR to another folder");
-  make_folder(scratch_);
-  fs::permissions(scratch_, fs::perms::owner_all);
+    : bench_(bench), stop_(std::move(stop)) {
+  remove_leftovers(fs::temp_directory_path());
+  do {  // again where another sweep has just taken it for a leftover
+    scratch_ = new_scratch();
+    hold_.emplace(scratch_, WhenTaken::go_on);
+  } while (hold_->taken());
 }
 
 CommandTrials::~CommandTrials() {

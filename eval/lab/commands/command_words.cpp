@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/lab/command_words.hpp"
+#include "eval/lab/commands/command_words.hpp"
 
 #include "core/error.hpp"
 #include "eval/map_files/map_file.hpp"

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "eval/lab/bench.hpp"
-#include "eval/lab/image_copy.hpp"
+#include "eval/lab/commands/image_copy.hpp"
 #include "eval/results/task_list.hpp"
 #include "files/folder_lock.hpp"
 #include "files/supervisor.hpp"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/lab/image_copy.hpp"
+#include "eval/lab/commands/image_copy.hpp"
 
 #include "files/file_bytes.hpp"
 
