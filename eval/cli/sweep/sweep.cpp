@@ -232,11 +232,13 @@ std::vector<SweptScene> scenes_of(const Study& study, const std::filesystem::pat
 
 StudyRecord recorded(const Study& study, const std::vector<SweptScene>& scenes,
                      const std::filesystem::path& results) {
+  // Absolute, since of a relative folder that is not there yet nothing is relative to it.
+  const std::filesystem::path store = std::filesystem::absolute(results);
   std::vector<std::pair<SceneRecord, ClassTable>> records;
   for (const SweptScene& scene : scenes)
     records.push_back({{scene.name,
                         scene.recording.content_hash(),
-                        std::filesystem::relative(scene.recording.folder(), results).string(),
+                        std::filesystem::relative(scene.recording.folder(), store).string(),
                         {}},
                        scene.table});
   return record_of(study, records);
