@@ -246,14 +246,17 @@ void add_score(CLI::App& program) {
   verb->add_option("--threshold", flags->threshold,
                    "Least probability of a predicted voxel [0.25; 0 for geometry]")
       ->check(finite_within(0.0, 1.0));
-  add_list(*verb, "--detect", flags->detect,
-           "Classes of pooled, macro, pictures and errors, by commas, or all [the truth's]");
+  add_list(
+      *verb, "--detect", flags->detect,
+      "Classes of pooled, macro, pictures and errors, by commas, or all [the truth's; of label "
+      "images: all]");
   verb->add_flag("--details", flags->details,
                  "And distances, probabilities, instances, confusion, free space");
   verb->add_flag("--tidy", flags->tidy, "Everything as one table: class,metric,value");
   add_format_flag(*verb, flags->format);
   verb->add_option("--picture", flags->picture,
-                   "PNG: true, near, leak, floating and missed voxels in the scene");
+                   "PNG: true, near, leak, floating and missed voxels in the scene; of label "
+                   "images: the worst frames, with the truth and the errors");
   flags->view.add_to(*verb);
   verb->add_option("--errors_ply", flags->errors_ply, "The same as a coloured point cloud");
   flags->lattice.add_to(*verb);

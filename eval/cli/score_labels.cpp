@@ -3,11 +3,16 @@
 
 #include "core/error.hpp"
 #include "eval/cli/score_flags.hpp"
+#include "eval/report/pictures/caption.hpp"
+#include "eval/report/pictures/label_errors.hpp"
 #include "eval/score/label_images.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 namespace mapscore::eval {
@@ -28,11 +33,9 @@ void check_label_flags(const ScoreFlags& flags) {
   const LatticeFlags none;
   const LatticeFlags& lattice = flags.lattice;
   const std::pair<bool, const char*> idle[] = {
-      {!flags.picture.empty(), "--picture"},
       {!flags.errors_ply.empty(), "--errors_ply"},
       {flags.view.view().has_value(), "--view"},
       {flags.threshold.has_value(), "--threshold"},
-      {!flags.detect.empty(), "--detect"},
       {!flags.map.transform.empty(), "--transform"},
       {flags.align, "--align"},
       {flags.map.scale != 1.0, "--scale"},
@@ -52,6 +55,21 @@ void check_label_flags(const ScoreFlags& flags) {
                       flag, flags.map.file));
 }
 
+/// The frames with most wrong pixels, in their order; frames without any are left out, unless no
+/// frame has one.
+std::vector<int> worst(const std::vector<int>& frames, const std::vector<std::int64_t>& wrong_px) {
+  constexpr std::size_t kMost = 4;
+  std::vector<std::size_t> order(frames.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t n) { return wrong_px[n]; });
+  order.resize(std::min(kMost, order.size()));
+  while (order.size() > 1 && wrong_px[order.back()] == 0) order.pop_back();
+  std::vector<int> found;
+  for (const std::size_t n : order) found.push_back(frames[n]);
+  std::ranges::sort(found);
+  return found;
+}
+
 }  // namespace
 
 std::vector<Table> score_label_images(const ScoreFlags& flags, TruthSource& source) {
@@ -63,14 +81,22 @@ std::vector<Table> score_label_images(const ScoreFlags& flags, TruthSource& sour
   if (std::filesystem::equivalent(flags.map.file, source.recording()->folder() / "label", none))
     throw Error(flags.map.file +
                 ": holds ids of instances, the truth; label images to score hold ids of classes");
-  const ConfusionMatrix matrix =
-      label_folder_confusion(*source.recording(), flags.map.file, source.frames(),
-                             legend_of(flags, source.table()), flags.work.jobs);
-  if (flags.tidy) return {tidy_label_table(matrix, source.table())};
-  std::vector<Table> tables = label_tables(matrix, source.table());
-  tables.front().caption.insert(tables.front().caption.begin(),
-                                fmt::format("{} against the label images of {}, {} frames",
-                                            flags.map.file, flags.truth, source.frames().size()));
+  const LabelFolder all{*source.recording(), flags.map.file, source.table(),
+                        legend_of(flags, source.table())};
+  const LabelFolder labels = flags.detect.empty() ? all : with_undetected_as_background(all);
+  const std::vector<int> frames = source.frames();
+  const LabelFolderScore score = score_label_folder(labels, frames, flags.work.jobs);
+  if (!flags.picture.empty()) {
+    const auto together = lock_outputs({flags.picture});
+    write_picture(flags.picture, label_errors(labels, worst(frames, score.wrong_px)));
+  }
+  if (flags.tidy) return {tidy_label_table(score.pixels, source.table())};
+  std::vector<Table> tables = label_tables(score.pixels, source.table());
+  std::vector<std::string>& caption = tables.front().caption;
+  caption.insert(caption.begin(), fmt::format("{} against the label images of {}, {} frames",
+                                              flags.map.file, flags.truth, frames.size()));
+  if (!flags.detect.empty())
+    caption.push_back("classes that --detect does not name are background, on both sides");
   if (!flags.details) tables.resize(1);
   return tables;
 }

@@ -53,15 +53,13 @@ void check_paired(const StudySummary& before, const StudySummary& after, bool an
                             before.study.seed, after.study.seed));
 }
 
-const ResultLine& line_of(const StudySummary& summary, const Cell& cell,
+/// The trials of a method at a cell; none where all of them failed.
+const ResultLine* line_of(const StudySummary& summary, const Cell& cell,
                           const std::string& method) {
   const auto line = std::ranges::find_if(summary.trials, [&](const ResultLine& of) {
     return of.cell.index == cell.index && of.method == method;
   });
-  if (line == summary.trials.end())
-    throw Error(fmt::format("compare: method '{}' has no trials at cell {}; sweep the study again",
-                            method, cell.index));
-  return *line;
+  return line == summary.trials.end() ? nullptr : &*line;
 }
 
 /// Whether all seeds, two and more, have the very same two values: nothing was drawn that this
@@ -110,11 +108,15 @@ std::vector<ComparisonRow> compare_methods(const StudySummary& summary,
   const ClassTable& table = summary.table;
   std::vector<ComparisonRow> rows;
   for (const Cell& cell : cells(summary.study)) {
-    const ResultLine& a = line_of(summary, cell, question.a);
-    const ResultLine& b = line_of(summary, cell, question.b);
+    const ResultLine* const a = line_of(summary, cell, question.a);
+    const ResultLine* const b = line_of(summary, cell, question.b);
     for (const std::string& metric : question.metrics)
-      rows.push_back(
-          {"", cell, metric, compare_lines(a, table, b, table, question.group, metric), {}});
+      rows.push_back({"",
+                      cell,
+                      metric,
+                      a && b ? compare_lines(*a, table, *b, table, question.group, metric)
+                             : PairedComparison{},
+                      {}});
   }
   adjust(rows);
   return rows;

@@ -48,6 +48,7 @@ std::vector<std::string> caption_of(const StudySummary& summary, const Compariso
           "; paired seed by seed; figures: means of one value a seed (`mapscore table` pools "
           "counts)",
       spread_note(study.seeds)};
+  if (!summary.interim.empty()) caption.insert(caption.begin(), summary.interim);
   if (rows == 0) {
     caption.emplace_back("p: none; no row has seeds that differ");
     return caption;
@@ -160,6 +161,7 @@ Table before_after_table(const StudySummary& before, const StudySummary& after,
   asked.b = "before";
   const std::vector<ComparisonRow> rows = compare_results(before, after, asked);
   Table table = table_of_rows(rows, after, asked, reader);
+  if (!before.interim.empty()) table.caption.push_back("before: " + before.interim);
   table.caption.push_back(
       fmt::format("build {} -> {}", *before.builds.begin(), *after.builds.begin()));
   const bool same_recording = before.recording_hash == after.recording_hash;

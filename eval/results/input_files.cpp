@@ -74,10 +74,16 @@ std::string InputFiles::poses(const Study& config) {
 }
 
 std::vector<std::string> InputFiles::depends(const Study& config) {
+  const auto& command = config.methods.front().command;
+  if (!command) return {};
+  std::vector<std::filesystem::path> files;
+  for (const std::string& word : command->command)
+    if (const auto file = file_beside(config, word)) files.push_back(*file);
+  for (const std::string& file : command->depends)
+    files.push_back(std::filesystem::absolute(resolve_path(config, file)));
   std::vector<std::string> hashes;
-  if (const auto& command = config.methods.front().command)
-    for (const std::string& file : command->depends)
-      hashes.push_back(of(resolve_path(config, file), read_file));
+  for (auto file = files.begin(); file != files.end(); ++file)
+    if (std::find(files.begin(), file, *file) == file) hashes.push_back(of(*file, read_file));
   return hashes;
 }
 

@@ -27,8 +27,8 @@ class InputFiles {
   /// Throws Error when the file is refused.
   std::string poses(const Study& config);
 
-  /// Hashes of the files that the command of a configuration's method depends on. Throws Error when
-  /// one is missing.
+  /// Hashes of the files that the command of a configuration's method names, in its words
+  /// (file_beside) or as what it depends on. Throws Error when one of the latter is missing.
   std::vector<std::string> depends(const Study& config);
 
  private:

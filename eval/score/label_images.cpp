@@ -14,6 +14,7 @@
 #include <exception>
 #include <mutex>
 #include <unordered_map>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -36,15 +37,22 @@ cv::Mat1w read_labels(const fs::path& file, const CameraModel& camera) {
   return decode_id_png(read_file(file), {camera.width_px, camera.height_px}, file.string());
 }
 
-/// One frame's labelled image, named in `color` as the frame's colour image, against its truth.
-ConfusionMatrix frame_confusion(const Recording& recording, int frame, const fs::path& folder,
-                                const std::vector<StampedImage>& color, const LabelLegend& legend) {
+/// Where a frame's labelled image lies: it is named as the frame's colour image.
+fs::path file_of(const LabelFolder& labels, const StampedImage& color) {
+  return labels.folder / fs::path(color.path).filename();
+}
+
+std::vector<StampedImage> color_images(const Recording& recording) {
+  return read_stamp_list(recording.folder() / "color.txt");
+}
+
+ConfusionMatrix frame_confusion(const LabelFolder& labels, int frame,
+                                const std::vector<StampedImage>& color) {
   constexpr Channels kLabel{.color = false, .label = true, .depth = false, .depth_label = false};
-  const RecordingInfo& info = recording.info();
-  const cv::Mat1w truth = recording.read(frame, kLabel).label;  // throws when there is no frame
-  const fs::path file = folder / fs::path(color[static_cast<std::size_t>(frame)].path).filename();
-  const cv::Mat1w labels = read_labels(file, info.calibration.color);
-  return label_confusion(truth, labels, info.table, legend, file.string());
+  const cv::Mat1w truth = labels.recording.read(frame, kLabel).label;  // throws without a frame
+  const fs::path file = file_of(labels, color[static_cast<std::size_t>(frame)]);
+  const cv::Mat1w image = read_labels(file, labels.recording.info().calibration.color);
+  return label_confusion(truth, image, labels.table, labels.legend, file.string());
 }
 
 }  // namespace
@@ -85,25 +93,38 @@ ConfusionMatrix label_confusion(const cv::Mat1w& instances, const cv::Mat1w& lab
   return matrix;
 }
 
-ConfusionMatrix label_folder_confusion(const Recording& recording, const fs::path& folder,
-                                       std::span<const int> frames, const LabelLegend& legend,
-                                       int jobs) {
-  if (!fs::is_directory(folder)) {
-    throw Error(
-        fmt::format("{}: no such folder; give the folder of the labelled images", folder.string()));
+LabelFolder with_undetected_as_background(LabelFolder labels) {
+  std::vector<bool> detected;
+  for (const SemanticClass& c : labels.table.classes) detected.push_back(c.detect);
+  for (Instance& instance : labels.table.instances)
+    if (!detected[instance.class_id]) instance.class_id = kBackground;
+  labels.legend = [detected, legend = std::move(labels.legend)](std::uint16_t id) {
+    const std::optional<ClassId> labelled = legend(id);
+    const bool is_idle = labelled && *labelled < detected.size() && !detected[*labelled];
+    return is_idle ? std::optional(kBackground) : labelled;
+  };
+  return labels;
+}
+
+LabelFolderScore score_label_folder(const LabelFolder& labels, std::span<const int> frames,
+                                    int jobs) {
+  if (!fs::is_directory(labels.folder)) {
+    throw Error(fmt::format("{}: no such folder; give the folder of the labelled images",
+                            labels.folder.string()));
   }
-  const std::vector<StampedImage> color = read_stamp_list(recording.folder() / "color.txt");
-  ConfusionMatrix total(recording.info().table.classes.size());
+  const std::vector<StampedImage> color = color_images(labels.recording);
+  LabelFolderScore score{ConfusionMatrix(labels.table.classes.size()),
+                         std::vector<std::int64_t>(frames.size())};
   std::mutex pooling;
   std::vector<std::exception_ptr> errors(frames.size());
   Runs places(frames.size(), 1);
   run_jobs(jobs, [&](int) {
     for (Runs::Run place; places.next(place);) {
       try {
-        const ConfusionMatrix one =
-            frame_confusion(recording, frames[place.first], folder, color, legend);
+        const ConfusionMatrix one = frame_confusion(labels, frames[place.first], color);
+        score.wrong_px[place.first] = one.total() - one.trace();
         const std::scoped_lock lock(pooling);
-        total += one;
+        score.pixels += one;
       } catch (...) {  // frames before this one are all in work, so the first error is found
         errors[place.first] = std::current_exception();
         return;
@@ -112,7 +133,12 @@ ConfusionMatrix label_folder_confusion(const Recording& recording, const fs::pat
   });
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
-  return total;
+  return score;
+}
+
+cv::Mat1w read_label_image(const LabelFolder& labels, int frame) {
+  const StampedImage color = color_images(labels.recording).at(static_cast<std::size_t>(frame));
+  return read_labels(file_of(labels, color), labels.recording.info().calibration.color);
 }
 
 std::vector<Metric> label_metrics(const ConfusionMatrix& matrix) {

@@ -35,14 +35,34 @@ using LabelLegend = std::function<std::optional<ClassId>(std::uint16_t)>;
                                               const ClassTable& table, const LabelLegend& legend,
                                               const std::string& name);
 
-/// The labelled images of `folder`, named as the recording's label images (`000000.png`), against
-/// the recording's; of the frames `frames` only, pooled. Ids in 1- to 16-bit grey or palette PNGs
-/// (png.hpp). Works on `jobs` threads, on which the result does not depend. Throws Error naming the
-/// file that is missing, damaged, of another size, in colour, or that holds an id without a class.
-[[nodiscard]] ConfusionMatrix label_folder_confusion(const Recording& recording,
-                                                     const std::filesystem::path& folder,
-                                                     std::span<const int> frames,
-                                                     const LabelLegend& legend, int jobs);
+/// A folder of labelled images, and how they are compared with a recording's label images.
+struct LabelFolder {
+  const Recording& recording;
+  /// Holds an image for each of the recording's colour images, under the same name: ids in 1- to
+  /// 16-bit grey or palette PNGs (png.hpp).
+  std::filesystem::path folder;
+  ClassTable table;    ///< of the truth
+  LabelLegend legend;  ///< of the labels
+};
+
+/// Reads classes that the table does not detect as background, in the truth and in the labels.
+[[nodiscard]] LabelFolder with_undetected_as_background(LabelFolder labels);
+
+/// Pixels of a folder's images: row true class, column labelled class.
+struct LabelFolderScore {
+  ConfusionMatrix pixels;              ///< pooled over the frames
+  std::vector<std::int64_t> wrong_px;  ///< of each frame, in the order asked for
+};
+
+/// Compares the images of the frames `frames` with the truth. Works on `jobs` threads, on which the
+/// result does not depend. Throws Error naming the file that is missing, damaged, of another size,
+/// in colour, or that holds an id without a class.
+[[nodiscard]] LabelFolderScore score_label_folder(const LabelFolder& labels,
+                                                  std::span<const int> frames, int jobs);
+
+/// A frame's labelled image. Throws Error naming the file, as score_label_folder does, but leaves
+/// ids unread.
+[[nodiscard]] cv::Mat1w read_label_image(const LabelFolder& labels, int frame);
 
 /// pa = trace / all; mpa and miou: the means of accuracy and IoU over the classes with pixels in
 /// the truth, background included.

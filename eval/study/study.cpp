@@ -61,6 +61,13 @@ std::filesystem::path resolve_path(const Study& study, const std::string& path) 
   return (study.base_folder / path).lexically_normal();
 }
 
+std::optional<std::filesystem::path> file_beside(const Study& study, const std::string& word) {
+  std::error_code none;
+  const std::filesystem::path file = std::filesystem::absolute(resolve_path(study, word), none);
+  if (none || word.empty() || !std::filesystem::is_regular_file(file, none)) return std::nullopt;
+  return file;
+}
+
 std::filesystem::path robot_path(const Study& study) {
   if (study.robot) return resolve_path(study, *study.robot);
   if (!study.scene) throw Error("robot: neither robot nor scene is given; write robot: PATH");

@@ -260,6 +260,11 @@ void check(const Study& study);
 /// `path` if absolute, otherwise below the study's base folder.
 [[nodiscard]] std::filesystem::path resolve_path(const Study& study, const std::string& path);
 
+/// The absolute path of a word of a command that names a file, which is absolute or lies beside the
+/// study.
+[[nodiscard]] std::optional<std::filesystem::path> file_beside(const Study& study,
+                                                               const std::string& word);
+
 /// Depth frames per second of a study's recording: its own, else where the study doses the time
 /// offset the least multiple of the colour camera's that is 30 or more, so that without an offset
 /// their stamps agree, else those of the colour camera.

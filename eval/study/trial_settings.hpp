@@ -110,7 +110,8 @@ struct CommandMethod {
   std::string map;
   double timeout_s = 600;
   int threads = 1;
-  std::vector<std::string> depends{};  ///< files; in a trial's key the hashes of what they hold
+  /// Files beside those that the command names; in a trial's key the hashes of what all hold.
+  std::vector<std::string> depends{};
 
   static void fields(auto& s, auto&& visit) {
     visit(s.command, Field{.key = "command",
@@ -135,8 +136,8 @@ struct CommandMethod {
     UnlessEmpty depends_unless_empty{s.depends};
     visit(depends_unless_empty,
           Field{.key = "depends",
-                .meaning = "files whose content is part of a trial's key: a changed one makes its "
-                           "trials new",
+                .meaning = "further files whose content is part of a trial's key, as that of files "
+                           "that the command names: a changed one makes its trials new",
                 .swept = false});
   }
   bool operator==(const CommandMethod&) const = default;

@@ -140,6 +140,24 @@ TEST_F(CommandSweep, FailedTrialsAreToldAndTriedAgainWhenAsked) {
   EXPECT_THAT(mapscore({"status", results()}).out, HasSubstr("8 failed"));
 }
 
+TEST_F(CommandSweep, SeedsWhoseCommandFailedAreLeftOutOfComparisons) {
+  write_methods(
+      shell("some", fmt::format("grep -q \"seed_index: 0\" \"$0/trial.yaml\" && "
+                                "{} {} \"$0\" \"$1\"",
+                                MAPSCORE_PYTHON, (kExternal / "numpy_mapper.py").string())) +
+      shell("none", "exit 3"));
+  EXPECT_EQ(sweep({"-q"}).exit_code, 1);
+  const Outcome with_some = mapscore({"compare", results(), "some", "direct"});
+  expect_done(with_some);
+  EXPECT_THAT(with_some.out, HasSubstr("FAILED: 4 failed of none, 2 failed of some"));
+  EXPECT_THAT(with_some.out, HasSubstr("1.0000 by direct and by some, over 1 seeds"));
+  const Outcome with_none = mapscore({"compare", results(), "none", "direct"});
+  expect_done(with_none);
+  EXPECT_THAT(with_none.out, HasSubstr("magnitude_m = 0: undefined"));
+  expect_refused(mapscore({"check", results(), "--baseline", path("b.json"), "--update"}),
+                 {"failed"});
+}
+
 TEST_F(CommandSweep, WhatCannotRunIsRefusedBeforeAnyTrial) {
   const auto refused = [&](const std::string& command, const std::vector<std::string>& parts) {
     write_methods(fmt::format("  mine: {{command: {}, map: voxels.csv}}\n", command));

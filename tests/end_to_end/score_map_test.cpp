@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: MIT
 
 #include "eval/recording/recording.hpp"
+#include "eval/report/colours.hpp"
+#include "files/png.hpp"
 #include "tests/end_to_end/program.hpp"
 #include "tests/end_to_end/tiny_study.hpp"
 
 #include <fmt/format.h>
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include <bit>
 #include <cstring>
@@ -177,13 +180,13 @@ TEST_F(ScoreMap, RefusesWhatDoesNotFit) {
 TEST_F(ScoreMap, FlagsThatWouldDoNothingAreRefused) {
   std::filesystem::copy(path("tiny/label"), path("network"));
   expect_done(mapscore({"truth", path("tiny"), "-o", path("truth.csv")}));
-  for (const std::vector<std::string>& flags :
-       std::vector<std::vector<std::string>>{{"--geometry"},
-                                             {"--threshold", "0.5"},
-                                             {"--transform", "1 0 0 0 0 0 1"},
-                                             {"--detect", "crate"},
-                                             {"--picture", "a.png"},
-                                             {"--min_samples", "2"}})
+  for (const std::vector<std::string>& flags : std::vector<std::vector<std::string>>{
+           {"--geometry"},
+           {"--threshold", "0.5"},
+           {"--transform", "1 0 0 0 0 0 1"},
+           {"--errors_ply", "a.ply"},
+           {"--view", "4", "1", "2", "5", "3", "0.8", "--picture", "a.png"},
+           {"--min_samples", "2"}})
     expect_refused(score("network", flags), {flags.front(), "network", "label images"});
   for (const char* flag : {"--transform", "--legend", "--picture", "--errors_ply"})
     expect_refused(score("truth.csv", {"--resample", flag, ""}), {flag, "empty"});
@@ -272,6 +275,32 @@ TEST_F(ScoreMap, LabelImagesAgainstThemselves) {
   const Outcome outcome = mapscore({"score", path("network"), "--truth", path("tiny"), "--tidy"});
   expect_done(outcome);
   EXPECT_NE(outcome.out.find("all,miou,1\n"), std::string::npos) << outcome.out;
+}
+
+TEST_F(ScoreMap, LabelImagesTakeDetectAndPicture) {
+  const auto recording = eval::Recording::open(folder() / "tiny");
+  std::filesystem::copy(path("tiny/label"), path("network"));
+  // The wall, class 2, goes unseen in frame 2; where it is not detected that is no error.
+  cv::Mat1w labels = recording.read(2).label.clone();
+  labels.setTo(0, labels == 2);
+  write_text(path("network/000002.png"), encode_png(labels));
+  EXPECT_NE(figure("network", "all,pa"), "1");
+  EXPECT_EQ(figure("network", "all,pa", {"--detect", "all"}), figure("network", "all,pa"));
+  EXPECT_EQ(figure("network", "all,pa", {"--detect", "crate"}), "1");
+  expect_refused(score("network", {"--detect", "cup"}), {"detect", "cup"});
+
+  expect_done(score("network", {"--picture", path("errors.png")}));
+  const cv::Mat3b picture = cv::imread(path("errors.png"));
+  // One row, of the one frame that has errors, and four columns.
+  EXPECT_GT(picture.cols, 4 * picture.rows * 3 / 4);
+  const Colour missed = eval::kMissedColour;
+  const cv::Mat3b column = picture.colRange(3 * picture.cols / 4, picture.cols);
+  cv::Mat1b is_missed;
+  cv::inRange(column, cv::Vec3b(missed.b, missed.g, missed.r),
+              cv::Vec3b(missed.b, missed.g, missed.r), is_missed);
+  const double share = double(cv::countNonZero(recording.read(2).label == 2)) / labels.total();
+  EXPECT_NEAR(cv::countNonZero(is_missed) / (480.0 * 360.0), share, 0.1 * share);
+  expect_refused(score("network", {"--picture", path("errors.jpg")}), {"errors.jpg", ".png"});
 }
 
 }  // namespace

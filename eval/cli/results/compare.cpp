@@ -25,7 +25,7 @@ void print_comparison(const CompareFlags& flags) {
   if (of_methods && flags.question.any_recording)
     throw Error("compare: --any_recording is for --before and --after; RESULTS have one recording");
   const auto summary = [&](const std::string& results) {
-    return summarise_store(results, {{flags.question.group}, false});
+    return summarise_store(results, {.groups = {flags.question.group}, .failed_commands = true});
   };
   const Table table = of_results ? before_after_table(summary(flags.before), summary(flags.after),
                                                       flags.question, reader)

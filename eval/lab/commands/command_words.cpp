@@ -13,23 +13,14 @@
 
 #include <algorithm>
 #include <optional>
-#include <system_error>
 
 namespace mapscore::eval {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The absolute path of a word that names a file beside the study.
-std::optional<fs::path> beside(const Study& config, const std::string& word) {
-  std::error_code none;
-  const fs::path file = fs::absolute(resolve_path(config, word), none);
-  if (none || word.empty() || !fs::is_regular_file(file, none)) return std::nullopt;
-  return file;
-}
-
 fs::path program_of(const Study& config, const std::string& name, const std::string& key) {
-  std::optional<fs::path> program = beside(config, name);
+  std::optional<fs::path> program = file_beside(config, name);
   if (!program && name.find('/') == name.npos) program = program_on_path(name);
   if (!program)
     throw Error(fmt::format(
@@ -65,7 +56,7 @@ std::vector<std::string> command_words(const Study& config) {
   std::vector<std::string> words = method.command->command;
   words.front() = program_of(config, words.front(), key + ".command");
   for (std::size_t n = 1; n < words.size(); ++n)
-    if (const auto file = beside(config, words[n])) words[n] = *file;
+    if (const auto file = file_beside(config, words[n])) words[n] = *file;
   return words;
 }
 

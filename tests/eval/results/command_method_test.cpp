@@ -68,6 +68,17 @@ TEST_F(CommandMethodTest, KeyHoldsTheCommandAndWhatItDependsOn) {
   expect_error("gone.py", [&] { (void)key(kPlain + ", depends: [gone.py]"); });
 }
 
+TEST_F(CommandMethodTest, KeyHoldsWhatFilesHoldThatTheCommandNames) {
+  const std::string keys = "command: [python3, my.py, \"{trial}\", \"{map}\"], map: voxels.csv";
+  const std::string missing = key(keys);
+  write_file(file("my.py"), "first");
+  const std::string first = key(keys);
+  EXPECT_NE(first, missing);
+  EXPECT_EQ(key(keys + ", depends: [my.py]"), first);
+  write_file(file("my.py"), "other");
+  EXPECT_NE(key(keys), first);
+}
+
 TEST_F(CommandMethodTest, OtherMethodsKeepTheirKeys) {
   const Study with = study(kPlain);
   Study without = with;

@@ -134,9 +134,12 @@ class LabelFolderTest : public ::testing::Test {
   void write_labels(int frame, const cv::Mat1w& image) const {
     write_file(file(frame), encode_png(image));
   }
+  LabelFolder folder() const {
+    const ClassTable& table = recording().info().table;
+    return {recording(), labels_, table, class_id_legend(table)};
+  }
   ConfusionMatrix score(std::vector<int> frames = {0, 1, 2, 3}, int jobs = 2) const {
-    return label_folder_confusion(recording(), labels_, frames,
-                                  class_id_legend(recording().info().table), jobs);
+    return score_label_folder(folder(), frames, jobs).pixels;
   }
 
   mapscore::testing::TemporaryFolder folder_;
@@ -163,6 +166,28 @@ TEST_F(LabelFolderTest, PoolsTheSelectedFramesOnAnyNumberOfThreads) {
   ConfusionMatrix sum;
   for (int n = 0; n < 4; ++n) sum += score({n});
   EXPECT_EQ(sum, score());
+}
+
+TEST_F(LabelFolderTest, UndetectedClassesAreBackgroundOnBothSides) {
+  cv::Mat1w wrong = perfect(1);
+  wrong.setTo(0, wrong == 2);
+  wrong(0, 0) = perfect(1)(0, 0) == 1 ? 2 : 1;
+  write_labels(1, wrong);
+  LabelFolder labels = folder();
+  for (SemanticClass& c : labels.table.classes) c.detect = c.id == 1;
+  const std::vector<int> frames{0, 1, 2, 3};
+  const ConfusionMatrix all = score_label_folder(labels, frames, 2).pixels;
+  const LabelFolderScore folded =
+      score_label_folder(with_undetected_as_background(labels), frames, 2);
+  // Merging rows and columns of what was counted says the same.
+  std::vector<std::int64_t> merged(4);
+  for (std::size_t row = 0; row < all.class_count(); ++row)
+    for (std::size_t column = 0; column < all.class_count(); ++column)
+      merged[2 * (row == 1) + (column == 1)] += all.at(row, column);
+  for (std::size_t n = 0; n < 4; ++n) EXPECT_EQ(folded.pixels.at(n / 2, n % 2), merged[n]);
+  EXPECT_EQ(folded.pixels.row_sum(2) + folded.pixels.column_sum(2), 0);
+  EXPECT_EQ(folded.wrong_px, (std::vector<std::int64_t>{0, merged[1] + merged[2], 0, 0}));
+  EXPECT_EQ(merged[1] + merged[2], 1);
 }
 
 TEST_F(LabelFolderTest, RefusesInOneLineWhatItCannotCount) {
