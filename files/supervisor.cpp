@@ -145,25 +145,30 @@ struct Request {
 };
 constexpr std::size_t kMostRequestBytes = 1 << 17, kMostArguments = 1 << 12;
 
-/// Room for what is sent along: descriptors to print and report to.
-union Passed {
-  char bytes[CMSG_SPACE(3 * sizeof(int))];
-  cmsghdr aligned;
+/// A request on its way: `bytes` of it, and room for the descriptors that are sent along, to print
+/// and report to.
+struct Message {
+  Message(char* bytes, std::size_t size) : part{bytes, size} {
+    head.msg_iov = &part;
+    head.msg_iovlen = 1;
+    head.msg_control = room;
+    head.msg_controllen = sizeof room;
+  }
+  Message(const Message&) = delete;
+  Message& operator=(const Message&) = delete;
+
+  iovec part;
+  alignas(cmsghdr) char room[CMSG_SPACE(3 * sizeof(int))]{};
+  msghdr head{};
 };
 
 /// One request; false when the other end is closed.
 bool receive(int socket, char* bytes, std::size_t& size, int (&passed)[3]) {
-  iovec part{bytes, kMostRequestBytes};
-  Passed room{};
-  msghdr message{};
-  message.msg_iov = &part;
-  message.msg_iovlen = 1;
-  message.msg_control = room.bytes;
-  message.msg_controllen = sizeof room.bytes;
+  Message message(bytes, kMostRequestBytes);
   ssize_t received = 0;
-  do received = recvmsg(socket, &message, MSG_CMSG_CLOEXEC);
+  do received = recvmsg(socket, &message.head, MSG_CMSG_CLOEXEC);
   while (received < 0 && errno == EINTR);
-  const cmsghdr* control = CMSG_FIRSTHDR(&message);
+  const cmsghdr* control = CMSG_FIRSTHDR(&message.head);
   if (received <= 0 || control == nullptr) return false;
   std::memcpy(passed, CMSG_DATA(control), sizeof passed);
   size = static_cast<std::size_t>(received);
@@ -227,19 +232,13 @@ bool SupervisorServer::start(const SupervisedProgram& program) const {
     return false;
   }
   const int passed[3]{program.out, program.err, program.reports};
-  iovec part{bytes.data(), bytes.size()};
-  Passed room{};
-  msghdr message{};
-  message.msg_iov = &part;
-  message.msg_iovlen = 1;
-  message.msg_control = room.bytes;
-  message.msg_controllen = sizeof room.bytes;
-  cmsghdr* control = CMSG_FIRSTHDR(&message);
+  Message message(bytes.data(), bytes.size());
+  cmsghdr* control = CMSG_FIRSTHDR(&message.head);
   control->cmsg_level = SOL_SOCKET;
   control->cmsg_type = SCM_RIGHTS;
   control->cmsg_len = CMSG_LEN(sizeof passed);
   std::memcpy(CMSG_DATA(control), passed, sizeof passed);
-  return sendmsg(socket_, &message, MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+  return sendmsg(socket_, &message.head, MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
 }
 
 pid_t fork_supervisor(const SupervisedProgram& program) {
