@@ -25,7 +25,8 @@ FolderLock::FolderLock(std::filesystem::path folder, WhenTaken when_taken) {
     while (outcome != 0 && errno == EINTR);
     taken_ = outcome != 0 && errno == EWOULDBLOCK;
     // Whoever held the lock before may have renamed or removed the folder that was opened here.
-    if (outcome != 0 || still_named(folder)) return;
+    held_ = outcome == 0 && still_named(folder);
+    if (outcome != 0 || held_) return;
     close(descriptor_);
   }
 }

@@ -23,12 +23,14 @@ class FolderLock {
 
   /// Another process holds the folder (only without waiting).
   [[nodiscard]] bool taken() const { return taken_; }
+  /// This lock holds the folder; not where the file system has no locks.
+  [[nodiscard]] bool held() const { return held_; }
 
  private:
   [[nodiscard]] bool still_named(const std::filesystem::path& folder) const;
 
   int descriptor_ = -1;
-  bool taken_ = false;
+  bool taken_ = false, held_ = false;
 };
 
 }  // namespace mapscore

@@ -62,11 +62,15 @@ beliefs, meanings, voxels = rows("beliefs.csv"), rows("detections.csv"), {}
 for frame, belief in zip(rows("frames.csv"), beliefs):
     numbers = list(belief.values())
     T_map_depth = matrix(numbers[2:14]) @ matrix(numbers[14:26]) @ matrix(info["T_base_depth"])
-    label = np.array(Image.open(f"{trial}/{frame['label']}")).reshape(-1)
+    found = [row for row in meanings if row["frame"] in ("*", frame["frame"])]
+    labels = {}  # by layer: where masks overlap, the further ones stand in label_1/, label_2/, ...
+    for layer in {row["layer"] for row in found}:
+        folder = f"label_{layer}" if layer != "0" else "label"
+        labels[layer] = np.array(Image.open(trial + "/" + folder + frame["label"].removeprefix("label"))).reshape(-1)
     seen, points = registered(np.array(Image.open(f"{trial}/{frame['depth']}")))
     hits = {}  # (voxel, class): points, best score
-    for one in (row for row in meanings if row["frame"] in ("*", frame["frame"])):
-        sources = seen[label == int(one["id"])]
+    for one in found:
+        sources = seen[labels[one["layer"]] == int(one["id"])]
         keys = np.floor(np.array(moved(T_map_depth, points[:, sources[sources >= 0]])) / info["voxel_m"]).astype(int)
         for key, count in zip(*np.unique(keys.T, axis=0, return_counts=True)):
             before = hits.get((tuple(key), int(one["class"])), (0, 0.0))

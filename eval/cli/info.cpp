@@ -100,7 +100,7 @@ void print_store(const fs::path& results) {
   const ResultStore store = ResultStore::open_existing(file);
   if (store.text("study").empty()) return print_studyless(store, file);
   const StudyRecord record = read_study(store, file.parent_path());
-  const Plan plan = plan_of(record.study, record.hashes());
+  const Plan plan = plan_of(record);
   const HeldTasks held = held_tasks(store, plan.tasks);
   std::cout << fmt::format("{}: results of study {}, {} of {} trials and ceilings, by mapscore {}",
                            shown(file), record.study.name, held.all, plan.tasks.size(),

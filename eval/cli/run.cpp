@@ -168,7 +168,7 @@ ChosenTrial trial_of_store(const RunFlags& flags) {
                     flags.key, results));
   }
   StudyRecord record = read_study(store, file.parent_path());
-  const Plan plan = plan_of(record.study, record.hashes());
+  const Plan plan = plan_of(record);
   ListedTask listed = task_of_key(plan, store, flags.key, results);
   Task task = plan.tasks[listed.task];
   auto stored = store.find(task.key);

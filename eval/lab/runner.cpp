@@ -12,6 +12,8 @@
 #include "eval/lab/truth_cache.hpp"
 #include "eval/results/build_identity.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <map>
@@ -112,9 +114,13 @@ class Sweep {
     try {
       result = trials.run(task, cost);
       if (!result) throw Stopped();
-    } catch (const std::exception& error) {
+    } catch (const Error& error) {
       reason = error.what();
     }
+    if (!is_as_planned(task))
+      throw Error(fmt::format(
+          "methods.{}: a file that the command names or depends on has changed; sweep again",
+          task.config.methods.front().name));
     if (cost) keep_cost(task, *cost);
     result ? keep(task, *result) : keep_failure(task, reason);
     report(static_cast<std::size_t>(recording_.frame_count()));
@@ -270,10 +276,11 @@ std::vector<std::size_t> missing_by_shard(const TaskList& tasks,
 std::unordered_set<std::string> failed_commands(const ResultStore& store, const TaskList& tasks) {
   std::unordered_set<std::string> keys;
   const auto failures = store.failures();
+  const auto costs = store.costs();  // of commands that ran; what failed before may not fail again
   const auto held = store.keys();
   for (std::size_t n = 0; n < tasks.size() && !failures.empty(); ++n)
     if (const std::string key = tasks.key(n);
-        command_of(tasks, n) && failures.contains(key) && !held.contains(key))
+        failures.contains(key) && costs.contains(key) && !held.contains(key))
       keys.insert(key);
   return keys;
 }

@@ -47,8 +47,8 @@ struct RunnerOutcome {
 /// with `keep_builds`.
 [[nodiscard]] std::unordered_set<std::string> kept_keys(const ResultStore& store, bool keep_builds);
 
-/// Keys of the trials whose commands failed, as the store says: unlike a failure of our own, which
-/// may be mended, they would fail again.
+/// Keys of the trials whose commands ran and failed, as the store says: unlike other failures,
+/// which may be mended, they would fail again.
 [[nodiscard]] std::unordered_set<std::string> failed_commands(const ResultStore& store,
                                                               const TaskList& tasks);
 

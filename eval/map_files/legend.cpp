@@ -164,6 +164,8 @@ void check_meanings(const MapFile& map, const std::vector<Leftover>& leftovers, 
   if (!some && legend && entries == 0)
     throw Error(fmt::format("the map's labels are {}, and the legend has none: {}; {}", section,
                             listed(leftovers), mend));
+  if (!some && leftovers.empty())
+    throw EmptyMap("no label of the map means a class: all are background; " + mend);
   if (!some) throw Error("no label of the map means a class: " + listed(leftovers) + "; " + mend);
   if (share > kMostMeaningless)
     throw Error(fmt::format("the labels of {:.1f} % of the map mean no class: {}; {}",

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "core/error.hpp"
 #include "core/geometry/voxel.hpp"
 
 #include <Eigen/Core>
@@ -45,6 +46,12 @@ struct MapFile {
   }
 };
 
+/// What a map file is refused with that is whole and says that it holds no voxels or points.
+class EmptyMap : public Error {
+ public:
+  using Error::Error;
+};
+
 /// What to do with points that have a coordinate that is not finite.
 enum class NotFinite { refuse, skip };
 
@@ -55,7 +62,7 @@ enum class NotFinite { refuse, skip };
 [[nodiscard]] bool has_ending_of_a_map(const std::filesystem::path& file);
 
 /// Reads a map by its ending (docs/formats.md). Throws Error naming the file, with where and why,
-/// for what is missing, truncated, damaged or empty.
+/// for what is missing, truncated, damaged or empty (EmptyMap, unless it lacks a header too).
 [[nodiscard]] MapFile read_map_file(const std::filesystem::path& file,
                                     NotFinite not_finite = NotFinite::refuse);
 

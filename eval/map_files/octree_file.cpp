@@ -82,7 +82,8 @@ OctreeHeader parse_header(std::string_view bytes, const std::filesystem::path& f
   if (!ended) refuse(file, "its header has no line 'data'; is the file truncated?");
   if (!kind || !nodes || edge_m == 0.0)
     refuse(file, "its header lacks 'id', 'size' or 'res'; write it again");
-  if (*nodes == 0) refuse(file, "the map is empty; give one that holds something");
+  if (*nodes == 0)
+    throw EmptyMap(file.string() + ": the map is empty; give one that holds something");
   return {*kind, *nodes, edge_m, lines.taken()};
 }
 

@@ -63,6 +63,7 @@ class CsvReader {
       if (!has_columns_ && take_columns(*cells)) continue;
       take_row(*cells);
     }
+    if (rows_.empty() && has_header_) throw EmptyMap(file_.string() + ": the map is empty");
     if (rows_.empty()) refuse(file_, "the map is empty");
     if (has(kI)) drop_doubled();
     if (has(kX)) drop_not_finite(not_finite);

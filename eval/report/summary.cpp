@@ -202,8 +202,8 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
   const std::filesystem::path file = store_file(results);
   ResultStore store = ResultStore::open_existing(file);
   const StudyRecord record = read_study(store, file.parent_path());
-  const auto source = std::make_shared<const Source>(
-      Source{std::move(store), record, plan_of(record.study, record.hashes())});
+  const auto source =
+      std::make_shared<const Source>(Source{std::move(store), record, plan_of(record)});
   const TaskList& tasks = source->plan.tasks;
   const HeldTasks held = held_tasks(source->store, tasks);
   StudySummary summary{record.study, record.table, record.recording_hash, held.builds, {}, {}, {}};

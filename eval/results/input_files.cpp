@@ -3,11 +3,13 @@
 
 #include "eval/results/input_files.hpp"
 
+#include "core/error.hpp"
 #include "eval/localization/believed_trajectory.hpp"
 #include "eval/recording/grid_file.hpp"
 #include "eval/results/study_store.hpp"
 #include "eval/study/grid.hpp"
 #include "files/file_bytes.hpp"
+#include "files/text.hpp"
 
 #include <fmt/format.h>
 
@@ -44,46 +46,52 @@ void for_each_input(const Study& study, const auto& act) {
 
 }  // namespace
 
-std::string InputFiles::of(const std::filesystem::path& file, auto read) {
-  const auto [entry, is_new] = hashes_.try_emplace(file.string());
-  if (is_new) entry->second = hash_of(read(file));
+const std::string& InputFiles::of(const std::string& name,
+                                  const std::function<std::string()>& read) {
+  const auto [entry, is_new] = hashes_.try_emplace(name);
+  if (is_new && are_known_)
+    throw Error(fmt::format("the hash of '{}' is not stored; sweep again", shown(name)));
+  if (is_new) entry->second = hash_of(read());
   return entry->second;
 }
 
 std::string InputFiles::perceived(const Study& config) {
   if (const auto* simulated = std::get_if<SimulatedPerception>(&config.perception);
       simulated && simulated->objects)
-    return of(resolve_path(config, *simulated->objects), read_file);
-  if (const auto* settings = std::get_if<ImagePerception>(&config.perception)) {
-    const NetworkImages images = network_images(config, *settings);
-    const std::string all =
-        fmt::format("{}\n{}\n{}", images.folder.string(), images.classes.string(),
-                    images.scores.value_or("").string());
-    return of(all, [&](const auto&) { return content_of(images); });
-  }
-  return "";
+    return of("objects " + *simulated->objects,
+              [&] { return read_file(resolve_path(config, *simulated->objects)); });
+  const auto* images = std::get_if<ImagePerception>(&config.perception);
+  if (images == nullptr) return "";
+  return of(fmt::format("images {}\n{}\n{}", images->folder.value(), images->classes.value(),
+                        images->scores.value_or("")),
+            [&] { return content_of(network_images(config, *images)); });
 }
 
 std::string InputFiles::poses(const Study& config) {
   const LocalizationSettings& settings = config.localization;
   if (settings.source == PoseSource::trajectory)
-    return of(resolve_path(config, settings.trajectory.value()), trajectory_bytes);
+    return of("trajectory " + settings.trajectory.value(),
+              [&] { return trajectory_bytes(resolve_path(config, settings.trajectory.value())); });
   if (settings.source == PoseSource::particle_filter && settings.grid)
-    return of(resolve_path(config, *settings.grid), grid_bytes);
+    return of("grid " + *settings.grid,
+              [&] { return grid_bytes(resolve_path(config, *settings.grid)); });
   return "";
 }
 
 std::vector<std::string> InputFiles::depends(const Study& config) {
   const auto& command = config.methods.front().command;
   if (!command) return {};
-  std::vector<std::filesystem::path> files;
+  std::vector<std::string> files;
+  const auto add = [&](const std::string& file) {
+    if (std::ranges::find(files, file) == files.end()) files.push_back(file);
+  };
   for (const std::string& word : command->command)
-    if (const auto file = file_beside(config, word)) files.push_back(*file);
-  for (const std::string& file : command->depends)
-    files.push_back(std::filesystem::absolute(resolve_path(config, file)));
+    if (are_known_ ? hashes_.contains("file " + word) : file_beside(config, word).has_value())
+      add(word);
+  for (const std::string& file : command->depends) add(file);
   std::vector<std::string> hashes;
-  for (auto file = files.begin(); file != files.end(); ++file)
-    if (std::find(files.begin(), file, *file) == file) hashes.push_back(of(*file, read_file));
+  for (const std::string& file : files)
+    hashes.push_back(of("file " + file, [&] { return read_file(resolve_path(config, file)); }));
   return hashes;
 }
 

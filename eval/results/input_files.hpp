@@ -8,16 +8,26 @@
 #include "eval/study/study.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mapscore::eval {
 
-/// What the files hold that poses, detections and commands of a study come from, as it stands in
-/// the keys of trials. Each is read once.
+/// Hashes of what the files hold that poses, detections and commands of a study come from, as they
+/// stand in the keys of trials. Each file is read once, or never where its hash is known.
 class InputFiles {
  public:
+  /// By what is read and the path as the study has it.
+  using Hashes = std::map<std::string, std::string>;
+
+  /// Reads the files.
+  InputFiles() = default;
+  /// As they were when these hashes were taken; no file is looked at.
+  explicit InputFiles(Hashes known) : hashes_(std::move(known)), are_known_(true) {}
+
   /// Hash of what the perception of a configuration reads: the object map of simulated perception,
   /// or a network's images, classes and scores; empty where it reads none. Throws Error when one is
   /// missing.
@@ -31,10 +41,15 @@ class InputFiles {
   /// (file_beside) or as what it depends on. Throws Error when one of the latter is missing.
   std::vector<std::string> depends(const Study& config);
 
- private:
-  std::string of(const std::filesystem::path& file, auto read);
+  /// All that were asked for.
+  [[nodiscard]] const Hashes& hashes() const { return hashes_; }
 
-  std::map<std::string, std::string> hashes_;
+ private:
+  /// The hash at `name`, of what `read` returns where it is not known yet.
+  const std::string& of(const std::string& name, const std::function<std::string()>& read);
+
+  Hashes hashes_;
+  bool are_known_ = false;
 };
 
 /// Where the label images of a configuration's perception lie. Throws Error where a path is

@@ -23,6 +23,7 @@ namespace {
 Study determining(Study config, InputFiles& files) {
   const Study none;
   const std::string pose_file = files.poses(config), perceived = files.perceived(config);
+  const Dosed<sim::LidarNoise> lidar = canonical_lidar(config.faults.lidar);
   const std::vector<std::string> depends = files.depends(config);
   config.name.clear();
   config.seeds = 1;
@@ -49,8 +50,10 @@ Study determining(Study config, InputFiles& files) {
   config.base_folder.clear();
   for (MethodSettings& method : config.methods) {
     method.name = "method";
-    if (auto& command = method.command)
+    if (auto& command = method.command) {
+      config.faults.lidar = lidar;  // it is given the scans, whatever the poses come from
       command = CommandMethod{.command = command->command, .map = command->map, .depends = depends};
+    }
   }
   return config;
 }
@@ -175,11 +178,16 @@ Task task_of(const Study& study, const TrialSpec& spec, Labels labels,
       .task(spec.seed_index);
 }
 
-Plan plan_of(const Study& study, const RecordingHashes& recordings) {
+bool is_as_planned(const Task& task) {
+  InputFiles files;
+  return make_task(task.config, task.labels, task.recording_hash, files).key(task.seed_index) ==
+         task.key;
+}
+
+Plan plan_of(const Study& study, const RecordingHashes& recordings, InputFiles files) {
   for (const SweepAxis& axis : study.sweep) refuse_recorded(study, axis.path);
   Configurations configurations;
   std::vector<TrialConfigurations> of_trials;  // by cell, then method
-  InputFiles files;
   const Cell* at = nullptr;
   const auto add = [&](Study&& config, Labels labels) {
     return configurations.add(
@@ -214,7 +222,7 @@ Plan plan_of(const Study& study, const RecordingHashes& recordings) {
     trial.lattice_ceiling = tasks.position_of(of.lattice_ceiling, trial.spec.seed_index);
     return trial;
   };
-  return {tasks, {specs.size(), planned}};
+  return {tasks, {specs.size(), planned}, files.hashes()};
 }
 
 TrialTasks tasks_of_trials(const Study& study, const std::vector<TrialSpec>& trials,

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "eval/results/input_files.hpp"
 #include "eval/results/task_list.hpp"
 #include "eval/study/grid.hpp"
 
@@ -42,10 +43,16 @@ struct PlannedTrial {
 struct Plan {
   TaskList tasks;
   LazyList<PlannedTrial> trials;
+  InputFiles::Hashes inputs = {};  ///< of the files that the trials read
 };
 
-/// Throws Error when the sweep names a leaf that decides what is recorded, but for scenes.
-[[nodiscard]] Plan plan_of(const Study& study, const RecordingHashes& recordings);
+/// Throws Error when the sweep names a leaf that decides what is recorded, but for scenes, or when
+/// a file of `inputs` is refused.
+[[nodiscard]] Plan plan_of(const Study& study, const RecordingHashes& recordings,
+                           InputFiles inputs = {});
+
+/// Whether the files that the task reads hold what they held when it was planned.
+[[nodiscard]] bool is_as_planned(const Task& task);
 
 /// The task of one trial by itself.
 [[nodiscard]] Task task_of(const Study& study, const TrialSpec& spec, Labels labels,

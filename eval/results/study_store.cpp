@@ -179,6 +179,11 @@ RecordingHashes StudyRecord::hashes() const {
   return RecordingHashes(std::move(of_scenes));
 }
 
+Plan plan_of(const StudyRecord& record) {
+  return plan_of(record.study, record.hashes(),
+                 record.inputs ? InputFiles(*record.inputs) : InputFiles());
+}
+
 StudyRecord record_of(const Study& study,
                       const std::vector<std::pair<SceneRecord, ClassTable>>& scenes) {
   if (study.scenes.empty()) {
@@ -226,18 +231,25 @@ void write_study(ResultStore& store, const StudyRecord& record,
                    {"mapscore_version", MAPSCORE_VERSION}});
   if (!record.scenes.empty() || !store.text("scenes").empty())
     store.set_text("scenes", record.scenes.empty() ? "" : scenes_to_json(record.scenes));
+  store.set_text("inputs", json(record.inputs.value_or(InputFiles::Hashes{})).dump());
 }
 
 StudyRecord read_study(const ResultStore& store, const std::filesystem::path& folder) try {
   const std::string study = store.text("study");
   if (study.empty()) throw Error(holds_no_study(store));
   const std::filesystem::path base = folder / store.text("study_folder");
+  std::optional<InputFiles::Hashes> inputs;
+  if (const std::string text = store.text("inputs"); !text.empty())
+    inputs = json::parse(text).get<InputFiles::Hashes>();
   return {parse_study(study, (base / "stored study").lexically_normal()),
-          table_from_json(store.text("classes")), store.text("recording_hash"),
-          store.text("recording"), scenes_from_json(store.text("scenes"))};
+          table_from_json(store.text("classes")),
+          store.text("recording_hash"),
+          store.text("recording"),
+          scenes_from_json(store.text("scenes")),
+          inputs};
 } catch (const json::exception& error) {
-  throw Error(std::string("result store: class table not readable (") + error.what() +
-              "); sweep again into another folder");
+  throw Error(std::string("result store: the record of its study is not readable (") +
+              error.what() + "); sweep again into another folder");
 }
 
 Recording recording_of(const StudyRecord& record, const std::filesystem::path& folder,

@@ -10,6 +10,7 @@
 #include "eval/study/study.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,9 +33,14 @@ struct StudyRecord {
   /// Of a study with scenes. `table` is then that of all classes of all scenes without instances,
   /// `recording_hash` a hash of theirs, and `recording` empty.
   std::vector<SceneRecord> scenes = {};
+  /// Of the files that its trials read; none in a store of before they were kept.
+  std::optional<InputFiles::Hashes> inputs = {};
 
   [[nodiscard]] RecordingHashes hashes() const;
 };
+
+/// The plan of what was swept, whatever has become of the files that its trials read.
+[[nodiscard]] Plan plan_of(const StudyRecord& record);
 
 /// The record of a study on its scenes, by name; of one without scenes, on the only one. Throws
 /// Error when a class is detected in one scene and not in another.

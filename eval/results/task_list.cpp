@@ -28,7 +28,7 @@ std::string SeedlessTask::key(int seed_index) const {
 Task SeedlessTask::task(int seed_index) const {
   std::string text = description(seed_index);
   std::string key = hash_of(text);
-  return {std::move(key), std::move(text), config, seed_index, labels};
+  return {std::move(key), std::move(text), config, seed_index, labels, recording_hash};
 }
 
 TaskList::TaskList(std::vector<Configuration> configurations, int seeds)

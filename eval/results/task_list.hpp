@@ -28,6 +28,7 @@ struct Task {
   Study config;             ///< resolved: one method, no sweep
   int seed_index = 0;
   Labels labels = Labels::detected;
+  std::string recording_hash = {};
 };
 
 /// The seed of everything that one repetition draws; shared by all methods and doses.

@@ -30,12 +30,6 @@ ParticleFilterSettings resolved_filter(const LocalizationSettings& settings) {
   return filter;
 }
 
-Dosed<sim::LidarNoise> resolved(const Dosed<sim::LidarNoise>& settings) {
-  const sim::LidarNoise noise = settings.dose();
-  if (noise == sim::LidarNoise{}) return {};
-  return {.own = Overrides<sim::LidarNoise>::everything(noise)};
-}
-
 }  // namespace
 
 double grid_resolution_m(const LocalizationSettings& settings) {
@@ -58,6 +52,12 @@ FilterSettings filter_of(const LocalizationSettings& settings,
   return filter;
 }
 
+Dosed<sim::LidarNoise> canonical_lidar(const Dosed<sim::LidarNoise>& settings) {
+  const sim::LidarNoise noise = settings.dose();
+  if (noise == sim::LidarNoise{}) return {};
+  return {.own = Overrides<sim::LidarNoise>::everything(noise)};
+}
+
 void resolve_localization(LocalizationSettings& localization, FaultSettings& faults,
                           const std::string& content) {
   const PoseSource source = localization.source;
@@ -66,8 +66,8 @@ void resolve_localization(LocalizationSettings& localization, FaultSettings& fau
     faults.pose.stamp = pose.stamp;
     if (source != PoseSource::truth) faults.pose.reported_scale = pose.reported_scale;
   }
-  faults.lidar =
-      source == PoseSource::particle_filter ? resolved(faults.lidar) : Dosed<sim::LidarNoise>{};
+  faults.lidar = source == PoseSource::particle_filter ? canonical_lidar(faults.lidar)
+                                                       : Dosed<sim::LidarNoise>{};
   const LocalizationSettings given = std::exchange(localization, {});
   if (source == PoseSource::gaussian || source == PoseSource::truth)
     return;  // the truth is a Gaussian without a dose

@@ -101,6 +101,10 @@ struct LocalizationSettings {
 [[nodiscard]] FilterSettings filter_of(const LocalizationSettings& settings,
                                        const Dosed<sim::LidarNoise>& lidar);
 
+/// The noise of the lidar with every key, or none where there is no noise: equal exactly where the
+/// scans are.
+[[nodiscard]] Dosed<sim::LidarNoise> canonical_lidar(const Dosed<sim::LidarNoise>& settings);
+
 struct FaultSettings;
 
 /// Canonical settings of the poses of a study, equal exactly where the poses are: every default

@@ -56,7 +56,7 @@ void check_input(const Study& study, const Blame& blame) {
           "the trajectory is empty; write at least one waypoint, [[x, y, yaw], ...]");
 }
 
-/// Each has a scene or a recording of its own.
+/// Each has a scene or a recording of its own, with images of its own.
 void check_scenes(const Study& study, const Blame& blame) {
   if (study.scene || study.recording)
     blame(study.scene ? "scene" : "recording",
@@ -64,10 +64,17 @@ void check_scenes(const Study& study, const Blame& blame) {
           "write it below one of them");
   if (points_of(study.sampling) > 0)
     blame("sampling", "stands beside scenes, of which every point would have one; leave one out");
-  for (const auto& [name, one] : studies_of_scenes(study))
+  const auto studies = studies_of_scenes(study);
+  for (const auto& [name, one] : studies)
     check_input(one, [&, scene = name](std::string_view path, const std::string& problem) {
       blame("scenes." + scene, fmt::format("{}: {}", path, problem));
     });
+  const bool swept = std::ranges::any_of(study.sweep, [](const SweepAxis& axis) {
+    return axis.path == "perception" && std::ranges::count(axis.values, "images") > 0;
+  });
+  if (studies.size() > 1 && (swept || std::holds_alternative<ImagePerception>(study.perception)))
+    blame("perception.images",
+          "are of one recording, and there are several scenes; write a study for each of them");
 }
 
 void check_cameras(const CameraSettings& cameras, const Blame& blame) {

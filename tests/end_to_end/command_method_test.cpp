@@ -66,7 +66,9 @@ bool is_of_map(const std::string& line) {
 }
 
 TEST_F(CommandSweep, NumpysDirectIsOursVoxelByVoxel) {
-  write_methods(numpy(), "score: {labels: true, instances: true}\n");
+  write_methods(numpy(),
+                "score: {labels: true, instances: true}\n"
+                "detect: all\nfaults: {labels: {boundary_px: 3}}\n");  // masks that overlap
   expect_done(sweep({"-j", "2"}));
   std::vector<std::string> ours = scores_of("direct"), theirs = scores_of("numpy");
   std::erase_if(ours, std::not_fn(is_of_map));
@@ -138,6 +140,37 @@ TEST_F(CommandSweep, FailedTrialsAreToldAndTriedAgainWhenAsked) {
   EXPECT_THAT(trials.out, HasSubstr("exit code 3; its log ends: 'oh no'"));
   EXPECT_EQ(sweep({"--retry_failed", "-q"}).exit_code, 1);
   EXPECT_THAT(mapscore({"status", results()}).out, HasSubstr("8 failed"));
+}
+
+TEST_F(CommandSweep, AMapOfNothingHasNoRecall) {
+  write_methods(shell("header", "echo i,j,k,class > \"$1\"") +
+                shell("background", "echo 0,0,0,0 > \"$1\""));
+  expect_done(sweep({"-q"}));
+  const Outcome table = mapscore({"table", results(), "--metric", "recall", "--format", "csv"});
+  expect_done(table);
+  for (const char* row : {"0.03,header,0,", "0.03,background,0,"})
+    EXPECT_THAT(table.out, HasSubstr(row));
+}
+
+TEST_F(CommandSweep, ResultsAreReadWithoutTheFilesThatTheyCameFrom) {
+  write_methods(numpy(", depends: [mine.txt]"));
+  write_text(path("mine.txt"), "first");
+  expect_done(sweep({"-q"}));
+  const auto whole = scores_of("numpy");
+  fs::remove(path("mine.txt"));
+  EXPECT_EQ(scores_of("numpy"), whole);
+  expect_done(mapscore({"compare", results(), "numpy", "direct"}));
+  expect_refused(sweep({"-q"}), {"mine.txt"});
+}
+
+TEST_F(CommandSweep, AFileThatChangesUnderASweepEndsIt) {
+  write_text(path("mine.txt"), "first");
+  write_methods(
+      shell("mine", "echo more >> " + path("mine.txt") + "; exit 3", ", depends: [mine.txt]"));
+  const Outcome outcome = sweep({"-q"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("methods.mine"));
+  EXPECT_THAT(outcome.err, HasSubstr("has changed"));
 }
 
 TEST_F(CommandSweep, SeedsWhoseCommandFailedAreLeftOutOfComparisons) {

@@ -43,7 +43,6 @@ WAYS = {
     "another_frame": ('sed "s/^/9/" "$0" | sed "s/^9i/i/" > "$2"', "another frame"),
     "not_a_number": ('printf "x,y,z,class\\nnan,0,0,1\\n" > "$2"', "nan"),
     "empty_file": (': > "$2"', "empty"),
-    "header_alone": ('echo i,j,k,class > "$2"', "empty"),
     "too_many_bytes": ('head -c 300000000 /dev/zero > "$2"', "bytes, more than"),
     "file_without_end": ('cat /dev/zero > "$2"', "signal 25"),
     "writes_input": ('chmod u+w "$1"/color/*; echo more >> "$1/color/000001.png"; ' + GOOD, "changed its input color/000001.png"),

@@ -171,7 +171,7 @@ std::string together_text(const fs::path& folder, const OtherStores& shards) {
       shards, [](const auto& shard) { return !shard.second.text("study").empty(); });
   if (bound == shards.end()) return {};
   const StudyRecord record = read_study(bound->second, folder / "shards" / "any");
-  const TaskList tasks = plan_of(record.study, record.hashes()).tasks;
+  const TaskList tasks = plan_of(record).tasks;
   std::size_t done = 0;
   for (std::size_t n = 0; n < tasks.size(); ++n) done += keys.contains(tasks.key(n)) ? 1 : 0;
   return fmt::format("{} with its shards: study {}, {} of {} trials and ceilings done\n",
@@ -196,7 +196,7 @@ void print_status(const StatusFlags& flags) {
     const ResultStore store = ResultStore::open_existing(file);
     if (!store.text("study").empty()) {
       const StudyRecord record = read_study(store, folder);
-      std::cout << store_text(file, store, record, plan_of(record.study, record.hashes()).tasks);
+      std::cout << store_text(file, store, record, plan_of(record).tasks);
     }
     std::cout << searched_text(file, store);
   }

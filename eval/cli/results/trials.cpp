@@ -43,7 +43,7 @@ std::vector<TrialRow> rows_of(const ResultStore& store, const std::filesystem::p
   const std::vector<SearchedTrial> searched = searched_trials(store);
   if (searched.empty() || !store.text("study").empty()) {
     const StudyRecord record = read_study(store, folder);
-    const Plan plan = plan_of(record.study, record.hashes());
+    const Plan plan = plan_of(record);
     visit_tasks(plan, [&](const ListedTask& task) {
       add({plan.tasks.key(task.task), name_of(task.role), task.spec});
       return true;

@@ -258,8 +258,9 @@ int sweep(const SweepFlags& flags) {
 
   const std::filesystem::path results = shards > 1 ? shard_folder(whole, shard, shards) : whole;
   const std::vector<SweptScene> scenes = scenes_of(study, whole, flags.work);
-  const StudyRecord record = recorded(study, scenes, results);
+  StudyRecord record = recorded(study, scenes, results);
   const Plan plan = plan_of(study, record.hashes());
+  record.inputs = plan.inputs;
   for (const SweptScene& scene : scenes)
     check_truth_size(study, scene.recording, plan.tasks.size(), flags.yes);
 

@@ -32,7 +32,9 @@ void check_file(const fs::path& file) {
     throw Error(fmt::format("its {} has {} bytes, more than {}", name, bytes, kMostBytes));
 }
 
-std::vector<MapVoxel> read_voxels(const fs::path& file, const ClassTable& table, double edge_m) {
+/// None where the file says that it holds none, as after frames without a detection.
+std::vector<MapVoxel> read_voxels(const fs::path& file, const ClassTable& table,
+                                  double edge_m) try {
   // One at a time: a small octree can hold fifty million voxels.
   static std::mutex reading;
   const std::lock_guard lock(reading);
@@ -42,6 +44,8 @@ std::vector<MapVoxel> read_voxels(const fs::path& file, const ClassTable& table,
   return on_lattice(map, apply_legend(map, std::nullopt, table).classes, Pose::Identity(), edge_m,
                     Resample::refuse)
       .voxels;
+} catch (const EmptyMap&) {
+  return {};
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ void remove_leftovers(const fs::path& folder) {
     if (!entry.path().filename().string().starts_with(kScratchName) ||
         !entry.is_directory(ignored) || entry.is_symlink(ignored))
       continue;
-    if (const FolderLock lock(entry.path(), WhenTaken::go_on); !lock.taken())
+    if (const FolderLock lock(entry.path(), WhenTaken::go_on); lock.held())
       remove_tree(entry.path());
   }
 }

@@ -11,7 +11,8 @@
 
 namespace mapscore::eval {
 
-/// Whether the method of that name is a command, which only a sweep runs: its maps are not kept.
+/// Whether the method of that name is a command, which sweeps and searches of tolerances alone
+/// run: its maps are not kept.
 [[nodiscard]] bool is_command(const Study& study, const std::string& method);
 
 /// The words of the command that a study's first method is: its program as an absolute path, files

@@ -90,7 +90,7 @@ void CloudBuilder::add(const PointNumbers& numbers, PointPlace place) {
 
 MapFile CloudBuilder::finish() {
   const std::size_t all = map_.points.size() + skipped_;
-  if (all == 0) refuse(file_, "the map is empty");
+  if (all == 0) throw EmptyMap(file_.string() + ": the map is empty");
   if (skipped_ > 0 && not_finite_ == NotFinite::refuse)
     refuse(file_, "{} of {} points are not finite; leave them out with --skip_nan", skipped_, all);
   if (map_.points.empty()) refuse(file_, "the map is empty: none of its {} points is finite", all);

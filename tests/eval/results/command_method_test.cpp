@@ -79,6 +79,40 @@ TEST_F(CommandMethodTest, KeyHoldsWhatFilesHoldThatTheCommandNames) {
   EXPECT_NE(key(keys), first);
 }
 
+TEST_F(CommandMethodTest, KeyHoldsTheNoiseOfTheScansThatItIsGiven) {
+  const std::string noise = "faults: {lidar: {preset: rplidar_a2, scale: ";
+  EXPECT_NE(key(kPlain, noise + "1}}\n"), key(kPlain));
+  EXPECT_NE(key(kPlain, noise + "1}}\n"), key(kPlain, noise + "2}}\n"));
+  EXPECT_EQ(key(kPlain, noise + "0}}\n"), key(kPlain));
+  // Our own methods see no scans but through their poses.
+  const auto own = [&](const std::string& more) {
+    const Study of = study(kPlain, more);
+    return task_of(of, {0, "direct", cells(of)[0], 0}, Labels::detected, "recording").key;
+  };
+  EXPECT_EQ(own(noise + "1}}\n"), own(""));
+}
+
+TEST_F(CommandMethodTest, APlanOfStoredHashesLooksAtNoFile) {
+  write_file(file("my.py"), "first");
+  write_file(file("weights"), "w");
+  const Study of = study(
+      "command: [python3, my.py, \"{trial}\", \"{map}\"], map: voxels.csv, depends: [weights]");
+  const Plan swept = plan_of(of, "recording");
+  EXPECT_TRUE(is_as_planned(task(of)));
+  const Task before = task(of);
+  std::filesystem::remove(file("weights"));
+  write_file(file("my.py"), "other");
+  const Plan read = plan_of(of, "recording", InputFiles(swept.inputs));
+  for (std::size_t n = 0; n < swept.tasks.size(); ++n)
+    EXPECT_EQ(read.tasks.key(n), swept.tasks.key(n));
+  EXPECT_EQ(read.inputs, swept.inputs);
+  expect_error("weights", [&] { (void)plan_of(of, "recording"); });
+  write_file(file("weights"), "w");
+  EXPECT_FALSE(is_as_planned(before));
+  expect_error("not stored",
+               [&] { (void)plan_of(of, "recording", InputFiles(InputFiles::Hashes{})); });
+}
+
 TEST_F(CommandMethodTest, OtherMethodsKeepTheirKeys) {
   const Study with = study(kPlain);
   Study without = with;

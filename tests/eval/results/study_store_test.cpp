@@ -102,7 +102,8 @@ TEST(StudyStore, RefusesAStoreWithoutAStudy) {
   expect_error("holds no study", [&] { (void)read_study(store, folder.path()); });
   store.set_text("study", to_yaml(study_of("")));
   store.set_text("classes", "{broken");
-  expect_error("class table not readable", [&] { (void)read_study(store, folder.path()); });
+  expect_error("record of its study is not readable",
+               [&] { (void)read_study(store, folder.path()); });
 }
 
 TEST(StudyStore, RefusesAClassTableWhoseIdsAreNoPlaces) {

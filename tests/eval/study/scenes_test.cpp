@@ -64,6 +64,15 @@ TEST(Scenes, KeysAreThoseOfTheStudyAndOverThemTheirOwn) {
   EXPECT_TRUE(home.scenes.empty());
 }
 
+TEST(Scenes, ImagesOfANetworkAreOfOneSceneAlone) {
+  const std::string images = "perception: {images: {folder: labels, classes: c.yaml}}\n";
+  EXPECT_THAT(scenes_refusal(images), HasSubstr("perception.images"));
+  EXPECT_THAT(scenes_refusal("sweep: {perception: [labels, images]}\n"),
+              HasSubstr("perception.images"));
+  EXPECT_EQ(scenes_refusal(images, {"sweep.scene=[home]"}), "accepted");
+  EXPECT_EQ(scenes_refusal("sweep: {perception: [labels, simulated]}\n"), "accepted");
+}
+
 TEST(Scenes, ReadBackAsTheyAreWritten) {
   const Study study = two("sweep: {voxel_m: [0.05, 0.1]}\n");
   const Study read = parse_study(to_yaml(study), "study.yaml");
