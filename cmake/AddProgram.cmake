@@ -5,7 +5,7 @@
 
 # mapscore_add_program(NAME SOURCES...): a program with all verbs of mapscore, and the segmentation or the fusion rule
 # that the sources add (docs/extending.md). Name their headers too: the keys of the trials that use them hold a hash of
-# the files named here.
+# the files named here and of the target's own options and definitions.
 function(mapscore_add_program name)
   if(NOT ARGN)
     message(FATAL_ERROR "mapscore_add_program(${name}): has no sources; name the file of your segmentation")
@@ -16,9 +16,10 @@ function(mapscore_add_program name)
   list(TRANSFORM ARGN REPLACE "^([^/].*)" "${CMAKE_CURRENT_SOURCE_DIR}/\\1" OUTPUT_VARIABLE files)
   set(output ${CMAKE_CURRENT_BINARY_DIR}/${name}_source)
   string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
-  file(CONFIGURE OUTPUT ${output}.txt CONTENT
+  file(GENERATE OUTPUT ${output}.txt CONTENT
 "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_SYSTEM_PROCESSOR}
 ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}}
+$<TARGET_PROPERTY:${name},COMPILE_OPTIONS> $<TARGET_PROPERTY:${name},COMPILE_DEFINITIONS>
 ")
   set(identity "@identity@")  # filled in at each build
   file(CONFIGURE OUTPUT ${output}.in @ONLY CONTENT
@@ -30,7 +31,8 @@ namespace {
   add_custom_command(OUTPUT ${output}.cpp
     COMMAND ${CMAKE_COMMAND} -D FOLDER=${CMAKE_CURRENT_SOURCE_DIR} "-DFILES=${files}" -D OUTPUT=${output}
             -P ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/SourceIdentity.cmake
-    DEPENDS ${files} ${output}.txt ${output}.in COMMENT "Identity of the sources of ${name}" VERBATIM)
+    DEPENDS ${files} ${output}.txt ${output}.in ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/SourceIdentity.cmake
+    COMMENT "Identity of the sources of ${name}" VERBATIM)
   add_executable(${name} ${ARGN} ${output}.cpp)
   target_link_libraries(${name} PRIVATE mapscore::mapscore_cli mapscore::core)
   target_compile_options(${name} PRIVATE -ffp-contract=off)  # as the core, so that results are equal everywhere

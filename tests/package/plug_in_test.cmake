@@ -86,3 +86,10 @@ run(${mine} sweep ${WORK}/study.yaml -o ${WORK}/swept)
 if(NOT output MATCHES "6 trials computed, 4 already there")
   message(FATAL_ERROR "after a change of the source:\n${output}")
 endif()
+
+# So are other options and definitions of the target.
+run(${CMAKE_COMMAND} ${WORK}/build -DWEIGHT=2)
+file(READ ${WORK}/build/mine_source.txt decides)
+if(NOT decides MATCHES "WEIGHT=2")
+  message(FATAL_ERROR "the identity of the sources does not cover the target's definitions:\n${decides}")
+endif()
