@@ -282,9 +282,11 @@ void check(const Study& study);
 /// A method's own fusion, or the study's.
 [[nodiscard]] DrawnFusion fusion_of(const DrawnFusion& of_study, const MethodFusion& of_method);
 
+/// In the order of the study.
+[[nodiscard]] std::vector<std::string> method_names(const Study& study);
+
 /// What a method or a class is called in figures, and in tables for papers: its title or else its
 /// name.
-[[nodiscard]] std::vector<std::string> method_names(const Study& study);
 [[nodiscard]] std::string method_title(const Study& study, const std::string& name);
 [[nodiscard]] std::string class_title(const Study& study, const std::string& name);
 

@@ -23,7 +23,8 @@ std::string_view unit_of(std::string_view key) {
                                                {"_percent", "%"},
                                                {"_deg", "deg"},
                                                {"_px", "px"},
-                                               {"_m", "m"}});
+                                               {"_m", "m"},
+                                               {"_s", "s"}});
   for (const auto& [ending, unit] : kUnits)
     if (key.ends_with(ending)) return unit;
   return "";

@@ -98,30 +98,31 @@ CommandTrials::~CommandTrials() {
   remove_tree(scratch_);
 }
 
-std::unique_ptr<CommandTrials::Place> CommandTrials::take_place() {
+std::unique_ptr<CommandTrials::Workplace> CommandTrials::take_workplace() {
   const std::lock_guard lock(mutex_);
-  if (free_.empty()) return std::make_unique<Place>(Place{scratch_ / std::to_string(++places_)});
-  std::unique_ptr<Place> place = std::move(free_.back());
+  if (free_.empty())
+    return std::make_unique<Workplace>(Workplace{scratch_ / std::to_string(++workplaces_)});
+  std::unique_ptr<Workplace> workplace = std::move(free_.back());
   free_.pop_back();
-  return place;
+  return workplace;
 }
 
-void CommandTrials::give_back(std::unique_ptr<Place> place) {
+void CommandTrials::give_back(std::unique_ptr<Workplace> workplace) {
   const std::lock_guard lock(mutex_);
-  free_.push_back(std::move(place));
+  free_.push_back(std::move(workplace));
 }
 
 std::optional<TrialResult> CommandTrials::run(const Task& task, std::optional<TrialCost>& cost) {
-  std::unique_ptr<Place> place = take_place();
+  std::unique_ptr<Workplace> workplace = take_workplace();
   std::optional<TrialResult> result;
   std::exception_ptr failure;
   try {
-    result = run_in(*place, task, cost);
+    result = run_in(*workplace, task, cost);
   } catch (...) {
     failure = std::current_exception();
   }
-  remove_tree(place->folder / "work");
-  give_back(std::move(place));
+  remove_tree(workplace->folder / "work");
+  give_back(std::move(workplace));
   if (failure) std::rethrow_exception(failure);
   return result;
 }
@@ -133,29 +134,30 @@ void CommandTrials::count_labels(TrialRun& trial) {
   }
 }
 
-std::optional<TrialResult> CommandTrials::run_in(Place& place, const Task& task,
+std::optional<TrialResult> CommandTrials::run_in(Workplace& workplace, const Task& task,
                                                  std::optional<TrialCost>& cost) {
   const CommandMethod& method = *task.config.methods.front().command;
   const std::vector<std::string> words = command_words(task.config);
   const std::unique_ptr<TrialRun> trial = bench_.start(task);
-  const fs::path work = place.folder / "work", given = work / "trial", map = work / method.map;
-  if (!place.images) {
-    remove_tree(place.folder / "images");  // what a full disk left of it
-    place.images.emplace(bench_.recording(), place.folder / "images");
+  const fs::path work = workplace.folder / "work", given = work / "trial", map = work / method.map;
+  if (!workplace.images) {
+    remove_tree(workplace.folder / "images");  // what a full disk left of it
+    workplace.images.emplace(bench_.recording(), workplace.folder / "images");
   }
   remove_tree(work);
   make_folder(given);
-  write_trial({task, bench_.recording(), *trial->sights(), trial->beliefs(), place.images->folder(),
-               [&](int index, int depth_index) { return bench_.frame(index, depth_index); }},
-              given);
+  write_trial(
+      {task, bench_.recording(), *trial->sights(), trial->beliefs(), workplace.images->folder(),
+       [&](int index, int depth_index) { return bench_.frame(index, depth_index); }},
+      given);
   const CommandOutcome outcome =
       run_command(with_paths(words, given, map), work,
                   {method.timeout_s, kMostFileBytes, kKeptBytes, true, &server_, stop_});
   if (outcome.stopped) return std::nullopt;
   cost = TrialCost{outcome.exit_code, outcome.wall_s, outcome.processor_s, outcome.peak_bytes};
   try {
-    if (const auto changed = place.images->changed()) {
-      place.images.reset();
+    if (const auto changed = workplace.images->changed()) {
+      workplace.images.reset();
       throw Error(fmt::format("the command changed its input {}", *changed));
     }
     if (outcome.timed_out || outcome.exit_code != 0)

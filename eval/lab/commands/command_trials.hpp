@@ -37,15 +37,15 @@ class CommandTrials {
  private:
   /// Where one command works at a time, with images of its own, so that one that damages its input
   /// damages no other's.
-  struct Place {
+  struct Workplace {
     std::filesystem::path folder;
     std::optional<ImageCopy> images = {};
   };
-  [[nodiscard]] std::unique_ptr<Place> take_place();
-  void give_back(std::unique_ptr<Place> place);
+  [[nodiscard]] std::unique_ptr<Workplace> take_workplace();
+  void give_back(std::unique_ptr<Workplace> workplace);
   /// What the detections say in their images, which no command changes.
   void count_labels(TrialRun& trial);
-  [[nodiscard]] std::optional<TrialResult> run_in(Place& place, const Task& task,
+  [[nodiscard]] std::optional<TrialResult> run_in(Workplace& workplace, const Task& task,
                                                   std::optional<TrialCost>& cost);
 
   SupervisorServer server_;  ///< made first, while little memory is taken
@@ -54,8 +54,8 @@ class CommandTrials {
   std::filesystem::path scratch_;
   std::optional<FolderLock> hold_;  ///< on `scratch_`
   std::mutex mutex_;                // guards the two below
-  std::vector<std::unique_ptr<Place>> free_;
-  int places_ = 0;
+  std::vector<std::unique_ptr<Workplace>> free_;
+  int workplaces_ = 0;
 };
 
 }  // namespace mapscore::eval
