@@ -25,8 +25,8 @@ namespace {
 
 constexpr int kReports = 3, kOut = 4, kErr = 5, kNull = 6, kFirstFree = 7;
 
-void report(const SupervisorReport& what) {
-  [[maybe_unused]] const ssize_t written = write(kReports, &what, sizeof what);
+void report(const SupervisorReport& what, int descriptor = kReports) {
+  [[maybe_unused]] const ssize_t written = write(descriptor, &what, sizeof what);
 }
 
 [[noreturn]] void give_up(int problem) {
@@ -68,10 +68,10 @@ void reset_signals() {
   give_up(errno);
 }
 
-/// SIGKILL for every child of this process, as the kernel lists them.
-void kill_children() {
+/// SIGKILL for every child of this process, as the kernel lists them; false where it does not.
+bool kill_children() {
   const int list = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
-  if (list < 0) return;
+  if (list < 0) return false;
   char part[4096];
   pid_t id = 0;
   for (ssize_t size = 0; (size = read(list, part, sizeof part)) > 0;)
@@ -84,27 +84,32 @@ void kill_children() {
       }
     }
   close(list);
+  return true;
 }
 
-/// Reaps children until none is ready; true once the program itself was among them.
-bool reap(pid_t program, int& status) {
-  bool ended = false;
-  int one = 0;
-  for (pid_t id = 0; (id = waitpid(-1, &one, WNOHANG)) > 0;)
-    if (id == program) {
-      status = one;
-      ended = true;
-    }
-  return ended;
+/// Reaps the children that have ended, but for the program: true once it has. Until it is reaped,
+/// no other process or group can have its id.
+bool has_ended(pid_t program) {
+  siginfo_t one{};
+  while (waitid(P_ALL, 0, &one, WEXITED | WNOHANG | WNOWAIT) == 0 && one.si_pid > 0) {
+    if (one.si_pid == program) return true;
+    waitpid(one.si_pid, nullptr, 0);
+    one = {};
+  }
+  return false;
 }
 
-/// Kills and reaps until there is no child any more; what loses its parent becomes one.
+/// Kills the program, which is not reaped yet, and its group; then kills and reaps until there is
+/// no child any more; what loses its parent becomes one. Where the kernel lists no children, until
+/// there is none of the group.
 void end_all(pid_t program, int& status) {
   constexpr timespec kMoment{0, 1'000'000};
+  kill(-program, SIGKILL);
+  kill(program, SIGKILL);  // it may not have a group yet
   while (true) {
-    kill_children();
+    const bool listed = kill_children();
     int one = 0;
-    const pid_t id = waitpid(-1, &one, WNOHANG);
+    const pid_t id = waitpid(listed ? -1 : -program, &one, WNOHANG);
     if (id == program) status = one;
     if (id < 0 && errno == ECHILD) return;
     if (id == 0) nanosleep(&kMoment, nullptr);
@@ -130,7 +135,7 @@ void end_all(pid_t program, int& status) {
   if (child == 0) become(program, self);
   SupervisorReport outcome;
   outcome.status = SIGKILL;  // of wait: where SIGTERM comes first
-  while (!reap(child, outcome.status))
+  while (!has_ended(child))
     if (sigwaitinfo(&awaited, nullptr) == SIGTERM) break;
   end_all(child, outcome.status);
   getrusage(RUSAGE_CHILDREN, &outcome.usage);
@@ -190,10 +195,11 @@ bool receive(int socket, char* bytes, std::size_t& size, int (&passed)[3]) {
     for (char* next = bytes + sizeof head; next < bytes + size; next += std::strlen(next) + 1)
       words[count++] = next;
     words[count] = nullptr;
-    const pid_t self = getpid();
-    if (fork() == 0)
+    const pid_t self = getpid(), supervisor = fork();
+    if (supervisor == 0)
       supervise({words[0], words + 2, words[1], head.file_bytes, passed[0], passed[1], passed[2]},
                 self);
+    if (supervisor < 0) report({.problem = errno}, passed[2]);
     for (const int descriptor : passed) close(descriptor);
   }
   _exit(0);

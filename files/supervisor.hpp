@@ -31,7 +31,9 @@ struct SupervisorReport {
 
 /// Forks a process that runs the program and, when that ends, or this thread ends, or it gets
 /// SIGTERM, kills everything the program has started: it adopts what loses its parent
-/// (PR_SET_CHILD_SUBREAPER). Then it reports and ends. Gives its id, -1 where it cannot be forked.
+/// (PR_SET_CHILD_SUBREAPER). Where the kernel lists no children (/proc/thread-self/children), it
+/// kills the program's process group alone. Then it reports and ends. Gives its id, -1 where it
+/// cannot be forked.
 [[nodiscard]] pid_t fork_supervisor(const SupervisedProgram& program);
 
 /// A process that forks supervisors, made early: what this process has taken in memory later is not
