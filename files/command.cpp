@@ -51,10 +51,12 @@ class Kept {
  public:
   explicit Kept(std::size_t most) : most_(most) {}
 
-  /// Takes what is in a pipe.
+  /// Takes what is in a pipe, but not all that a fast writer adds meanwhile.
   void take(int descriptor) {
+    constexpr int kMostReads = 32;  // 2 MiB; a pipe holds 64 KiB, and 1 MiB at most
     std::array<char, 1 << 16> part{};
-    for (ssize_t size = 0; (size = read(descriptor, part.data(), part.size())) > 0;)
+    ssize_t size = 0;
+    for (int n = 0; n < kMostReads && (size = read(descriptor, part.data(), part.size())) > 0; ++n)
       add({part.data(), static_cast<std::size_t>(size)});
   }
   [[nodiscard]] std::string text() const {
@@ -112,7 +114,7 @@ class Watched {
       for (std::size_t n = 1; n < watched.size(); ++n)  // closed by all: not asked any more
         if ((watched[n].revents & POLLHUP) != 0) watched[n].fd = -1;
       if (watched[0].revents != 0) ended = take_report(report);
-      mind_limits(outcome);
+      if (!ended) mind_limits(outcome);
     }
     take_output();
     outcome.wall_s = seconds();
@@ -163,7 +165,7 @@ std::optional<std::filesystem::path> program_on_path(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    std::filesystem::path program = std::filesystem::path(folder) / name;
+    const auto program = std::filesystem::absolute(std::filesystem::path(folder) / name);
     std::error_code none;
     if (std::filesystem::is_regular_file(program, none) && access(program.c_str(), X_OK) == 0)
       return program;
@@ -189,8 +191,8 @@ CommandOutcome run_command(const std::vector<std::string>& words,
   CommandOutcome outcome;
   const SupervisorReport report = program.until_it_ends(outcome);
   if (report.problem != 0) fail_to_start(words.front(), folder, report.problem);
-  outcome.exit_code =
-      WIFEXITED(report.status) ? WEXITSTATUS(report.status) : 128 + WTERMSIG(report.status);
+  outcome.signal = WIFEXITED(report.status) ? 0 : WTERMSIG(report.status);
+  outcome.exit_code = outcome.signal == 0 ? WEXITSTATUS(report.status) : 128 + outcome.signal;
   outcome.processor_s = seconds_of(report.usage.ru_utime) + seconds_of(report.usage.ru_stime);
   outcome.peak_bytes = static_cast<std::uint64_t>(report.usage.ru_maxrss) * 1024;
   return outcome;

@@ -29,13 +29,14 @@ struct CommandLimits {
 /// How another program ended.
 struct CommandOutcome {
   int exit_code = 0;                        ///< 128 and its number where a signal ended it
+  int signal = 0;                           ///< that ended it; 0: none
   std::string out, err;                     ///< what it printed
   bool timed_out = false, stopped = false;  ///< ended by the limits, whatever the exit code
   double wall_s = 0.0, processor_s = 0.0;   ///< the latter with its children
   std::uint64_t peak_bytes = 0;             ///< of memory, of the largest of its processes
 };
 
-/// Where a program lies on the PATH; nothing where it is not there.
+/// Where a program lies on the PATH, an absolute path; nothing where it is not there.
 [[nodiscard]] std::optional<std::filesystem::path> program_on_path(const std::string& name);
 
 /// Runs a program to its end, in `folder`, with an empty standard input, in a session of its own.

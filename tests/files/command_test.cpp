@@ -3,19 +3,27 @@
 
 #include "files/command.hpp"
 
+#include "core/error.hpp"
 #include "files/supervisor.hpp"
 #include "tests/support/expect_error.hpp"
 #include "tests/support/tiny_recording.hpp"
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -42,7 +50,12 @@ TEST(Command, MuchOutputIsWhole) {
 }
 
 TEST(Command, EndedByASignal) {
-  EXPECT_EQ(run_command({"sh", "-c", "kill -9 $$"}, "/").exit_code, 128 + 9);
+  const CommandOutcome killed = run_command({"sh", "-c", "kill -9 $$"}, "/");
+  EXPECT_EQ(killed.exit_code, 128 + 9);
+  EXPECT_EQ(killed.signal, 9);
+  const CommandOutcome ended = run_command({"sh", "-c", "exit 137"}, "/");
+  EXPECT_EQ(ended.exit_code, 137);
+  EXPECT_EQ(ended.signal, 0);
 }
 
 TEST(Command, HowItEndedIsKnownWhereTheSystemForgetsChildren) {
@@ -81,6 +94,72 @@ TEST(Command, EndsWhenItIsStopped) {
       run_command({"sleep", "100"}, "/", {.stop = [&] { return ++asked > 2; }});
   EXPECT_TRUE(outcome.stopped);
   EXPECT_FALSE(outcome.timed_out);
+}
+
+TEST(Command, WhatHasEndedIsNotStoppedAnyMore) {
+  int asked = 0;
+  const auto stop = [&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // it ends meanwhile
+    return ++asked > 1;
+  };
+  const CommandOutcome outcome = run_command({"true"}, "/", {.timeout_s = 1, .stop = stop});
+  EXPECT_EQ(asked, 1);
+  EXPECT_FALSE(outcome.timed_out || outcome.stopped);
+}
+
+/// What `act` gives, 0 to 255, in a process of its own that `prepare` has changed; nothing where it
+/// cannot be, -1 where it takes longer than 20 s.
+std::optional<int> in_a_process(const auto& prepare, const auto& act) {
+  constexpr int kCannot = 255;
+  const pid_t id = fork();
+  if (id == 0) {
+    alarm(20);
+    try {
+      _exit(prepare() ? act() : kCannot);
+    } catch (const std::exception&) {
+      _exit(kCannot - 1);
+    }
+  }
+  int status = 0;
+  waitpid(id, &status, 0);
+  if (!WIFEXITED(status)) return -1;
+  return WEXITSTATUS(status) == kCannot ? std::nullopt : std::optional(WEXITSTATUS(status));
+}
+
+TEST(Command, EndsInTimeWhereTheKernelListsNoChildren) {
+  const testing::TemporaryFolder folder;
+  const auto hide_proc = [] {
+    return (unshare(CLONE_NEWNS) == 0 || unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0) &&
+           mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+           mount("none", "/proc", "tmpfs", 0, nullptr) == 0;
+  };
+  const auto timed_out = in_a_process(hide_proc, [&] {
+    const std::string sleeps = "sleep 100 & echo $! > id; sleep 100";
+    return run_command({"sh", "-c", sleeps}, folder.path(), {.timeout_s = 0.3}).timed_out ? 1 : 0;
+  });
+  if (!timed_out) GTEST_SKIP() << "/proc cannot be hidden";
+  EXPECT_EQ(timed_out, 1);
+  std::string id;
+  std::ifstream(folder.path() / "id") >> id;
+  EXPECT_FALSE(alive(id));
+}
+
+TEST(Command, AServerTellsWhereThereCanBeNoProcess) {
+  const auto become_another = [] {  // with one process beside this one
+    const rlimit two{2, 2};
+    return setrlimit(RLIMIT_NPROC, &two) == 0 && setuid(61234) == 0;
+  };
+  const auto said = in_a_process(become_another, [] {
+    const SupervisorServer server;
+    try {
+      (void)run_command({"true"}, "/", {.server = &server});
+    } catch (const Error& error) {
+      return std::string(error.what()).ends_with(std::strerror(EAGAIN)) ? 1 : 2;
+    }
+    return 0;
+  });
+  if (!said) GTEST_SKIP() << "needs root";
+  EXPECT_EQ(said, 1);
 }
 
 TEST(Command, NothingThatItStartedStaysBehind) {
@@ -193,6 +272,19 @@ TEST(Command, SeveralAtATime) {
     });
   threads.clear();
   EXPECT_EQ(right, 80);
+}
+
+TEST(Command, ARelativePlaceOnThePathIsThatOfThisProgram) {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path program = folder.path() / "a_program_here";
+  std::ofstream(program) << "#!/bin/sh\necho here\n";
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  for (const char* path : {".:/bin", ":/bin"}) {
+    const auto outcome = in_a_process(
+        [&] { return chdir(folder.path().c_str()) == 0 && setenv("PATH", path, 1) == 0; },
+        [&] { return run_command({"a_program_here"}, "/").out == "here\n" ? 1 : 0; });
+    EXPECT_EQ(outcome, 1) << path;
+  }
 }
 
 TEST(Command, WhatIsNotThere) {

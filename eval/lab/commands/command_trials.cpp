@@ -76,10 +76,9 @@ std::string without(const std::string& folder, std::string text) {
 
 std::string how_it_ended(const CommandOutcome& outcome, double timeout_s) {
   if (outcome.timed_out) return fmt::format("the command took longer than {} s", timeout_s);
-  if (outcome.exit_code > 128)
-    return fmt::format("the command was ended by signal {} ({}), or with exit code {}",
-                       outcome.exit_code - 128, strsignal(outcome.exit_code - 128),
-                       outcome.exit_code);
+  if (outcome.signal != 0)
+    return fmt::format("the command was ended by signal {} ({})", outcome.signal,
+                       strsignal(outcome.signal));
   return fmt::format("the command ended with exit code {}", outcome.exit_code);
 }
 
