@@ -17,6 +17,10 @@ namespace {
 
 constexpr std::uint64_t kMostLabel = std::numeric_limits<std::uint16_t>::max();
 
+std::size_t values_of_label(bool has_instances, ClassMasks masks) {
+  return !has_instances && masks == ClassMasks::instances ? kInstancesOfLabel : 1;
+}
+
 /// Colours that tell classes apart: hues a golden ratio of the circle from one another.
 Colour hue(std::size_t n) {
   const double turn = 6.0 * std::fmod(0.618033988749895 * static_cast<double>(n), 1.0);
@@ -34,11 +38,12 @@ std::vector<std::size_t> labels_of(const YamlValue& item, std::size_t id) {
   if (!label.node.IsSequence()) return {label.whole(0, kMostLabel)};
   std::vector<std::size_t> labels;
   for (const YamlValue& one : label.elements()) labels.push_back(one.whole(0, kMostLabel));
+  if (labels.empty()) label.fail("names no label; give one at least, or leave the class out");
   return labels;
 }
 
-/// One entry of `classes`; its pixel value goes into `class_of_pixel`.
-void add_class(const YamlValue& item, LabelClasses& classes) {
+/// One entry of `classes`; its pixel value, at most `most`, goes into `class_of_pixel`.
+void add_class(const YamlValue& item, std::size_t most, LabelClasses& classes) {
   item.only({"name", "label", "colour", "detect"});
   auto& known = classes.table.classes;
   SemanticClass added{static_cast<ClassId>(known.size()), item.at("name").name(), hue(known.size()),
@@ -49,6 +54,11 @@ void add_class(const YamlValue& item, LabelClasses& classes) {
     if (other.name == added.name) item.fail("two classes have this name; rename one");
   auto& meaning = classes.class_of_pixel;
   for (const std::size_t label : labels_of(item, added.id)) {
+    if (label > most)
+      item.fail(
+          fmt::format("label {} is no class of masks instances, whose pixels are {} * label "
+                      "+ instance; give one of at most {}, or cut by masks components",
+                      label, kInstancesOfLabel, most));
     if (meaning.size() <= label) meaning.resize(label + 1, kBackground);
     if (meaning[label] == added.id)
       item.fail(fmt::format("label {} stands twice; keep one", label));
@@ -103,27 +113,28 @@ cv::Mat1w classes_at_pixels(const cv::Mat1w& label, const std::vector<ClassId>& 
 
 }  // namespace
 
-LabelClasses read_label_classes(const std::filesystem::path& file) {
+LabelClasses read_label_classes(const std::filesystem::path& file, ClassMasks masks) {
   const YamlValue root = load_yaml(file);
   root.only({"classes", "instances"});
   LabelClasses classes;
+  classes.has_instances = root.has("instances");
+  const std::size_t most = kMostLabel / values_of_label(classes.has_instances, masks);
   for (const YamlValue& item : root.at("classes").elements()) {
     if (classes.table.classes.size() > kMostLabel) item.fail("more than 65535 classes");
-    add_class(item, classes);
+    add_class(item, most, classes);
   }
   const auto detected = [](const SemanticClass& c) { return c.detect; };
   if (std::ranges::none_of(classes.table.classes, detected))
     root.at("classes").fail("no class is detected; leave out detect: false of one");
-  classes.has_instances = root.has("instances");
   if (classes.has_instances) add_instances(root.at("instances"), classes.table);
   return classes;
 }
 
 std::vector<ClassId> LabelClasses::class_of_value(ClassMasks masks) const {
   std::vector<ClassId> classes(kMostLabel + 1, kBackground);
-  const int values = !has_instances && masks == ClassMasks::instances ? kInstancesOfLabel : 1;
+  const std::size_t values = values_of_label(has_instances, masks);
   for (std::size_t value = 0; value < classes.size(); ++value) {
-    const std::size_t label = value / static_cast<std::size_t>(values);
+    const std::size_t label = value / values;
     if (has_instances)
       classes[value] = table.class_of(static_cast<InstanceId>(value));
     else if (label < class_of_pixel.size())

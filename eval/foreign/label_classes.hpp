@@ -37,8 +37,9 @@ struct LabelClasses {
   [[nodiscard]] std::vector<ClassId> class_of_value(ClassMasks masks) const;
 };
 
-/// Reads the file of docs/foreign_recordings.md. Throws Error with file, line and key path.
-[[nodiscard]] LabelClasses read_label_classes(const std::filesystem::path& file);
+/// Reads the file of docs/foreign_recordings.md, for images that are cut by `masks`. Throws Error
+/// with file, line and key path.
+[[nodiscard]] LabelClasses read_label_classes(const std::filesystem::path& file, ClassMasks masks);
 
 /// An image of instance ids with the table that says their classes.
 struct LabelledImage {

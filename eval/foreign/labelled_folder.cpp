@@ -136,7 +136,7 @@ void LabelledFolder::read_meaning() {
     if (calibration_.range_max_m <= calibration_.range_min_m)
       throw Error("--range_m: the most is not above the least; give near, then far");
   }
-  if (!options_.classes.empty()) classes_ = read_label_classes(options_.classes);
+  if (!options_.classes.empty()) classes_ = read_label_classes(options_.classes, options_.masks);
   if (classes_.has_instances && options_.masks == ClassMasks::classes)
     throw Error(
         "--masks classes: pixels are instance ids here, an object each; leave it out, or give "

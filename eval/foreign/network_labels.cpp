@@ -4,14 +4,12 @@
 #include "eval/foreign/network_labels.hpp"
 
 #include "eval/foreign/association.hpp"
+#include "eval/foreign/score_rows.hpp"
 #include "eval/recording/image_files.hpp"
-#include "files/csv.hpp"
 #include "files/file_bytes.hpp"
 #include "files/png.hpp"
 #include "files/refusal.hpp"
 #include "files/suggestion.hpp"
-#include "files/text.hpp"
-#include "files/text_rows.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -56,13 +54,20 @@ void check_folder(const fs::path& folder) {
            path_suggestion(folder, "give the folder of the network's label images"));
 }
 
+/// Of the colour images, ascending.
+std::vector<double> color_stamps_of(const Recording& recording) {
+  std::vector<double> stamps_s;
+  for (int frame = 0; frame < recording.frame_count(); ++frame)
+    stamps_s.push_back(recording.color_stamp_s(frame));
+  return stamps_s;
+}
+
 /// The images of a recording's frames by their stamps.
 std::vector<fs::path> files_by_stamp(const fs::path& folder, const Recording& recording) {
   const std::vector<StampedImage> images = listed(folder);
-  std::vector<double> stamps_s, frames_s;
+  const std::vector<double> frames_s = color_stamps_of(recording);
+  std::vector<double> stamps_s;
   for (const StampedImage& image : images) stamps_s.push_back(image.stamp_s);
-  for (int frame = 0; frame < recording.frame_count(); ++frame)
-    frames_s.push_back(recording.color_stamp_s(frame));
   std::vector<fs::path> files(frames_s.size());
   for (const Association& pair : associate(stamps_s, frames_s, kMaxOffset_s))
     files[pair.second] = folder / images[pair.first].path;
@@ -77,8 +82,9 @@ std::vector<fs::path> files_by_stamp(const fs::path& folder, const Recording& re
 /// The images of a recording's frames by the names of their colour images.
 std::vector<fs::path> files_by_name(const fs::path& folder, const Recording& recording) {
   std::vector<fs::path> files;
-  for (const StampedImage& image : read_stamp_list(recording.folder() / "color.txt"))
-    files.push_back(folder / fs::path(image.path).filename().replace_extension(".png"));
+  for (int frame = 0; frame < recording.frame_count(); ++frame)
+    files.push_back(folder /
+                    fs::path(recording.color_path(frame)).filename().replace_extension(".png"));
   return files;
 }
 
@@ -96,82 +102,12 @@ std::string text_of(const std::vector<std::int64_t>& pixels_of_value, const auto
   return values.size() > kMost ? fmt::format("{} and {} more", text, values.size() - kMost) : text;
 }
 
-/// Rows of `image,id,score` or `stamp_s,id,score`.
-class ScoreReader {
- public:
-  ScoreReader(const fs::path& file, const std::vector<fs::path>& images, const Recording& recording)
-      : file_(file), images_(images), recording_(recording), scores_(images.size()) {}
-
-  std::vector<std::map<std::uint16_t, double>> read() {
-    const std::string text = read_file(file_);
-    TextLines lines(text);
-    for (bool is_head = true; const auto line = lines.next();) {
-      line_ = lines.number();
-      const auto cells = csv_cells(*line, kCells);
-      if (cells && cells->size() == 1 && cells->front().empty()) continue;
-      if (!cells || cells->size() != kCells) refuse_row("expected three cells, {}", kHeads);
-      if (is_head)
-        take_head(*cells);
-      else
-        take_row(*cells);
-      is_head = false;
-    }
-    if (line_ == 0) refuse(file_, "is empty; write {}", kHeads);
-    return std::move(scores_);
-  }
-
- private:
-  static constexpr std::size_t kCells = 3;
-  static constexpr const char* kHeads = "image,id,score or stamp_s,id,score";
-
-  template <class... Args>
-  [[noreturn]] void refuse_row(fmt::format_string<Args...> what, Args&&... args) const {
-    refuse(file_, line_, what, std::forward<Args>(args)...);
-  }
-
-  void take_head(const std::vector<std::string>& cells) {
-    by_stamp_ = cells[0] == "stamp_s";
-    if ((!by_stamp_ && cells[0] != "image") || cells[1] != "id" || cells[2] != "score")
-      refuse_row("the first line names other columns; write {}", kHeads);
-  }
-
-  void take_row(const std::vector<std::string>& cells) {
-    const std::size_t frame = by_stamp_ ? frame_at(cells[0]) : frame_named(cells[0]);
-    const auto id = parse_count(cells[1]);
-    if (!id || *id > std::numeric_limits<std::uint16_t>::max())
-      refuse_row("id '{}' is no pixel value; write a whole number up to 65535", shown(cells[1]));
-    const auto score = parse_number(cells[2]);
-    if (!score || *score < 0.0 || *score > 1.0)
-      refuse_row("score '{}' is no number from 0 to 1", shown(cells[2]));
-    if (!scores_[frame].emplace(static_cast<std::uint16_t>(*id), *score).second)
-      refuse_row("id {} of this image stands twice; keep one", *id);
-  }
-
-  [[nodiscard]] std::size_t frame_named(const std::string& name) const {
-    const auto found = std::ranges::find(
-        images_, name, [](const fs::path& image) { return image.filename().string(); });
-    if (found == images_.end())
-      refuse_row("there is no label image '{}'; name one as it stands in the folder, such as {}",
-                 shown(name), shown(images_.front().filename().string()));
-    return static_cast<std::size_t>(found - images_.begin());
-  }
-
-  [[nodiscard]] std::size_t frame_at(const std::string& text) const {
-    const auto stamp_s = parse_number(text);
-    if (!stamp_s) refuse_row("stamp '{}' is no number", shown(text));
-    for (int frame = 0; frame < recording_.frame_count(); ++frame)
-      if (std::abs(recording_.color_stamp_s(frame) - *stamp_s) < kMaxOffset_s)
-        return static_cast<std::size_t>(frame);
-    refuse_row("there is no colour image within {} s of stamp {}", kMaxOffset_s, *stamp_s);
-  }
-
-  const fs::path& file_;
-  const std::vector<fs::path>& images_;
-  const Recording& recording_;
-  std::vector<std::map<std::uint16_t, double>> scores_;
-  std::size_t line_ = 0;
-  bool by_stamp_ = false;
-};
+/// Whether an image has a value that is scored.
+bool has_some(const cv::Mat1w& values, const ScoreOfValue& scores) {
+  std::vector<bool> present(std::numeric_limits<std::uint16_t>::max() + 1);
+  for (const std::uint16_t value : values) present[value] = true;
+  return std::ranges::any_of(scores, [&](const auto& score) { return present[score.first]; });
+}
 
 }  // namespace
 
@@ -179,8 +115,11 @@ std::string content_of(const NetworkImages& images) {
   check_folder(images.folder);
   std::vector<std::string> names;
   std::string content;
+  const auto add_bytes = [&](std::string_view name, const std::string& bytes) {
+    content += fmt::format("{} {}\n", hash_of(bytes), name);
+  };
   const auto add = [&](std::string_view name, const fs::path& file) {
-    content += fmt::format("{} {}\n", hash_of(read_file(file)), name);
+    add_bytes(name, read_file(file));
   };
   if (fs::is_regular_file(list_of(images.folder))) {
     add("label.txt", list_of(images.folder));
@@ -192,7 +131,10 @@ std::string content_of(const NetworkImages& images) {
     refuse(images.folder, "holds no label image; give one PNG for each colour image, of its name");
   for (const std::string& name : names) add(name, images.folder / name);
   add("classes", images.classes);
-  if (images.scores) add("scores", *images.scores);
+  if (!images.scores) return content;
+  const std::string scores = read_file(*images.scores);
+  const bool has_stamps = scores.find("stamp_s") != scores.npos;  // became those of the nearest
+  add_bytes(has_stamps ? "scores: 2" : "scores", scores);
   return content;
 }
 
@@ -207,11 +149,12 @@ NetworkLabels::NetworkLabels(const NetworkImages& images, const Recording& recor
                                                        : files_by_name(images.folder, recording);
   take_meaning(table);
   scores_.resize(files_.size());
-  if (images.scores) scores_ = ScoreReader(*images.scores, files_, recording).read();
+  if (images.scores)
+    scores_ = read_scores(*images.scores, files_, color_stamps_of(recording), kMaxOffset_s);
 }
 
 void NetworkLabels::take_meaning(const ClassTable& table) {
-  const LabelClasses file = read_label_classes(images_.classes);
+  const LabelClasses file = read_label_classes(images_.classes, images_.masks);
   if (file.has_instances && images_.masks != ClassMasks::instances)
     refuse(images_.classes, "lists instances, each a detection; write masks: instances");
   std::vector<std::string> names;
@@ -268,8 +211,12 @@ NetworkDetections NetworkLabels::of(int frame) const {
 
 void NetworkLabels::check() const {
   std::vector<std::int64_t> pixels(known_.size());
-  for (std::size_t frame = 0; frame < files_.size(); ++frame)
-    for (const std::uint16_t value : read(static_cast<int>(frame))) ++pixels[value];
+  bool scored = false;
+  for (std::size_t frame = 0; frame < files_.size(); ++frame) {
+    const cv::Mat1w values = read(static_cast<int>(frame));
+    for (const std::uint16_t value : values) ++pixels[value];
+    scored = scored || has_some(values, scores_[frame]);
+  }
   std::int64_t all = 0, unknown = 0, detected = 0;
   for (std::size_t value = 0; value < pixels.size(); ++value) {
     all += pixels[value];
@@ -287,6 +234,13 @@ void NetworkLabels::check() const {
     refuse(images_.folder,
            "no pixel is of a detected class, the values are {}; mend {} or the study's `detect`",
            text_of(pixels, [](std::size_t) { return true; }), images_.classes.string());
+  const auto row = std::ranges::find_if_not(scores_, &ScoreOfValue::empty);
+  if (!scored && row != scores_.end())
+    refuse(*images_.scores,
+           "no id is a pixel value of its image, such as {} of {}; the images hold {}: write these",
+           row->begin()->first,
+           files_[static_cast<std::size_t>(row - scores_.begin())].filename().string(),
+           text_of(pixels, [](std::size_t) { return true; }));
 }
 
 }  // namespace mapscore::eval

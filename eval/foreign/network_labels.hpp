@@ -4,11 +4,11 @@
 #pragma once
 
 #include "eval/foreign/label_classes.hpp"
+#include "eval/foreign/score_rows.hpp"
 #include "eval/recording/recording.hpp"
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,13 +49,13 @@ class NetworkLabels {
   [[nodiscard]] NetworkDetections of(int frame) const;
 
   /// Reads every image. Throws Error as `of`, where more than a hundredth of all pixels have values
-  /// without a meaning, and where none is of a detected class.
+  /// without a meaning, where none is of a detected class, and where there are scores, but none of
+  /// a value in its image.
   void check() const;
 
  private:
   [[nodiscard]] cv::Mat1w read(int frame) const;
   void take_meaning(const ClassTable& table);
-  void take_scores(const Recording& recording);
 
   NetworkImages images_;
   ClassTable table_;
@@ -63,7 +63,7 @@ class NetworkLabels {
   std::vector<std::filesystem::path> files_;  ///< by frame
   std::vector<ClassId> class_of_value_;       ///< of the recording, by pixel value
   std::vector<bool> known_;                   ///< values that the classes' file names, and 0
-  std::vector<std::map<std::uint16_t, double>> scores_;  ///< by frame, then pixel value
+  std::vector<ScoreOfValue> scores_;          ///< by frame
 };
 
 }  // namespace mapscore::eval

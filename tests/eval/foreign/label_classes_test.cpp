@@ -19,13 +19,15 @@ using ::testing::HasSubstr;
 
 class LabelClassFile : public ::testing::Test {
  protected:
-  [[nodiscard]] LabelClasses read(const std::string& text) const {
+  [[nodiscard]] LabelClasses read(const std::string& text,
+                                  ClassMasks masks = ClassMasks::components) const {
     std::ofstream(folder_.path() / "classes.yaml") << text;
-    return read_label_classes(folder_.path() / "classes.yaml");
+    return read_label_classes(folder_.path() / "classes.yaml", masks);
   }
-  [[nodiscard]] std::string refusal(const std::string& text) const {
+  [[nodiscard]] std::string refusal(const std::string& text,
+                                    ClassMasks masks = ClassMasks::components) const {
     try {
-      (void)read(text);
+      (void)read(text, masks);
     } catch (const Error& error) {
       return error.what();
     }
@@ -49,6 +51,16 @@ TEST_F(LabelClassFile, LabelsAreIdsUnlessSaid) {
   EXPECT_FALSE(classes.table.detected(1));
   EXPECT_TRUE(classes.table.detected(3));
   EXPECT_EQ(classes.table.classes[3].colour, (Colour{255, 128, 0}));
+}
+
+TEST_F(LabelClassFile, WithTheInstanceInAPixelLabelsEndAt255) {
+  const std::string last = "classes: [{name: cup, label: [3, 255]}]\n";
+  const std::string beyond = "classes: [{name: cup, label: [3, 256]}]\n";
+  EXPECT_EQ(refusal(last, ClassMasks::instances), "");
+  EXPECT_THAT(refusal(beyond, ClassMasks::instances), HasSubstr("label 256"));
+  EXPECT_EQ(refusal(beyond, ClassMasks::components), "");
+  EXPECT_EQ(refusal(beyond + "instances: [{id: 1, class: cup}]\n", ClassMasks::instances), "");
+  EXPECT_THAT(refusal("classes: [{name: cup, label: []}]\n"), HasSubstr("names no label"));
 }
 
 TEST_F(LabelClassFile, InstancesNameTheirClass) {

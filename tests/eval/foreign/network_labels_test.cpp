@@ -154,6 +154,29 @@ TEST_F(NetworkFolder, ScoresAreOfPixelValues) {
   EXPECT_EQ(by_stamp.scores.at(first + 1), 1.0);
 }
 
+TEST_F(NetworkFolder, AStampedScoreIsOfTheNearestImage) {
+  std::string list;  // 15 ms apart
+  for (int frame = 0; frame < recording().frame_count(); ++frame)
+    list += fmt::format("{:.3f} {}\n", 0.5 + 0.015 * frame, recording().color_path(frame));
+  write_file(recording().folder() / "color.txt", list);
+  const Recording fast = Recording::open(recording().folder());
+  write_scores("stamp_s,id,score\n0.516,56,0.5\n0.531,56,0.75\n0.49,56,0.25\n");
+  const NetworkLabels network(images(), fast, fast.info().table);
+  const std::size_t crate = fast.info().table.instances.size();
+  EXPECT_EQ(network.of(0).scores.at(crate), 0.25);
+  EXPECT_EQ(network.of(1).scores.at(crate), 0.5);
+  EXPECT_EQ(network.of(2).scores.at(crate), 0.75);
+  EXPECT_EQ(network.of(3).scores.at(crate), 1.0);
+}
+
+TEST_F(NetworkFolder, ScoresOfWhichNoneIsOfAPixelAreRefused) {
+  write_scores("image,id,score\n000001.png,57,0.5\n");
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("scores.csv: no id is a pixel value of its image"),
+                               HasSubstr("57 of 000001.png"), HasSubstr("56")));
+  write_scores("image,id,score\n000001.png,57,0.5\n000002.png,56,0.5\n");
+  EXPECT_EQ(refusal(), "accepted") << "a network may list what it suppressed";
+}
+
 TEST_F(NetworkFolder, StampsNameImagesWhereThereIsAList) {
   std::string list;
   for (int frame = 0; frame < recording().frame_count(); ++frame) {
