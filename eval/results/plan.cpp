@@ -139,7 +139,10 @@ class Configurations {
   std::size_t first_ = 0;
 };
 
-void refuse_recorded(const Study& study, const std::string& path) {
+void refuse_axis(const Study& study, const std::string& path) {
+  if (path == "detect")
+    throw Error(
+        "sweep.detect: all trials of a sweep have one detected set; write a study for each");
   if (!decides_recording(path) || (path == kSceneAxis && !study.scenes.empty())) return;
   throw Error("sweep." + path +
               ": decides what is recorded; give each of its values a name under `scenes`");
@@ -185,7 +188,7 @@ bool is_as_planned(const Task& task) {
 }
 
 Plan plan_of(const Study& study, const RecordingHashes& recordings, InputFiles files) {
-  for (const SweepAxis& axis : study.sweep) refuse_recorded(study, axis.path);
+  for (const SweepAxis& axis : study.sweep) refuse_axis(study, axis.path);
   Configurations configurations;
   std::vector<TrialConfigurations> of_trials;  // by cell, then method
   const Cell* at = nullptr;
@@ -232,7 +235,7 @@ TrialTasks tasks_of_trials(const Study& study, const std::vector<TrialSpec>& tri
   std::unordered_map<std::string, std::size_t> places;
   std::vector<std::size_t> positions;
   for (const TrialSpec& trial : trials) {
-    for (const auto& [path, value] : trial.cell.doses) refuse_recorded(study, path);
+    for (const auto& [path, value] : trial.cell.doses) refuse_axis(study, path);
     SeedlessTask task =
         make_task(with_method(resolve(study, trial.cell), trial.method), Labels::detected,
                   recordings.of(scene_of(study, trial.cell)), files);

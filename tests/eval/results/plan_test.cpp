@@ -223,6 +223,12 @@ TEST(Plan, RefusesASweepOfWhatIsRecorded) {
   });
 }
 
+TEST(Plan, RefusesASweepOfTheDetectedSetWhichAllTrialsShare) {
+  mapscore::testing::expect_error("sweep.detect: all trials of a sweep have one detected set", [] {
+    (void)plan_of(study_of("sweep: {detect: [all, [cup]]}\n"), "recording");
+  });
+}
+
 /// A plan that is written down task by task, each merged by its key: what TaskList counts out.
 struct PlainPlan {
   std::vector<Task> tasks;
