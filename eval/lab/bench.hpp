@@ -13,8 +13,8 @@
 
 namespace mapscore::eval {
 
-/// A recording with all that trials over it share: decoded frames, truths, poses. `recording` and
-/// `table` must outlive it. What it gives is safe from several threads.
+/// A recording with all that trials over it share: decoded frames, truths, poses, networks.
+/// `recording` and `table` must outlive it. What it gives is safe from several threads.
 class Bench {
  public:
   /// `table` has the study's detected set. `colour`: whether some trial reads colour images.
@@ -31,9 +31,11 @@ class Bench {
   [[nodiscard]] const Recording& recording() const { return recording_; }
   [[nodiscard]] const ClassTable& table() const { return table_; }
 
-  /// A trial at its first frame; `task` must outlive it. `sights`: as TrialRun.
+  /// A trial at its first frame; `task` must outlive it. `sights`: as TrialRun, with the shared
+  /// networks.
   [[nodiscard]] std::unique_ptr<TrialRun> start(const Task& task,
                                                 std::shared_ptr<const Sights> sights = {}) {
+    if (!sights) sights = std::make_shared<Sights>(task, recording_, table_, &networks_);
     return std::make_unique<TrialRun>(task, recording_, table_, truths_, poses_, std::move(sights));
   }
   [[nodiscard]] std::shared_ptr<const Frame> frame(int index, int depth_index) {
@@ -49,11 +51,14 @@ class Bench {
   }
 
  private:
+  static constexpr std::size_t kNetworks = 64;  ///< kept at once
+
   const Recording& recording_;
   const ClassTable& table_;
   FrameCache frames_;
   TruthCache truths_;
   PoseSources poses_;
+  Networks networks_{kNetworks};
 };
 
 }  // namespace mapscore::eval

@@ -108,7 +108,8 @@ Calibration believed_calibration(const Calibration& truth, const Task& task) {
   return sim::misplace_mount(misregistered, task.config.faults.mount, seed);
 }
 
-Sights::Sights(const Task& task, const Recording& recording, const ClassTable& table)
+Sights::Sights(const Task& task, const Recording& recording, const ClassTable& table,
+               Networks* networks)
     : table_(table),
       labels_(task.labels),
       seed_(trial_seed(task)),
@@ -118,9 +119,13 @@ Sights::Sights(const Task& task, const Recording& recording, const ClassTable& t
       faults_(task.config.faults) {
   if (const auto* settings = std::get_if<SimulatedPerception>(&task.config.perception))
     simulated_ = std::make_shared<const SimulatedLabels>(*settings, task.config, recording, table);
-  if (const auto* settings = std::get_if<ImagePerception>(&task.config.perception))
-    network_ = std::make_shared<const NetworkLabels>(network_images(task.config, *settings),
-                                                     recording, table);
+  if (const auto* settings = std::get_if<ImagePerception>(&task.config.perception)) {
+    const NetworkImages images = network_images(task.config, *settings);
+    const auto read = [&] {
+      return std::make_shared<const NetworkLabels>(images, recording, table);
+    };
+    network_ = networks ? networks->get(images, read) : read();
+  }
 }
 
 std::string Sights::key(const Study& config, Labels labels) {

@@ -8,6 +8,7 @@
 #include "core/geometry/camera.hpp"
 #include "core/segmentation/sight.hpp"
 #include "eval/foreign/network_labels.hpp"
+#include "eval/lab/shared_cache.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/results/task_list.hpp"
 #include "eval/study/study.hpp"
@@ -19,14 +20,19 @@
 
 namespace mapscore::eval {
 
+/// The networks whose labels a recording's trials read, each once: its classes, list and scores.
+using Networks = SharedCache<NetworkImages, std::shared_ptr<const NetworkLabels>>;
+
 /// Makes what the methods of a trial see of a recording's frames: every fault of calibration, depth
 /// and labels comes in here. Trials with equal keys see the same. Immutable, safe to share between
-/// threads; `recording` and `table` must outlive it.
+/// threads; `recording` and `table` must outlive it, `networks` need not.
 class Sights {
  public:
   /// Throws Error when the objects of simulated perception are refused or too many, or there is
   /// neither a file of them nor truth, or a network's classes, scores or list are refused.
-  Sights(const Task& task, const Recording& recording, const ClassTable& table);
+  /// `networks`: of this recording and table; without them it reads its own.
+  Sights(const Task& task, const Recording& recording, const ClassTable& table,
+         Networks* networks = nullptr);
 
   /// Equal for tasks of one plan and seed where their sights are: what of a configuration decides
   /// them.

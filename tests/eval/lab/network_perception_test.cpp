@@ -108,6 +108,19 @@ TEST_F(NetworkPerception, ScoresReachTheMap) {
   EXPECT_THROW((void)study("faults: {labels: {scores: 0.5}}\n", scored), Error);
 }
 
+TEST_F(NetworkPerception, IsReadOnceForAllTrials) {
+  write_file(folder() / "scores.csv", "image,id,score\n000000.png,56,0.5\n");
+  const Task of =
+      task(study("", "{images: {folder: labels, classes: classes.yaml, scores: scores.csv}}\n"));
+  Bench bench(recording(), table(), false, std::size_t{1} << 24);
+  const auto first = bench.start(of);
+  fs::remove(folder() / "scores.csv");
+  const auto second = bench.start(of);
+  bench.run(*first);
+  bench.run(*second);
+  EXPECT_EQ(first->finish().counts, second->finish().counts);
+}
+
 TEST_F(NetworkPerception, TheKeyHoldsTheContentOfWhatIsRead) {
   const std::string key = task(study("")).key;
   fs::copy(folder() / "labels", folder() / "elsewhere");
