@@ -38,9 +38,10 @@ ResultLine sum_of(std::vector<ResultLine> parts, Doses doses, const ClassTable& 
   return line;
 }
 
-/// Adds the sums to lines of one role.
-void add_sums(const StudySummary& summary, const std::vector<std::string>& groups,
-              std::vector<ResultLine>& lines) {
+/// Adds the sums of as many scenes to lines of one role. What not every scene has there stays
+/// without one: it would look like that of all.
+void add_sums(const StudySummary& summary, std::size_t scenes,
+              const std::vector<std::string>& groups, std::vector<ResultLine>& lines) {
   std::map<std::pair<Doses, std::string>, std::vector<ResultLine>> parts;
   for (const ResultLine& line : lines) {
     Doses doses = line.cell.doses;
@@ -49,6 +50,7 @@ void add_sums(const StudySummary& summary, const std::vector<std::string>& group
     parts[{std::move(doses), line.method}].push_back(line);
   }
   for (auto& [place, of] : parts) {
+    if (of.size() < scenes) continue;
     ResultLine sum = sum_of(std::move(of), place.first, summary.table, groups);
     if (!sum.seeds.empty()) lines.push_back(std::move(sum));
   }
@@ -70,9 +72,10 @@ void sort_lines(const Study& study, std::vector<ResultLine>& lines) {
 void add_pooled_scenes(StudySummary& summary, const std::vector<std::string>& groups) {
   const auto axis = std::ranges::find(summary.study.sweep, kSceneAxis, &SweepAxis::path);
   if (summary.study.scenes.empty() || axis->values.size() < 2) return;
+  const std::size_t scenes = axis->values.size();
   axis->values.emplace_back(kAllScenes);
   for (auto* lines : {&summary.trials, &summary.registration_ceilings, &summary.lattice_ceilings}) {
-    add_sums(summary, groups, *lines);
+    add_sums(summary, scenes, groups, *lines);
     sort_lines(summary.study, *lines);
   }
 }

@@ -129,6 +129,25 @@ TEST_F(TinyScenes, AllTogetherAreTheSumsOfTheirCounts) {
   EXPECT_THAT(compared.out, HasSubstr("flat"));
 }
 
+TEST_F(TinyScenes, ThereIsNoSumWhileASceneIsMissing) {
+  const auto sweep = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"sweep", path("two.yaml"), "-o", results(), "-q"};
+    words.insert(words.end(), more.begin(), more.end());
+    expect_done(mapscore(words));
+  };
+  const auto table = [&](const char* scene) {
+    return mapscore({"table", results(), "--interim", "--format", "csv", "--where",
+                     std::string("scene=") + scene});
+  };
+  sweep({"--set", "sweep.scene=[boxed]"});
+  EXPECT_EQ(mapscore({"sweep", path("two.yaml"), "-o", results(), "--merge_only"}).exit_code, 1);
+  expect_done(table("boxed"));
+  expect_refused(table("all"), {"no trial of these is there yet"});
+  expect_done(mapscore({"figures", results(), "--interim", "--no_pictures"}));
+  sweep({});
+  expect_done(table("all"));
+}
+
 TEST_F(TinyScenes, WhatTakesOneSceneSaysSo) {
   for (const char* verb : {"run", "tolerance", "objects", "record"})
     expect_refused(mapscore({verb, path("two.yaml"), "-o", path("one")}),
