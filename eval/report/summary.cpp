@@ -6,7 +6,9 @@
 #include "core/error.hpp"
 #include "eval/lab/runner.hpp"
 #include "eval/report/best_threshold.hpp"
+#include "eval/report/failed_tasks.hpp"
 #include "eval/report/pooled_scenes.hpp"
+#include "eval/report/trial_list.hpp"
 #include "eval/results/study_store.hpp"
 #include "eval/score/lattice_check.hpp"
 #include "files/suggestion.hpp"
@@ -39,24 +41,19 @@ TrialResult read_result(const Source& source, std::size_t task, const std::strin
   return std::move(*result);
 }
 
-/// "; 2 of them failed, the first: ..." with how to list them; empty where none did.
+/// ", the first: ..." with how to list them.
+std::string reason_text(const std::vector<FailedTask>& failed,
+                        const std::filesystem::path& results) {
+  return fmt::format(", the first: {} (`mapscore trials {} --state failed` lists them)",
+                     shown(failed.front().reason), shell_word(results.native()));
+}
+
+/// "; 2 of them failed, the first: ..."; empty where none did.
 std::string failed_text(const Source& source, const std::filesystem::path& results) {
-  const auto failures = source.store.failures();
-  if (failures.empty()) return "";
-  const auto held = source.store.keys();
-  std::size_t failed = 0;
-  std::string first;
-  for (std::size_t n = 0; n < source.plan.tasks.size(); ++n) {
-    const std::string key = source.plan.tasks.key(n);
-    const auto failure = failures.find(key);
-    if (failure == failures.end() || held.contains(key)) continue;
-    if (++failed == 1) first = failure->second;
-  }
-  return failed == 0 ? ""
-                     : fmt::format(
-                           "; {} of them failed, the first: {} (`mapscore trials {} --state "
-                           "failed` lists them)",
-                           failed, shown(first), shell_word(results.native()));
+  const auto failed = failed_tasks(source.store, source.plan.tasks);
+  return failed.empty()
+             ? ""
+             : fmt::format("; {} of them failed{}", failed.size(), reason_text(failed, results));
 }
 
 /// The seeds of a line, and the tasks of each and of its ceilings.
@@ -126,11 +123,13 @@ void check_all_there(const HeldTasks& held, const Source& source,
                      const std::filesystem::path& results) {
   const TaskList& tasks = source.plan.tasks;
   const std::size_t missing = tasks.size() - held.all;
-  if (missing > 0)
-    throw Error(fmt::format(
-        "{}: {} of {} trials are not there yet{}; run `mapscore sweep STUDY -o {}` again, "
-        "it goes on where it stopped",
-        results.string(), missing, tasks.size(), failed_text(source, results), results.string()));
+  if (missing == 0) return;
+  const bool commands = !failed_commands(source.store, tasks).empty();
+  throw Error(fmt::format(
+      "{}: {} of {} trials are not there yet{}; run `mapscore sweep STUDY -o {}{}` again, "
+      "it goes on where it stopped{}",
+      results.string(), missing, tasks.size(), failed_text(source, results), results.string(),
+      commands ? " --retry_failed" : "", commands ? " and tries failed commands again" : ""));
 }
 
 /// How much of an unfinished sweep is there.
@@ -139,18 +138,24 @@ std::string interim_note(const HeldTasks& held, const TaskList& tasks) {
                      held.all, tasks.size());
 }
 
-/// How many trials of each method failed, where all that is not there are trials of commands that
-/// did; empty where others are missing.
-std::string only_failed_text(const HeldTasks& held, const Source& source) {
-  const auto failed = failed_commands(source.store, source.plan.tasks);
-  if (failed.empty() || held.all + failed.size() < source.plan.tasks.size()) return "";
+/// How many trials and ceilings of each method failed and why, where all that is not there are
+/// commands that did; empty where others are missing.
+std::string only_failed_text(const HeldTasks& held, const Source& source,
+                             const std::filesystem::path& results) {
+  const Plan& plan = source.plan;
+  const std::size_t commands = failed_commands(source.store, plan.tasks).size();
+  if (commands == 0 || held.all + commands < plan.tasks.size()) return "";
+  const auto failed = failed_tasks(source.store, plan.tasks);
   std::map<std::string, int> by_method;
-  for (const PlannedTrial& trial : source.plan.trials)
-    if (failed.contains(source.plan.tasks.key(trial.task))) ++by_method[trial.spec.method];
+  visit_tasks(plan, [&](const ListedTask& task) {
+    if (std::ranges::binary_search(failed, task.task, {}, &FailedTask::task))
+      ++by_method[task.spec.method];
+    return true;
+  });
   std::vector<std::string> counts;
   for (const auto& [method, count] : by_method)
     counts.push_back(fmt::format("{} failed of {}", count, method));
-  return fmt::format("FAILED: {}", fmt::join(counts, ", "));
+  return fmt::format("FAILED: {}{}", fmt::join(counts, ", "), reason_text(failed, results));
 }
 
 Estimate estimate(const BestThreshold& best, std::optional<double> ChosenScore::*figure) {
@@ -211,12 +216,14 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
     require_one_of(summary.groups(), group,
                    fmt::format("class '{}': not scored in this study", group));
   std::unordered_set<std::string> keys;
-  const std::string failed =
-      options.failed_commands && held.all < tasks.size() ? only_failed_text(held, *source) : "";
+  const std::string failed = options.failed_commands && held.all < tasks.size()
+                                 ? only_failed_text(held, *source, results)
+                                 : "";
   if ((options.interim || !failed.empty()) && held.all < tasks.size()) {
     keys = source->store.keys();
+    summary.is_finished = !failed.empty();
     summary.interim =
-        (failed.empty() ? interim_note(held, tasks) : failed) + failed_text(*source, results);
+        summary.is_finished ? failed : interim_note(held, tasks) + failed_text(*source, results);
   } else {
     check_all_there(held, *source, results);
   }
@@ -232,6 +239,7 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
     summary.lattice_ceilings.push_back(
         reader.line(Role::lattice_ceiling, line, line.lattice_ceiling));
   }
+  if (options.pool_scenes) add_pooled_scenes(summary, groups);
   if (!summary.interim.empty() && !summary.trials.empty()) {
     const auto count = [](const ResultLine& line) { return line.seeds.size(); };
     const auto [least, most] = std::ranges::minmax(summary.trials, {}, count);
@@ -244,7 +252,6 @@ StudySummary summarise_store(const std::filesystem::path& results, const Summary
   if (summary.trials.empty())
     throw Error(fmt::format("{}: no trial is there with both of its ceilings yet{}; wait, or go on",
                             results.string(), failed_text(*source, results)));
-  if (options.pool_scenes) add_pooled_scenes(summary, groups);
   return summary;
 }
 

@@ -82,9 +82,10 @@ struct StudySummary {
   std::vector<ResultLine> trials;
   /// Ceilings of `trials[i]`; lines that agree for several trials are repeated.
   std::vector<ResultLine> registration_ceilings, lattice_ceilings;
-  /// Of an unfinished sweep: how much is there, for captions, and `study.seeds` is what the fullest
-  /// line has; empty for a complete one.
+  /// Of a sweep that lacks trials: how much is there, for captions, and `study.seeds` is what the
+  /// fullest line has; empty for a complete one.
   std::string interim = {};
+  bool is_finished = true;  ///< all that is not there are commands that failed
 
   /// "pooled", "macro", then the detected classes.
   [[nodiscard]] std::vector<std::string> groups() const;

@@ -135,7 +135,10 @@ TEST_F(CommandSweep, FailedTrialsAreToldAndTriedAgainWhenAsked) {
   EXPECT_THAT(again.err, HasSubstr("8 trials failed before"));
   const Outcome table = mapscore({"table", results()});
   expect_done(table);
-  EXPECT_THAT(table.out, HasSubstr("FAILED: 4 failed of broken, 4 failed of silent"));
+  EXPECT_THAT(table.out, HasSubstr("FAILED: 4 failed of broken, 4 failed of silent, the first: "));
+  EXPECT_THAT(table.out, Not(HasSubstr("of them failed")));
+  expect_done(mapscore({"figures", results(), "--no_pictures"}));
+  EXPECT_TRUE(fs::exists(path("results/figures/table.txt"))) << "the sweep is finished";
   const Outcome trials = mapscore({"trials", results(), "--state", "failed"});
   EXPECT_THAT(trials.out, HasSubstr("exit code 3; its log ends: 'oh no'"));
   EXPECT_EQ(sweep({"--retry_failed", "-q"}).exit_code, 1);
@@ -188,7 +191,20 @@ TEST_F(CommandSweep, SeedsWhoseCommandFailedAreLeftOutOfComparisons) {
   expect_done(with_none);
   EXPECT_THAT(with_none.out, HasSubstr("magnitude_m = 0: undefined"));
   expect_refused(mapscore({"check", results(), "--baseline", path("b.json"), "--update"}),
-                 {"failed"});
+                 {"6 of them failed", "--retry_failed` again"});
+}
+
+TEST_F(CommandSweep, AFailedCeilingIsNamedForItsMethod) {
+  // The ceiling alone has the true calibration, which this mapper does not take.
+  write_methods(
+      shell("mine", fmt::format("grep -q \"T_color_depth: .*0.025\" \"$0/trial.yaml\" && "
+                                "exit 3; {} {} \"$0\" \"$1\"",
+                                MAPSCORE_PYTHON, (kExternal / "numpy_mapper.py").string())));
+  const Outcome outcome = sweep({"--set", "sweep.faults.misregistration.magnitude_m=[0.03]"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  const Outcome table = mapscore({"table", results()});
+  expect_done(table);
+  EXPECT_THAT(table.out, HasSubstr("FAILED: 2 failed of mine, the first: "));
 }
 
 TEST_F(CommandSweep, WhatCannotRunIsRefusedBeforeAnyTrial) {

@@ -112,7 +112,7 @@ void figures(const FiguresFlags& flags) {
   const fs::path folder =
       !flags.folder.empty()
           ? fs::path(flags.folder)
-          : file.parent_path() / (summary.interim.empty() ? "figures" : "interim_figures");
+          : file.parent_path() / (summary.is_finished ? "figures" : "interim_figures");
   const FolderLock lock(folder);
   print({write_table(summary, folder)});
   print(draw_figures(summary, folder, style));

@@ -6,7 +6,7 @@
 #include "eval/cli/shared/shard_stores.hpp"
 #include "eval/cli/shared/slurm_jobs.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/report/summary.hpp"
+#include "eval/report/failed_tasks.hpp"
 #include "eval/results/plan.hpp"
 #include "eval/results/searched_trials.hpp"
 #include "eval/results/shards.hpp"
@@ -63,15 +63,7 @@ std::string text_of(const SweepStatus& status, bool running) {
 /// What a store holds of its study.
 std::string store_text(const fs::path& file, const ResultStore& store, const StudyRecord& record,
                        const TaskList& tasks) {
-  const auto held = store.keys();
-  const auto failures = store.failures();
-  std::size_t done = 0, failed = 0;
-  for (std::size_t n = 0; n < tasks.size(); ++n) {
-    const std::string key = tasks.key(n);
-    const bool there = held.contains(key);
-    done += there ? 1 : 0;
-    failed += !there && failures.contains(key) ? 1 : 0;
-  }
+  const std::size_t done = held_tasks(store, tasks).all, failed = failed_tasks(store, tasks).size();
   std::string text = fmt::format(
       "{}: study {}, {} of {} trials and ceilings done, {} failed, {} not tried yet\n", shown(file),
       shown(record.study.name), done, tasks.size(), failed, tasks.size() - done - failed);
