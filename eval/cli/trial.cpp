@@ -135,7 +135,7 @@ void add_trial(CLI::App& program) {
   verb->add_option(
       "--results", flags->results,
       "Folder of the results, where the recording is or is rendered to [results/NAME]");
-  flags->work.add_to(*verb);
+  flags->work.add_without_memory_to(*verb);
   verb->footer(
       "Images that no dose touches are hard links to those of the recording: map them, do not "
       "change them.\n"

@@ -131,8 +131,11 @@ TEST_F(CommandSweep, FailedTrialsAreToldAndTriedAgainWhenAsked) {
   EXPECT_THAT(first.err, HasSubstr("--retry_failed"));
   const Outcome again = sweep();
   EXPECT_EQ(again.exit_code, 1);
-  EXPECT_THAT(again.err, HasSubstr("0 trials computed"));
+  EXPECT_THAT(again.err, HasSubstr("0 trials computed, 6 already there"));
   EXPECT_THAT(again.err, HasSubstr("8 trials failed before"));
+  EXPECT_THAT(sweep({"--dry_run"}).out, HasSubstr("6 there, 0 missing, 8 failed (--retry_failed"));
+  EXPECT_THAT(sweep({"--dry_run", "--retry_failed"}).out,
+              HasSubstr("6 there, 8 missing, 8 of them failed before"));
   const Outcome table = mapscore({"table", results()});
   expect_done(table);
   EXPECT_THAT(table.out, HasSubstr("FAILED: 4 failed of broken, 4 failed of silent, the first: "));
@@ -174,6 +177,21 @@ TEST_F(CommandSweep, AFileThatChangesUnderASweepEndsIt) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("methods.mine"));
   EXPECT_THAT(outcome.err, HasSubstr("has changed"));
+}
+
+TEST_F(CommandSweep, WhatFailedInTheFolderIsNotMissingOfItsShards) {
+  write_methods(shell("broken", "exit 3"));
+  EXPECT_EQ(sweep({"-q"}).exit_code, 1);
+  const Outcome merge = sweep({"--merge_only"});
+  EXPECT_EQ(merge.exit_code, 1);
+  EXPECT_THAT(merge.err, HasSubstr("4 trials failed before"));
+  EXPECT_THAT(merge.err, HasSubstr("all 6 other trials are in"));
+  for (const char* shard : {"1/2", "2/2"}) {
+    const Outcome outcome = sweep({"--shard", shard});
+    expect_done(outcome);
+    EXPECT_THAT(outcome.err, HasSubstr("0 trials computed, 6 already there"));
+  }
+  EXPECT_EQ(sweep({"--shard", "1/2", "--retry_failed"}).exit_code, 1);
 }
 
 TEST_F(CommandSweep, SeedsWhoseCommandFailedAreLeftOutOfComparisons) {

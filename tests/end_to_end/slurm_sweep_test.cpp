@@ -117,6 +117,22 @@ TEST_F(SlurmSweep, WhatLostTasksLeftIsNamedAndSubmittedAgain) {
   EXPECT_EQ(tidy(results()), expected());
 }
 
+TEST_F(SlurmSweep, CommandsThatFailedAreSubmittedAgainOnlyWhenAsked) {
+  replace("study.yaml", "methods:\n",
+          "methods:\n  broken: {command: [sh, -c, exit 3, \"{map}\"], map: voxels.csv}\n");
+  const Outcome first = submit({"--tasks", "2"});
+  expect_done(first);
+  EXPECT_THAT(bytes_of(path("bin/merge_log")),
+              AllOf(HasSubstr("4 trials failed before"), HasSubstr("all 10 other trials are in")));
+  const Outcome again = submit();
+  EXPECT_EQ(again.exit_code, 1) << "as a sweep whose commands failed";
+  EXPECT_THAT(again.err, HasSubstr("--retry_failed tries them again"));
+  EXPECT_FALSE(fs::exists(path("bin/call3"))) << "there is nothing left to submit";
+  expect_done(submit({"--retry_failed"}));
+  EXPECT_TRUE(fs::exists(path("bin/call3")));
+  EXPECT_THAT(bytes_of(path("bin/merge_log")), HasSubstr("4 trials failed before"));
+}
+
 TEST_F(SlurmSweep, TasksThatRunTwiceAtOnceCountOnce) {
   write_text(path("bin/twice"), "");
   expect_done(submit({"--tasks", "4"}));

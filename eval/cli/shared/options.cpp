@@ -65,9 +65,13 @@ void add_memory_flag(CLI::App& verb, std::size_t& bytes) {
 }
 
 void WorkFlags::add_to(CLI::App& verb) {
+  add_without_memory_to(verb);
+  add_memory_flag(verb, memory_bytes);
+}
+
+void WorkFlags::add_without_memory_to(CLI::App& verb) {
   verb.add_option("-j,--jobs", jobs, "Worker threads [all cores]; never changes a result")
       ->check(CLI::Range(1, 1024));
-  add_memory_flag(verb, memory_bytes);
   verb.add_flag("-q,--quiet", quiet, "No progress on standard error");
 }
 

@@ -49,6 +49,8 @@ struct WorkFlags {
   bool quiet = false;
 
   void add_to(CLI::App& verb);
+  /// All but --memory, for verbs that hold a frame at a time.
+  void add_without_memory_to(CLI::App& verb);
 };
 
 /// `--view EX EY EZ TX TY TZ [VFOV]`: where pictures are drawn from.

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <iostream>
 #include <numeric>
+#include <unordered_set>
 
 namespace mapscore::eval {
 namespace {
@@ -48,10 +49,14 @@ std::size_t sum_of(const std::vector<std::size_t>& counts) {
   return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
 }
 
-void say_that_all_is_there(const SharedOutSweep& sweep) {
+/// Says that nothing is left to compute. Returns the exit code: 1 where commands failed.
+int say_that_all_is_there(const SharedOutSweep& sweep, std::size_t failed) {
+  tell_failed_commands(failed, sweep.results);
   if (!sweep.flags.work.quiet)
-    std::cerr << fmt::format("sweep {}: all {} trials are in {}\n", sweep.study, sweep.tasks.size(),
+    std::cerr << fmt::format("sweep {}: all {} {}trials are in {}\n", sweep.study,
+                             sweep.tasks.size() - failed, failed > 0 ? "other " : "",
                              shown(sweep.results / "results.sqlite"));
+  return failed > 0 ? 1 : 0;
 }
 
 /// ": 12 of shard 3/8, 11 of shard 5/8"; empty where nothing was cut into shards.
@@ -67,19 +72,33 @@ std::string shards_text(const std::vector<std::size_t>& missing) {
   return text;
 }
 
+/// How many trials each shard misses that are not kept and none of `failed`.
+std::vector<std::size_t> missing_but(const SharedOutSweep& sweep,
+                                     const std::unordered_set<std::string>& failed, int shards) {
+  auto settled = kept_keys(sweep.store, sweep.flags.keep_builds);
+  settled.insert(failed.begin(), failed.end());
+  return missing_by_shard(sweep.tasks, settled, shards);
+}
+
 }  // namespace
+
+void tell_failed_commands(std::size_t count, const std::filesystem::path& results) {
+  if (count > 0)
+    std::cerr << fmt::format(
+        "sweep: {} trial{} failed before; `mapscore trials {} --state failed` lists them, "
+        "--retry_failed tries them again\n",
+        count, count > 1 ? "s" : "", shell_word(results.native()));
+}
 
 int submit_missing(const SharedOutSweep& sweep) {
   const SweepFlags& flags = sweep.flags;
   const int cpus = flags.jobs_given ? flags.work.jobs : 1;
+  std::unordered_set<std::string> failed;
+  if (!flags.retry_failed) failed = failed_commands(sweep.store, sweep.tasks);
   SlurmSweep jobs;
-  jobs.missing_by_shard = missing_by_shard(sweep.tasks, kept_keys(sweep.store, flags.keep_builds),
-                                           batches_of(sweep, cpus));
+  jobs.missing_by_shard = missing_but(sweep, failed, batches_of(sweep, cpus));
   const std::size_t missing = sum_of(jobs.missing_by_shard);
-  if (missing == 0) {
-    say_that_all_is_there(sweep);
-    return 0;
-  }
+  if (missing == 0) return say_that_all_is_there(sweep, failed.size());
   jobs.results = std::filesystem::absolute(sweep.results).lexically_normal();
   jobs.task = flags.words(sweep.results, cpus);
   jobs.task.insert(jobs.task.begin(), std::filesystem::read_symlink("/proc/self/exe"));
@@ -101,12 +120,11 @@ int submit_missing(const SharedOutSweep& sweep) {
 
 int tell_missing(const SharedOutSweep& sweep) {
   const SweepFlags& flags = sweep.flags;
-  const std::vector<std::size_t> missing = missing_by_shard(
-      sweep.tasks, kept_keys(sweep.store, flags.keep_builds), flags.tasks.value_or(1));
-  if (sum_of(missing) == 0) {
-    say_that_all_is_there(sweep);
-    return 0;
-  }
+  // Also with --retry_failed, which the batches have done.
+  const auto failed = failed_commands(sweep.store, sweep.tasks);
+  const std::vector<std::size_t> missing = missing_but(sweep, failed, flags.tasks.value_or(1));
+  if (sum_of(missing) == 0) return say_that_all_is_there(sweep, failed.size());
+  tell_failed_commands(failed.size(), sweep.results);
   const auto jobs = read_slurm_jobs(sweep.results);
   const std::string words = command_text(flags.words(sweep.results, flags.work.jobs));
   std::cerr << fmt::format(

@@ -105,11 +105,24 @@ ResultStore bound_store(const Workplace& at, const OtherStores& merged) {
   return store;
 }
 
-/// What the whole folder holds beside a shard.
-std::unordered_set<std::string> held_elsewhere(const Workplace& at) {
+/// Keys that a sweep does not compute: of trials that are there, and of commands that failed.
+struct SettledKeys {
+  std::unordered_set<std::string> held, failed;
+};
+
+/// Those of the store and, of a shard, of the whole folder.
+SettledKeys settled_keys(const Workplace& at, const ResultStore& store) {
+  SettledKeys keys;
+  const auto add = [&](const ResultStore& of) {
+    keys.held.merge(kept_keys(of, at.flags.keep_builds));
+    if (!at.flags.retry_failed) keys.failed.merge(failed_commands(of, at.plan.tasks));
+  };
+  add(store);
   const std::filesystem::path file = store_file(at.whole);
-  if (at.results == at.whole || !std::filesystem::exists(file)) return {};
-  return kept_keys(ResultStore::open_existing(file), at.flags.keep_builds);
+  if (at.results != at.whole && std::filesystem::exists(file))
+    add(ResultStore::open_existing(file));
+  std::erase_if(keys.failed, [&](const std::string& key) { return keys.held.contains(key); });
+  return keys;
 }
 
 /// Frame evaluations that each scene misses.
@@ -134,12 +147,13 @@ RunnerOutcome computed(const Workplace& at, ResultStore& store, const StopSignal
   first.shard = at.flags.shard;
   first.jobs = work.jobs;
   const bool keep_builds = at.flags.keep_builds;
+  SettledKeys settled = settled_keys(at, store);
+  const std::size_t failed_before = settled.failed.size();
+  settled.held.merge(settled.failed);
   RunnerOptions options{work.jobs, work.memory_bytes, shard,
-                        shards,    keep_builds,       held_elsewhere(at)};
-  if (!at.flags.retry_failed) options.held_elsewhere.merge(failed_commands(store, at.plan.tasks));
-  auto held = kept_keys(store, keep_builds);
-  held.insert(options.held_elsewhere.begin(), options.held_elsewhere.end());
-  const std::vector<std::size_t> missing = missing_tasks(at.plan.tasks, held, shard, shards);
+                        shards,    keep_builds,       std::move(settled.held)};
+  const std::vector<std::size_t> missing =
+      missing_tasks(at.plan.tasks, options.held_elsewhere, shard, shards);
   const std::vector<std::int64_t> planned = evaluations(at, missing);
   first.missing = static_cast<std::int64_t>(missing.size());
   if (!work.quiet) note_other_builds(held_tasks(store, at.plan.tasks), keep_builds);
@@ -157,7 +171,7 @@ RunnerOutcome computed(const Workplace& at, ResultStore& store, const StopSignal
     status.ended(all.computed + done, all.failures.size() + failed);
   };
   options.stop = [&] { return stop.taken() != 0; };
-  all.reused = at.plan.tasks.size() - missing.size();
+  all.reused = at.plan.tasks.size() - missing.size() - failed_before;
   for (std::size_t n = 0; n < at.scenes.size() && !all.stopped; ++n) {
     after -= planned[n];
     const RunnerOutcome one =
@@ -176,13 +190,7 @@ RunnerOutcome computed(const Workplace& at, ResultStore& store, const StopSignal
 /// too. Throws Error where all there is failed.
 void tell_failures(const RunnerOutcome& outcome, std::size_t commands,
                    const std::filesystem::path& results) {
-  const std::string list = shell_word(results.native());
-  if (outcome.failures.empty() && commands > 0)
-    std::cerr << fmt::format(
-        "sweep: {} trials failed before; `mapscore trials {} --state failed` lists them, "
-        "--retry_failed tries them again\n",
-        commands, list);
-  if (outcome.failures.empty()) return;
+  if (outcome.failures.empty()) return tell_failed_commands(commands, results);
   const TrialFailure& first = outcome.failures.front();
   const std::string how = outcome.failures.size() > 1 ? fmt::format("{} trials failed, the first: ",
                                                                     outcome.failures.size())
@@ -191,7 +199,7 @@ void tell_failures(const RunnerOutcome& outcome, std::size_t commands,
   std::cerr << fmt::format(
       "sweep: {}{}; `mapscore trials {} --state failed` lists them, the same sweep tries them "
       "again{}\n",
-      how, shown(first.reason), list,
+      how, shown(first.reason), shell_word(results.native()),
       commands > 0 ? fmt::format(" (the {} of commands with --retry_failed)", commands) : "");
 }
 
@@ -251,7 +259,7 @@ int sweep(const SweepFlags& flags) {
   flags.check(whole);
   const OtherStores merged = stores_of(flags.merged);
   if (flags.dry_run) {
-    print_dry_run(study, whole, shard, shards, flags.keep_builds);
+    print_dry_run(study, whole, flags);
     return 0;
   }
   SweepSize(study, whole).refuse_many(flags.yes);

@@ -7,6 +7,7 @@
 #include "eval/cli/shared/progress.hpp"
 #include "eval/lab/runner.hpp"
 #include "eval/render/study_recording.hpp"
+#include "eval/report/failed_tasks.hpp"
 #include "eval/results/plan.hpp"
 #include "eval/results/store.hpp"
 #include "eval/results/study_store.hpp"
@@ -60,8 +61,9 @@ void SweepSize::refuse_many(bool yes) const {
         fmt::format("{}; time: {}; sweep fewer values, or add --yes", grid(), time_of(trials())));
 }
 
-void print_dry_run(const Study& study, const std::filesystem::path& results, int shard, int shards,
-                   bool keep_builds) {
+void print_dry_run(const Study& study, const std::filesystem::path& results,
+                   const SweepFlags& flags) {
+  const auto [shard, shards] = flags.shard_of();
   const SweepSize size(study, results);
   std::map<std::string, std::string> hashes;
   std::string recordings;
@@ -77,26 +79,33 @@ void print_dry_run(const Study& study, const std::filesystem::path& results, int
               : "not there, is rendered first");
   }
   const TaskList tasks = plan_of(study, RecordingHashes(hashes)).tasks;
-  std::unordered_set<std::string> held;
-  std::size_t failed = 0;
+  std::unordered_set<std::string> settled;
+  std::size_t failed = 0, left = 0;  // of the missing, and of commands that are not tried again
   const std::filesystem::path file = store_file(results);
   if (recording && std::filesystem::exists(file)) {
     const ResultStore store = ResultStore::open_existing(file);
-    held = kept_keys(store, keep_builds);
-    const auto failures = store.failures();
-    for (std::size_t n = 0; n < tasks.size() && !failures.empty(); ++n)
-      failed += failures.contains(tasks.key(n)) && !held.contains(tasks.key(n)) ? 1 : 0;
+    settled = kept_keys(store, flags.keep_builds);
+    failed = failed_tasks(store, tasks).size();
+    if (!flags.retry_failed) {
+      auto commands = failed_commands(store, tasks);
+      left = commands.size();
+      failed -= left;
+      settled.merge(commands);
+    }
   }
-  const std::size_t missing = missing_tasks(tasks, held, 1, 1).size();
-  const std::size_t ours = shards > 1 ? missing_tasks(tasks, held, shard, shards).size() : missing;
+  const std::size_t missing = missing_tasks(tasks, settled, 1, 1).size();
+  const std::size_t ours =
+      shards > 1 ? missing_tasks(tasks, settled, shard, shards).size() : missing;
   std::cout << fmt::format("study {}: {}, {} with ceilings{}\n", shown(study.name), size.grid(),
                            tasks.size(),
                            tasks.size() < size.trials()
                                ? ", as trials that differ in nothing their method reads are one"
                                : "")
             << fmt::format(
-                   "{}: {} there, {} missing{}{}\n", shown(results), tasks.size() - missing,
-                   missing, failed ? fmt::format(", {} of them failed before", failed) : "",
+                   "{}: {} there, {} missing{}{}{}\n", shown(results),
+                   tasks.size() - missing - left, missing,
+                   failed ? fmt::format(", {} of them failed before", failed) : "",
+                   left ? fmt::format(", {} failed (--retry_failed tries them again)", left) : "",
                    shards > 1 ? fmt::format(", {} in shard {}/{}", ours, shard, shards) : "")
             << recordings << fmt::format("time: {}\n", size.time_of(ours));
 }

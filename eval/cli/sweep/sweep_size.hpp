@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "eval/cli/sweep/sweep_flags.hpp"
 #include "eval/results/sweep_status.hpp"
 #include "eval/study/study.hpp"
 
@@ -32,10 +33,10 @@ class SweepSize {
   std::optional<SweepStatus> last_;
 };
 
-/// `mapscore sweep --dry_run`: prints cells, trials, how many are there (`keep_builds`: of other
-/// builds too), and the time that the missing ones take. Writes nothing. Throws Error as a sweep
+/// `mapscore sweep --dry_run`: prints cells, trials, how many are there, how many the sweep would
+/// compute and the time that these take, by its flags. Writes nothing. Throws Error as a sweep
 /// does.
-void print_dry_run(const Study& study, const std::filesystem::path& results, int shard, int shards,
-                   bool keep_builds);
+void print_dry_run(const Study& study, const std::filesystem::path& results,
+                   const SweepFlags& flags);
 
 }  // namespace mapscore::eval
