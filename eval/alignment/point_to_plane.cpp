@@ -41,11 +41,11 @@ double reach_of(const Eigen::Matrix3d& half_edges, const Pose& T, const Vector3d
 
 }  // namespace
 
-SurfaceIndex::SurfaceIndex(std::vector<OrientedPoint> points)
-    : points_(std::move(points)), tree_(positions(points_)) {}
+SurfaceIndex::SurfaceIndex(std::vector<OrientedPoint> points, double slack_m)
+    : points_(std::move(points)), tree_(positions(points_)), slack_m_(slack_m) {}
 
 const OrientedPoint* SurfaceIndex::nearest(const OrientedPoint& point, double reach_m) const {
-  const auto found = tree_.nearest(point.p, reach_m);
+  const auto found = tree_.nearest(point.p, reach_m + slack_m_);
   if (!found || !alike(point.n, points_[*found].n)) return nullptr;
   return &points_[*found];
 }

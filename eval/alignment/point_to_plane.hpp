@@ -16,10 +16,11 @@ namespace mapscore::eval {
 /// share between threads.
 class SurfaceIndex {
  public:
-  explicit SurfaceIndex(std::vector<OrientedPoint> points);
+  /// `slack_m`: how much farther than asked for `nearest` looks.
+  explicit SurfaceIndex(std::vector<OrientedPoint> points, double slack_m = 0.0);
 
   [[nodiscard]] const std::vector<OrientedPoint>& points() const { return points_; }
-  /// The surface's point nearest to `p` within the reach whose normal fits `n`
+  /// The surface's point nearest to `p` within the reach and the slack whose normal fits `n`
   /// (to within some 45 degrees, either sign; a zero normal fits any); nullptr
   /// where there is none.
   [[nodiscard]] const OrientedPoint* nearest(const OrientedPoint& point, double reach_m) const;
@@ -27,6 +28,7 @@ class SurfaceIndex {
  private:
   std::vector<OrientedPoint> points_;
   PointTree tree_;
+  double slack_m_;
 };
 
 /// A point of a map and how much it counts.

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kSurfaceSpacing_m = 0.05, kPointSpacing_m = 0.05;
+constexpr double kPointSpacing_m = 0.05;
 constexpr std::size_t kMostPoints = 12'000, kFewPoints = 1'500;
 /// Yaws that are tried, and how many peaks each may have.
 constexpr int kYaws = 72;
@@ -196,6 +196,12 @@ Pose settled(const std::vector<WeightedPoint>& points, const std::vector<Weighte
   return T;
 }
 
+/// Of surfaces too large for the points' own spacing the next point may lie farther along them.
+SurfaceIndex index_of(std::span<const PreparedShape> pieces) {
+  const double spacing_m = bounded_spacing_m(pieces);
+  return SurfaceIndex(surface_points(pieces, spacing_m), spacing_m - kPointSpacing_m);
+}
+
 /// Why the best placement is not to be trusted; empty where it is.
 std::string refusal_of(const Alignment& found) {
   if (found.best.share < kLeastShare)
@@ -214,7 +220,7 @@ std::string refusal_of(const Alignment& found) {
 }  // namespace
 
 SurfaceAligner::SurfaceAligner(std::span<const PreparedShape> pieces, int jobs)
-    : surface_(surface_points(pieces, kSurfaceSpacing_m)), jobs_(jobs) {}
+    : surface_(index_of(pieces)), jobs_(jobs) {}
 
 Alignment SurfaceAligner::align(std::span<const Vector3d> map) const {
   Alignment result;

@@ -111,6 +111,29 @@ void add(const Triangle& t, double spacing_m, Points& points) {
           {t[0] + (i + 1.0 / 3) / parts * u + (j + 1.0 / 3) / parts * v, n.normalized()});
 }
 
+/// The area that points are laid over, square metres.
+double area_m2(const OrientedBox& box) {
+  const Vector3d& h = box.half;  // a rectangle has one face
+  return h.z() == 0 ? 4 * h.x() * h.y() : 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x());
+}
+double area_m2(const Ball& ball) {
+  return 4 * std::numbers::pi * ball.radius * ball.radius;
+}
+double area_m2(const Ellipsoid& form) {
+  return area_m2(Ball{form.centre, form.radii.maxCoeff()});
+}
+double area_m2(const Capsule& form) {
+  return 2 * std::numbers::pi * form.radius * ((form.b - form.a).norm() + 2 * form.radius);
+}
+double area_m2(const Cylinder& form) {
+  return 4 * std::numbers::pi * form.radius * form.half + 8 * form.radius * form.radius;
+}
+double area_m2(const Triangle& t) {
+  const double longest =
+      std::max({(t[1] - t[0]).norm(), (t[2] - t[0]).norm(), (t[1] - t[2]).norm()});
+  return longest * longest / 2;
+}
+
 /// Which face of a cube the normal points through, opposite ones as one.
 int axis_of(const Vector3d& n) {
   int axis = 0;
@@ -158,6 +181,14 @@ class SolidSlabs {
 };
 
 }  // namespace
+
+double bounded_spacing_m(std::span<const PreparedShape> pieces) {
+  constexpr double kFine_m = 0.05, kMostPoints = 3e6;
+  double sum_m2 = 0.0;
+  for (const PreparedShape& piece : pieces)
+    sum_m2 += std::visit([](const auto& form) { return area_m2(form); }, piece.form());
+  return std::max(kFine_m, std::sqrt(sum_m2 / kMostPoints));
+}
 
 std::vector<OrientedPoint> surface_points(std::span<const PreparedShape> pieces, double spacing_m) {
   Points points;

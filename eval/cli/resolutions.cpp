@@ -113,8 +113,8 @@ Resolutions score_sizes(const ResolutionFlags& flags, const SemanticMap& map) {
     add_row(score, lattice.voxel_m, times, result.table);
     const std::string title = fmt::format("{:.6g} cm: {} voxels, F1 {}", 100 * lattice.voxel_m,
                                           result.table.rows.back()[2], result.table.rows.back()[6]);
-    result.maps.push_back(judged_map("", title, coarse.snapshot, threshold, score.truth.surface,
-                                     score.truth.view.visible, score.table,
+    result.maps.push_back(judged_map("", title, coarse.snapshot, threshold, score.truth->surface,
+                                     score.truth->view.visible, score.table,
                                      lattice.map_frame().T_map_world()));
     result.classes = score.table;
     if (!flags.color.empty())

@@ -82,8 +82,8 @@ void write_errors(const ScoreFlags& flags, const InputMap& map, const MapScore& 
   const auto together = lock_outputs({flags.picture, flags.errors_ply});
   const std::string name = std::filesystem::path(flags.map.file).filename().string();
   const JudgedMap judged =
-      judged_map(name, name, map.snapshot, score.threshold, score.truth.surface,
-                 score.truth.view.visible, score.table, flags.lattice.map_frame().T_map_world());
+      judged_map(name, name, map.snapshot, score.threshold, score.truth->surface,
+                 score.truth->view.visible, score.table, flags.lattice.map_frame().T_map_world());
   if (!flags.errors_ply.empty()) write_error_ply(flags.errors_ply, judged);
   if (flags.picture.empty()) return;
   ScenePainter painter(source.shapes(), source.table());
@@ -131,32 +131,38 @@ std::vector<Eigen::Vector3d> points_of(const MapFile& map, const Pose& T_map_fil
   return points;
 }
 
+std::optional<double> pooled_f1(const MapScore& score) {
+  return value_of(tidy_metrics(score.counts, score.table, kPooled), "f1");
+}
+
+/// F1 of the map where it says it lies; none where that is beyond the lattice, as that of a map in
+/// the coordinates of a country.
+std::optional<double> f1_as_given(ScoreFlags flags, const LabelledMap& map, const Pose& T_map_file,
+                                  TruthSource& source) try {
+  flags.map.trust_frame = true;
+  return pooled_f1(score_at(flags, map, T_map_file, source).score);
+} catch (const Error&) {
+  return std::nullopt;
+}
+
 /// Moves the map to where its geometry fits the truth's surfaces best, and says what that changed.
 ScoredMap score_aligned(const ScoreFlags& flags, const LabelledMap& map, TruthSource& source) {
   const Pose T_map_file = flags.map.T_map_file();
   const Alignment found =
-      source.aligner(flags.work.jobs).align(points_of(map.file, T_map_file, flags.lattice.voxel_m));
+      source.aligner().align(points_of(map.file, T_map_file, flags.lattice.voxel_m));
   if (!found.refusal.empty())
     throw Error(fmt::format("{}: --align: {}; give --transform, or leave --align out",
                             flags.map.file, found.refusal));
-  ScoreFlags as_given = flags;
-  as_given.map.trust_frame = true;
-  const ScoredMap before = score_at(as_given, map, T_map_file, source);
   const Pose T_aligned = found.best.motion * T_map_file;
   ScoredMap after = score_at(flags, map, T_aligned, source);
-  const auto f1 = [](const MapScore& score) {
-    return value_of(tidy_metrics(score.counts, score.table, kPooled), "f1");
-  };
-  const Eigen::Quaterniond q(T_aligned.linear());
-  const Eigen::Vector3d t = T_aligned.translation();
   after.alignment = {
       fmt::format(
           "aligned by {}: F1 {} -> {}, {:.1f} -> {:.1f} % of its surfaces on the truth's, {:.1f} % "
           "at the next best place",
-          motion_text(found.best.motion), cell_text(f1(before.score)), cell_text(f1(after.score)),
-          100 * found.before.share, 100 * found.best.share, 100 * found.next.share),
-      fmt::format("the same: --transform '{:.6f} {:.6f} {:.6f} {:.9f} {:.9f} {:.9f} {:.9f}'", t.x(),
-                  t.y(), t.z(), q.x(), q.y(), q.z(), q.w())};
+          motion_text(found.best.motion), cell_text(f1_as_given(flags, map, T_map_file, source)),
+          cell_text(pooled_f1(after.score)), 100 * found.before.share, 100 * found.best.share,
+          100 * found.next.share),
+      fmt::format("the same: --transform '{}'", transform_text(T_aligned))};
   return after;
 }
 

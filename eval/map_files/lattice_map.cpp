@@ -34,7 +34,7 @@ std::uint32_t instance_of(const MapFile& map, std::size_t n) {
 [[noreturn]] void refuse_far(const Eigen::Vector3d& p, double edge_m) {
   throw Error(
       fmt::format("the map reaches ({:.6g}, {:.6g}, {:.6g}) m, beyond 1000000 voxels of {} "
-                  "m; is it in metres, and does --transform fit?",
+                  "m; is it in metres (else give --scale), and does --transform fit?",
                   p.x(), p.y(), p.z(), edge_m));
 }
 

@@ -19,6 +19,10 @@ struct SurfaceShare {
 
   std::size_t occupied = 0, at_surfaces = 0;
 
+  void count(bool at_surface) {
+    ++occupied;
+    at_surfaces += at_surface ? 1 : 0;
+  }
   /// 1 for a map without occupied voxels.
   [[nodiscard]] double share() const {
     return occupied == 0 ? 1.0 : static_cast<double>(at_surfaces) / static_cast<double>(occupied);
@@ -35,11 +39,8 @@ struct SurfaceShare {
 [[nodiscard]] inline SurfaceShare surface_share(const MapSnapshot& map,
                                                 const SurfaceTruth& surface) {
   SurfaceShare count;
-  for (const MapVoxel& voxel : map.voxels()) {
-    if (!voxel.occupied) continue;
-    ++count.occupied;
-    count.at_surfaces += at_surface(voxel.key, surface) ? 1 : 0;
-  }
+  for (const MapVoxel& voxel : map.voxels())
+    if (voxel.occupied) count.count(at_surface(voxel.key, surface));
   return count;
 }
 

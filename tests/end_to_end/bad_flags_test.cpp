@@ -18,6 +18,8 @@ TEST_F(BadFlags, UnknownOrMissing) {
   expect_refused(mapscore({"sweep"}), {"STUDY is required", "--help"});
   expect_refused(mapscore({"sweep", study(), "--frobnicate"}), {"--frobnicate", "--help"});
   expect_refused(mapscore({"check", results()}), {"--baseline is required", "--help"});
+  expect_refused(mapscore({"trial", study(), "-o", path("trial"), "--memory", "1GiB"}),
+                 {"--memory", "--help"});
 }
 
 TEST_F(BadFlags, OfTheWrongTypeOrOutOfRange) {

@@ -262,9 +262,29 @@ TEST_F(ScoreMap, AMapInAnotherUnitIsNamedForWhatItIs) {
   expect_refused(score("millimetres.csv"), {"millimetres.csv", "--scale 0.001", "--trust_frame"});
   EXPECT_EQ(figure("millimetres.csv", "crate,f1", {"--scale", "0.001"}),
             figure("metres.csv", "crate,f1"));
+  // Of a flag that is wrong, what mends it is told, not what would mend the map without it.
+  expect_refused(score("metres.csv", {"--scale", "0.001"}), {"metres.csv", "give --scale 1,"});
+  expect_refused(score("metres.csv", {"--scale", "1000000"}), {"metres.csv", "--scale"});
   write_text(path("voxels.csv"), "1,1,1,crate\n");
   expect_refused(score("voxels.csv", {"--scale", "0.001"}), {"voxels.csv", "--scale"});
   expect_refused(score("voxels.csv", {"--align"}), {"voxels.csv", "--align", "too few"});
+}
+
+TEST_F(ScoreMap, ATurnAboutZIsNamedAndItsTransformMendsItFarFromTheOrigin) {
+  std::string text = "x,y,z,class\n";
+  const auto points = seen().front();
+  for (const SeenPoint& point : points) {
+    const Eigen::Vector3d& p = point.p_world;
+    text += fmt::format("{:.6f},{:.6f},{:.6f},{}\n", 12345.678 - p.y(), 23456.789 + p.x(), p.z(),
+                        point.class_id == 1 ? "crate" : "wall");
+  }
+  write_text(path("far.csv"), text);
+  const Outcome outcome = score("far.csv", {"--transform", "-23456.789 12345.678 0 0 0 0 1"});
+  const std::string said = outcome.out + outcome.err, flag = "--transform '";
+  EXPECT_NE(said.find("it lacks a turn of -90 deg about z"), std::string::npos) << said;
+  const std::size_t begin = said.find(flag) + flag.size();
+  const std::string transform = said.substr(begin, said.find('\'', begin) - begin);
+  EXPECT_EQ(figure("far.csv", "crate,recall", {"--transform", transform, "--frames", "0"}), "1");
 }
 
 TEST_F(ScoreMap, LabelImagesAgainstThemselves) {

@@ -30,27 +30,15 @@ constexpr double kExplained = 0.5, kBetter = 0.1;
 /// A motion that is worth a word.
 constexpr double kFar_m = 0.1, kFarTurn = 2 * std::numbers::pi / 180.0;
 
-struct Share {
-  std::size_t near = 0, all = 0;
-
-  void count(bool is_near) {
-    ++all;
-    near += is_near ? 1 : 0;
-  }
-  [[nodiscard]] double value() const {
-    return all == 0 ? 1.0 : static_cast<double>(near) / static_cast<double>(all);
-  }
-};
-
 /// Where the occupied voxels of a map lie.
 struct Places {
-  Share surfaces, upright, detected;
+  SurfaceShare surfaces, upright, detected;
   std::vector<Vector3d> p_map;  ///< their centres
   Eigen::AlignedBox3d bounds;
 
   [[nodiscard]] bool odd() const {
-    return surfaces.value() < kDoubtfulShare || upright.value() < kDoubtfulUpright ||
-           detected.value() < kDoubtfulShare;
+    return surfaces.share() < kDoubtfulShare || upright.share() < kDoubtfulUpright ||
+           detected.share() < kDoubtfulShare;
   }
 };
 
@@ -87,29 +75,38 @@ template <class Change>
 double share_after(const std::vector<Vector3d>& p_file, const SurfaceTruth& surface,
                    const Change& change) {
   constexpr std::size_t kSample = 5000;
-  Share share;
+  SurfaceShare share;
   const std::size_t step = std::max(std::size_t{1}, p_file.size() / kSample);
   for (std::size_t n = 0; n < p_file.size(); n += step)
     if (const auto key = packable_voxel_of(change(p_file[n]), surface.edge_m()))
       share.count(at_surface(*key, surface));
-  return share.value();
+  return share.share();
 }
 
-/// Another unit of length, by the bounds.
-std::string unit_trouble(const Eigen::AlignedBox3d& map, const Eigen::AlignedBox3d& truth) {
+/// Another unit of length, by the bounds; `scale`: the metres in a unit that the map was read with.
+std::string unit_trouble(const Eigen::AlignedBox3d& map, const Eigen::AlignedBox3d& truth,
+                         double scale) {
   constexpr double kNearest = 2.5;
   const double times = map.diagonal().norm() / truth.diagonal().norm();
-  for (const auto& [units, name] : {std::pair{1000.0, "millimetres"}, {100.0, "centimetres"}})
-    if (times > units / kNearest && times < units * kNearest)
-      return fmt::format(
-          "its bounds are {:.0f} times the truth's: it seems to be in {}; give --scale {}", times,
-          name, 1.0 / units);
-  for (const double units : {0.001, 0.01})
-    if (times > units / kNearest && times < units * kNearest)
-      return fmt::format(
-          "its bounds are {:.2g} of the truth's; if its unit is {:g} m, give --scale {:g}", times,
-          1.0 / units, 1.0 / units);
+  for (const double units : {1000.0, 100.0, 0.01, 0.001}) {
+    if (times <= units / kNearest || times >= units * kNearest) continue;
+    const std::string size = times > 1.0 ? fmt::format("its bounds are {:.0f} times", times)
+                                         : fmt::format("its bounds are {:.2g} of", times);
+    return fmt::format("{} the truth's; if its unit is {:g} m, give --scale {:g}", size,
+                       scale / units, scale / units);
+  }
   return {};
+}
+
+/// What a turn by right angles mends.
+std::string turn_text(const Eigen::Matrix3d& R) {
+  int up = 0;
+  R.row(2).cwiseAbs().maxCoeff(&up);
+  const bool is_upright = up == 2 && R(2, 2) > 0;
+  const double yaw_deg = 180.0 / std::numbers::pi * std::atan2(R(1, 0), R(0, 0));
+  return is_upright
+             ? fmt::format("it lacks a turn of {:.0f} deg about z", yaw_deg)
+             : fmt::format("its axes are swapped ({}{} is up)", R(2, up) < 0 ? "-" : "", "xyz"[up]);
 }
 
 /// Axes of the file in another order, or pointing the other way.
@@ -132,22 +129,13 @@ std::string axes_trouble(const std::vector<Vector3d>& p_file, const Pose& T_map_
       best = turn;
     }
   if (best.isApprox(Pose::Identity())) return {};
-  int up = 0;
-  best.linear().row(2).cwiseAbs().maxCoeff(&up);
-  const Pose T = T_map_file * best;
-  const Eigen::Quaterniond q(T.linear());
-  return fmt::format(
-      "its axes are swapped ({}{} is up): {:.0f} % lie at surfaces with --transform '{:g} {:g} "
-      "{:g} "
-      "{:.7g} {:.7g} {:.7g} {:.7g}'",
-      best.linear()(2, up) < 0 ? "-" : "", "xyz"[up], 100 * most, T.translation().x(),
-      T.translation().y(), T.translation().z(), q.x(), q.y(), q.z(), q.w());
+  return fmt::format("{}: {:.0f} % lie at surfaces with --transform '{}'", turn_text(best.linear()),
+                     100 * most, transform_text(T_map_file * best));
 }
 
 /// A rigid motion that explains the map better.
-std::string motion_trouble(const std::vector<Vector3d>& p_map, const TruthSource& source,
-                           int jobs) {
-  const Alignment found = source.aligner(jobs).align(p_map);
+std::string motion_trouble(const std::vector<Vector3d>& p_map, TruthSource& source) {
+  const Alignment found = source.aligner().align(p_map);
   const Pose& motion = found.best.motion;
   const Vector3d p = p_map[p_map.size() / 2];
   const bool is_far =
@@ -172,8 +160,15 @@ std::string motion_text(const Pose& motion) {
       degrees * std::atan2(R(2, 1), R(2, 2)));
 }
 
-std::string frame_note(const std::string& name, const InputMap& map, const SurfaceTruth& surface,
-                       const TruthSource& source, int jobs) {
+std::string transform_text(const Pose& T) {
+  const Eigen::Quaterniond q(T.linear());
+  const Vector3d t = T.translation();
+  return fmt::format("{:.6f} {:.6f} {:.6f} {:.12f} {:.12f} {:.12f} {:.12f}", t.x(), t.y(), t.z(),
+                     q.x(), q.y(), q.z(), q.w());
+}
+
+std::string frame_note(const MapFlags& flags, const InputMap& map, const SurfaceTruth& surface,
+                       TruthSource& source) {
   const Places places = places_of(map, surface, source.table());
   if (places.p_map.empty() || !places.odd()) return {};
   Eigen::AlignedBox3d truth;
@@ -183,24 +178,24 @@ std::string frame_note(const std::string& name, const InputMap& map, const Surfa
   if (!truth.isEmpty()) {
     std::vector<Vector3d> p_file;
     for (const Vector3d& p : places.p_map) p_file.push_back(map.T_map_file.inverse() * p);
-    trouble = unit_trouble(places.bounds, truth);
+    trouble = unit_trouble(map.bounds.isEmpty() ? places.bounds : map.bounds, truth, flags.scale);
     if (trouble.empty())
-      trouble = axes_trouble(p_file, map.T_map_file, surface, places.surfaces.value());
-    if (trouble.empty()) trouble = motion_trouble(places.p_map, source, jobs);
+      trouble = axes_trouble(p_file, map.T_map_file, surface, places.surfaces.share());
+    if (trouble.empty()) trouble = motion_trouble(places.p_map, source);
   }
-  if (places.surfaces.value() < SurfaceShare::kLeast)
+  if (places.surfaces.in_another_frame())
     throw Error(fmt::format(
         "{}: only {} of {} occupied voxels lie on or beside a surface, so the map seems to lie in "
         "another frame (map {}; truth {}); {}, or score it as it is with --trust_frame",
-        name, places.surfaces.near, places.surfaces.all, span_of(places.bounds),
+        flags.file, places.surfaces.at_surfaces, places.surfaces.occupied, span_of(places.bounds),
         truth.isEmpty() ? "empty" : span_of(truth),
         trouble.empty() ? "give --transform, --origin_m or --yaw_deg, or try --align" : trouble));
   if (!trouble.empty()) return "the map seems to lie in another frame: " + trouble;
-  if (places.surfaces.value() < kDoubtfulShare)
+  if (places.surfaces.share() < kDoubtfulShare)
     return fmt::format(
         "only {:.0f} % of the map's occupied voxels lie on or beside a surface; is it in the frame "
         "that --transform, --origin_m and --yaw_deg say?",
-        100.0 * places.surfaces.value());
+        100.0 * places.surfaces.share());
   return {};
 }
 

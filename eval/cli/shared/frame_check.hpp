@@ -16,6 +16,10 @@ namespace mapscore::eval {
 /// (R = Rz(yaw) Ry(pitch) Rx(roll)).
 [[nodiscard]] std::string motion_text(const Pose& motion);
 
+/// What --transform takes: tx ty tz qx qy qz qw, to a hundredth of a millimetre 1000 km from the
+/// origin.
+[[nodiscard]] std::string transform_text(const Pose& T);
+
 /// Whether a map lies where its truth does, in words for a note; empty where nothing is odd. Odd
 /// are: fewer than one in four of its occupied voxels on or beside a surface, fewer than one in
 /// four of its detected classes' voxels on or beside a surface of their class, fewer than half of
@@ -23,8 +27,7 @@ namespace mapscore::eval {
 /// it says what is wrong, where that can be told: the unit, the axes, or a motion that explains the
 /// map better. Throws Error, with the bounds of both and the same, when fewer than one in a hundred
 /// lie on or beside a surface.
-[[nodiscard]] std::string frame_note(const std::string& name, const InputMap& map,
-                                     const SurfaceTruth& surface, const TruthSource& source,
-                                     int jobs);
+[[nodiscard]] std::string frame_note(const MapFlags& flags, const InputMap& map,
+                                     const SurfaceTruth& surface, TruthSource& source);
 
 }  // namespace mapscore::eval

@@ -40,11 +40,11 @@ ClassTable sampled_table(const ClassTable& table, const MapSnapshot& map) {
 
 std::vector<InstanceCounts> instances_of(const InputMap& map, double threshold,
                                          TruthSource& source) {
-  const LatticeTruth truth = source.truth(instance_table(source.table()), false);
+  const auto truth = source.kept_truth(instance_table(source.table()), false);
   const PredictedInstances predicted = map.numbers.empty()
                                            ? pieces_of(map.snapshot, threshold)
                                            : objects_of(map.snapshot, threshold, map.numbers);
-  return score_instances(predicted, truth.surface, truth.view.visible, source.table());
+  return score_instances(predicted, truth->surface, truth->view.visible, source.table());
 }
 
 }  // namespace
@@ -100,6 +100,7 @@ InputMap placed(const LabelledMap& map, const MapFlags& flags, const Pose& T_map
   InputMap input;
   input.geometry = map.geometry;
   input.T_map_file = T_map_file;
+  for (const Eigen::Vector3d& p : map.file.points) input.bounds.extend(T_map_file * p);
   try {
     LatticeMap lattice = on_lattice(map.file, map.labelling.classes, T_map_file, edge_m,
                                     flags.resample ? Resample::allow : Resample::refuse);
@@ -120,18 +121,16 @@ MapScore score_input(const InputMap& map, const MapFlags& flags, double threshol
   score.table = map.geometry ? geometry_table(source.table()) : source.table();
   score.threshold = threshold;
   score.sampled = source.recording() != nullptr;
-  score.truth = source.truth(sampled_table(score.table, map.snapshot), true);
-  if (!flags.trust_frame)
-    score.note = frame_note(flags.file, map, score.truth.surface, source, jobs);
-  const ViewTruth& view = score.truth.view;
+  score.truth = source.kept_truth(sampled_table(score.table, map.snapshot), true);
+  const SurfaceTruth& surface = score.truth->surface;
+  if (!flags.trust_frame) score.note = frame_note(flags, map, surface, source);
+  const ViewTruth& view = score.truth->view;
   const std::size_t classes = score.table.classes.size();
-  score.counts = score.truth.score(map.snapshot, threshold, view, classes, {}, jobs);
-  score.confusion =
-      confusion_of(map.snapshot, threshold, score.truth.surface, view.visible, classes);
+  score.counts = score.truth->score(map.snapshot, threshold, view, classes, {}, jobs);
+  score.confusion = confusion_of(map.snapshot, threshold, surface, view.visible, classes);
   if (!map.geometry) score.instances = instances_of(map, threshold, source);
   if (source.recording() && carves(map.snapshot))
-    score.occupancy =
-        score_occupancy(map.snapshot, source.occupancy(score.truth.surface), score.truth.surface);
+    score.occupancy = score_occupancy(map.snapshot, source.occupancy(surface), surface);
   return score;
 }
 

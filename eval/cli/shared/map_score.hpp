@@ -17,6 +17,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <Eigen/Geometry>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,7 +53,8 @@ struct InputMap {
   std::vector<NumberedVoxel> numbers;  ///< of objects; empty where the file has none
   bool geometry = false;               ///< without classes: occupied voxels are of kSurfaceClass
   Pose T_map_file = Pose::Identity();
-  std::string placing;  ///< in words, how it came onto the lattice
+  Eigen::AlignedBox3d bounds;  ///< of a cloud's points, before they were binned
+  std::string placing;         ///< in words, how it came onto the lattice
 };
 
 /// Brings the map onto the lattice of edge `edge_m`. Throws Error as on_lattice.
@@ -61,7 +64,7 @@ struct InputMap {
 /// Everything that is counted of one map.
 struct MapScore {
   ClassTable table;  ///< of the truth, or its geometry_table
-  LatticeTruth truth;
+  std::shared_ptr<const LatticeTruth> truth;
   double threshold = 0.0;
   bool sampled = true;  ///< the truth has depth samples, so that completeness is defined
   Counts counts;

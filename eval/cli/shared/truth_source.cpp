@@ -33,6 +33,14 @@ void check_truth_size(const TruthCost& cost, double edge_m, bool yes) {
   if (!yes) refuse_too_large(cost, edge_m, available_bytes());
 }
 
+/// Whether two tables agree in all that decides a truth: what is detected, and the class of each
+/// instance.
+bool same_truth(const ClassTable& a, const ClassTable& b) {
+  return std::ranges::equal(a.classes, b.classes, {}, &SemanticClass::detect,
+                            &SemanticClass::detect) &&
+         std::ranges::equal(a.instances, b.instances, {}, &Instance::class_id, &Instance::class_id);
+}
+
 /// The time given by the flags, if any.
 std::optional<double> time_of(const LatticeFlags& flags, const Recording& recording) {
   if (!flags.frame) return flags.at_s;
@@ -141,8 +149,18 @@ LatticeTruth TruthSource::truth(const ClassTable& table, bool distances) {
   return truth;
 }
 
-SurfaceAligner TruthSource::aligner(int jobs) const {
-  return {prepare(shapes_, lattice_.map_frame().T_map_world()), jobs};
+std::shared_ptr<const LatticeTruth> TruthSource::kept_truth(const ClassTable& table,
+                                                            bool distances) {
+  Kept& kept = kept_.at(distances ? 1 : 0);
+  if (kept.truth && same_truth(kept.table, table)) return kept.truth;
+  kept.truth.reset();  // before the next, which may be as large
+  kept = {table, std::make_shared<const LatticeTruth>(truth(table, distances))};
+  return kept.truth;
+}
+
+const SurfaceAligner& TruthSource::aligner() {
+  if (!aligner_) aligner_.emplace(prepare(shapes_, lattice_.map_frame().T_map_world()), jobs_);
+  return *aligner_;
 }
 
 OccupancyTruth TruthSource::occupancy(const SurfaceTruth& surface) {

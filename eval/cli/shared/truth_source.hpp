@@ -14,7 +14,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,8 +72,12 @@ class TruthSource {
   /// source, or another reading of its instances; depth samples are kept of its detected classes
   /// where `distances` are asked for.
   [[nodiscard]] LatticeTruth truth(const ClassTable& table, bool distances);
-  /// Brings maps onto all surfaces, frame map.
-  [[nodiscard]] SurfaceAligner aligner(int jobs) const;
+  /// The same, made once for maps that ask for it one after the other: the last one with distances
+  /// is kept, and the last one without.
+  [[nodiscard]] std::shared_ptr<const LatticeTruth> kept_truth(const ClassTable& table,
+                                                               bool distances);
+  /// Brings maps onto all surfaces, frame map; made once.
+  [[nodiscard]] const SurfaceAligner& aligner();
   /// What the frames know to be occupied and free. Needs a recording.
   [[nodiscard]] OccupancyTruth occupancy(const SurfaceTruth& surface);
 
@@ -80,6 +86,11 @@ class TruthSource {
   [[nodiscard]] LatticeTruth surfaces(const ClassTable& table, const TruthOptions& options,
                                       bool whole_view) const;
 
+  struct Kept {
+    ClassTable table;
+    std::shared_ptr<const LatticeTruth> truth;
+  };
+
   const LatticeFlags& lattice_;
   int jobs_;
   FrameSelection selection_;
@@ -87,6 +98,8 @@ class TruthSource {
   std::vector<Shape> shapes_;
   std::optional<Recording> recording_;
   std::optional<FrameCache> frames_;
+  std::array<Kept, 2> kept_;  ///< without and with distances
+  std::optional<SurfaceAligner> aligner_;
 };
 
 /// Throws Error, stating the cost, when the finest truth of a study would take too much memory

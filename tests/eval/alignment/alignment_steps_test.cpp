@@ -59,6 +59,21 @@ TEST(SurfacePoints, LieOnTheSurfacesOfEveryKindWithTheirNormals) {
   }
 }
 
+TEST(SurfacePoints, GrowSparserWhereTheSurfacesAreVast) {
+  EXPECT_EQ(bounded_spacing_m(prepare(furnished_room(), Pose::Identity())), 0.05);
+  const auto ground = prepare({box_at({0, 0, -0.05}, {250, 250, 0.05})}, Pose::Identity());
+  EXPECT_NEAR(bounded_spacing_m(ground), std::sqrt(500'200 / 3e6), 1e-9);
+  // Of every kind the area is one that its points are spread over.
+  for (Shape shape : each_kind()) {
+    shape.size *= 1000;
+    for (auto& triangle : shape.triangles)
+      for (Vector3d& corner : triangle) corner *= 1000;
+    const auto vast = prepare({shape}, Pose::Identity());
+    const double spacing_m = bounded_spacing_m(vast);
+    EXPECT_LT(surface_points(vast, 10 * spacing_m).size(), 33'000u) << name_of(shape.kind);
+  }
+}
+
 TEST(SurfacePoints, NoneLiesInsideOfAnotherSolid) {
   const std::vector<Shape> shapes{box_at({0, 0, 0}, {0.5, 0.5, 0.5}),
                                   box_at({0, 0, 0.5}, {0.2, 0.2, 0.2})};
