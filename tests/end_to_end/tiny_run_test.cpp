@@ -118,6 +118,16 @@ TEST_F(TinyRun, InstancesOfAStudyAreThoseOfItsMap) {
   EXPECT_EQ(trial.at({"crate", "instances_true_positive"}), "1");
 }
 
+TEST_F(TinyRun, TheCommandThatScoresTheMapSaysWhatTheStudyCounts) {
+  const auto command = [&](const std::string& set) {
+    const std::string out = run(set).out;
+    return out.substr(out.find("mapscore score "));
+  };
+  EXPECT_THAT(command("score.min_samples=3"), HasSubstr(" --min_samples 3"));
+  EXPECT_THAT(command("score.epsilon_m=0.002"), HasSubstr(" --epsilon_m 0.002"));
+  EXPECT_THAT(command("seed=1"), Not(HasSubstr("--epsilon_m")));
+}
+
 TEST_F(TinyRun, InstancesAreNotScoredUnasked) {
   const auto trial = swept("seed=1");
   EXPECT_FALSE(trial.contains({"crate", "pq"}));

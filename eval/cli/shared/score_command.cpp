@@ -24,7 +24,13 @@ std::string score_command(const std::filesystem::path& map, const Study& study,
       shell_word(map.native()), shell_word(recording.folder().native()), frame.edge_m,
       frame.origin_m.x(), frame.origin_m.y(), frame.origin_m.z(), task.config.map_yaw_deg,
       threshold);
-  if (task.config.score.unit == ScoreUnit::frame)
+  const ScoreSettings &score = task.config.score, usual;
+  if (score.epsilon_m != usual.epsilon_m)
+    command += fmt::format(" --epsilon_m {}", score.epsilon_m);
+  if (score.min_samples != usual.min_samples)
+    command += fmt::format(" --min_samples {}", score.min_samples);
+  if (score.at_s) command += fmt::format(" --at_s {}", *score.at_s);
+  if (score.unit == ScoreUnit::frame)
     command += fmt::format(" --frames {}", recording.frame_count() - 1);
   if (study.detect) {
     std::vector<std::string> names;
