@@ -173,6 +173,7 @@ std::string recording_name(const Study& study, const sim::World& world) {
   if (on_wheels(study)) rendered.lidar = study.lidar;
   std::string text = world.hash() + '\n' + sim::mujoco_version() + '\n' + to_key_yaml(rendered);
   if (world.motion()) text += world.motion()->hash;
+  if (!world.has_light()) text += "\nhead light";  // without it images were black once
   const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
   return fmt::format("{}-{:012x}", fs::path(study.scene.value()).stem().string(),
                      hash.high64 >> 16);
