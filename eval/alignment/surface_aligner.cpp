@@ -3,6 +3,7 @@
 
 #include "eval/alignment/surface_aligner.hpp"
 
+#include "core/geometry/voxel.hpp"
 #include "core/parallel.hpp"
 #include "eval/alignment/oriented_cloud.hpp"
 
@@ -12,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <unordered_set>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -30,6 +33,8 @@ constexpr double kNear_m = 0.05;
 /// A map of surfaces has at least this share at them where it belongs, and the next best place at
 /// most this part of it.
 constexpr double kLeastShare = 0.4, kMostOfNext = 0.85;
+/// Moved by 10 cm it has at most this part of it.
+constexpr double kMostOfSlid = 0.95;
 constexpr std::size_t kFewestPoints = 50;
 
 std::vector<Vector3d> positions(std::span<const WeightedPoint> points) {
@@ -196,10 +201,46 @@ Pose settled(const std::vector<WeightedPoint>& points, const std::vector<Weighte
   return T;
 }
 
+/// Keeps the points that lie within a cell, or a cell and its neighbours, of those that were seen.
+void keep_seen(std::vector<OrientedPoint>& points, std::span<const Vector3d> seen) {
+  constexpr double kSeenCell_m = 0.03;
+  std::unordered_set<std::uint64_t> cells;
+  for (const Vector3d& p : seen) {
+    const VoxelKey at = packable_voxel_of(p, kSeenCell_m).value();
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -1; k <= 1; ++k) cells.insert(pack({at.i + i, at.j + j, at.k + k}));
+  }
+  std::erase_if(points, [&](const OrientedPoint& point) {
+    const auto at = packable_voxel_of(point.p, kSeenCell_m);
+    return !at || !cells.contains(pack(*at));
+  });
+}
+
 /// Of surfaces too large for the points' own spacing the next point may lie farther along them.
-SurfaceIndex index_of(std::span<const PreparedShape> pieces) {
+SurfaceIndex index_of(std::span<const PreparedShape> pieces, std::span<const Vector3d> seen) {
   const double spacing_m = bounded_spacing_m(pieces);
-  return SurfaceIndex(surface_points(pieces, spacing_m), spacing_m - kPointSpacing_m);
+  std::vector<OrientedPoint> points = surface_points(pieces, spacing_m);
+  if (!seen.empty()) keep_seen(points, seen);
+  return SurfaceIndex(std::move(points), spacing_m - kPointSpacing_m);
+}
+
+/// The best of placements moved by 10 cm, or turned by 30 cm at the map's rim: where one of them
+/// fits nearly as well, as on a bare floor, the surfaces do not say where along it the map lies.
+Placement slid(const std::vector<WeightedPoint>& few, const SurfaceIndex& surface,
+               const Placement& from) {
+  constexpr double kStep_m = 0.1, kRimStep_m = 0.3;
+  const auto [centre, radius_m] = extent_of(few);
+  const Eigen::Translation3d about_centre(from.motion * centre);
+  Placement best;
+  for (int axis = 0; axis < 6; ++axis)
+    for (const double sign : {-1.0, 1.0}) {
+      const Vector6 xi = sign * (axis < 3 ? kStep_m : kRimStep_m / radius_m) * Vector6::Unit(axis);
+      const Pose other = about_centre * exp_pose(xi) * about_centre.inverse() * from.motion;
+      if (const double share = share_at_surfaces(few, surface, other, kNear_m); share > best.share)
+        best = {other, share};
+    }
+  return best;
 }
 
 /// Why the best placement is not to be trusted; empty where it is.
@@ -217,10 +258,20 @@ std::string refusal_of(const Alignment& found) {
   return {};
 }
 
+std::string refusal_of_slid(const Placement& best, const Placement& slid) {
+  if (slid.share <= kMostOfSlid * best.share) return {};
+  return fmt::format(
+      "the surfaces do not hold the map: moved by 10 cm or turned as far, {:.1f} % of it lie on "
+      "them in place of "
+      "{:.1f} %",
+      100 * slid.share, 100 * best.share);
+}
+
 }  // namespace
 
-SurfaceAligner::SurfaceAligner(std::span<const PreparedShape> pieces, int jobs)
-    : surface_(index_of(pieces)), jobs_(jobs) {}
+SurfaceAligner::SurfaceAligner(std::span<const PreparedShape> pieces, int jobs,
+                               std::span<const Vector3d> seen)
+    : surface_(index_of(pieces, seen)), jobs_(jobs) {}
 
 Alignment SurfaceAligner::align(std::span<const Vector3d> map) const {
   Alignment result;
@@ -264,8 +315,17 @@ Alignment SurfaceAligner::align(std::span<const Vector3d> map) const {
       break;
     }
   result.refusal = refusal_of(result);
-  result.best.motion = settled(points, few, surface_, result.best.motion, cloud.half_edges);
-  result.best.share = share_at_surfaces(points, surface_, result.best.motion, kNear_m);
+  if (result.refusal.empty())
+    result.refusal = refusal_of_slid(result.best, slid(few, surface_, result.best));
+  // Never to a worse place than it came from, or than it lay at.
+  const auto on_all = [&](const Pose& motion) {
+    return Placement{motion, share_at_surfaces(points, surface_, motion, kNear_m)};
+  };
+  result.best = on_all(result.best.motion);
+  const Placement last =
+      on_all(settled(points, few, surface_, result.best.motion, cloud.half_edges));
+  if (last.share >= result.best.share) result.best = last;
+  if (result.before.share >= result.best.share) result.best = result.before;
   return result;
 }
 

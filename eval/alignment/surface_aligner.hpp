@@ -35,8 +35,10 @@ struct Alignment {
 /// result for any number of jobs. Immutable, safe to share between threads.
 class SurfaceAligner {
  public:
-  /// `pieces`: the surfaces, frame map.
-  SurfaceAligner(std::span<const PreparedShape> pieces, int jobs);
+  /// `pieces`: the surfaces, frame map. `seen`: points that cameras measured there; surfaces far
+  /// from all of them, as the underside of a floor, are left out. Without any, all count.
+  SurfaceAligner(std::span<const PreparedShape> pieces, int jobs,
+                 std::span<const Eigen::Vector3d> seen = {});
 
   /// `points`: frame map, where they are believed to lie.
   [[nodiscard]] Alignment align(std::span<const Eigen::Vector3d> points) const;

@@ -117,10 +117,14 @@ class Sweep {
     } catch (const Error& error) {
       reason = error.what();
     }
-    if (!is_as_planned(task))
-      throw Error(fmt::format(
-          "methods.{}: a file that the command names or depends on has changed; sweep again",
-          task.config.methods.front().name));
+    if (!is_as_planned(task)) {  // a failure that the next sweep tries again, under its new key
+      result.reset();
+      cost.reset();
+      reason = fmt::format(
+          "methods.{}: a file that the command names or depends on has changed since the sweep "
+          "began",
+          task.config.methods.front().name);
+    }
     if (cost) keep_cost(task, *cost);
     result ? keep(task, *result) : keep_failure(task, reason);
     report(static_cast<std::size_t>(recording_.frame_count()));

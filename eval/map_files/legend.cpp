@@ -67,8 +67,7 @@ bool take(const YamlValue& root, const std::string& section, const ClassTable& t
     if (!classes.emplace(label_of(label), class_of(value, table)).second)
       label.fail(fmt::format("{} stands twice; keep one", excerpt(text)));
   }
-  return std::ranges::any_of(classes,
-                             [](const auto& entry) { return entry.second != kBackground; });
+  return !classes.empty();
 }
 
 /// The label as a legend spells it.

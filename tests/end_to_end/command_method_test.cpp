@@ -169,14 +169,15 @@ TEST_F(CommandSweep, ResultsAreReadWithoutTheFilesThatTheyCameFrom) {
   expect_refused(sweep({"-q"}), {"mine.txt"});
 }
 
-TEST_F(CommandSweep, AFileThatChangesUnderASweepEndsIt) {
+TEST_F(CommandSweep, AFileThatChangesUnderASweepFailsItsTrials) {
   write_text(path("mine.txt"), "first");
   write_methods(
       shell("mine", "echo more >> " + path("mine.txt") + "; exit 3", ", depends: [mine.txt]"));
-  const Outcome outcome = sweep({"-q"});
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("methods.mine"));
-  EXPECT_THAT(outcome.err, HasSubstr("has changed"));
+  const Outcome outcome = sweep();
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("4 trials failed"));
+  EXPECT_THAT(outcome.err, HasSubstr("has changed since the sweep began"));
+  EXPECT_THAT(mapscore({"trials", results()}).out, HasSubstr(" done "));  // those of direct
 }
 
 TEST_F(CommandSweep, WhatFailedInTheFolderIsNotMissingOfItsShards) {

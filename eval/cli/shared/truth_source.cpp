@@ -4,6 +4,7 @@
 #include "eval/cli/shared/truth_source.hpp"
 
 #include "core/error.hpp"
+#include "core/geometry/voxel.hpp"
 #include "eval/lab/truth_cache.hpp"
 #include "eval/render/study_recording.hpp"
 #include "eval/results/study_store.hpp"
@@ -16,6 +17,7 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <unordered_set>
 
 namespace mapscore::eval {
 namespace {
@@ -158,8 +160,32 @@ std::shared_ptr<const LatticeTruth> TruthSource::kept_truth(const ClassTable& ta
   return kept.truth;
 }
 
+std::vector<Eigen::Vector3d> TruthSource::seen_points() {
+  constexpr int kEvery_px = 2, kMostFrames = 400;
+  constexpr double kCell_m = 0.02;  // of points in one cell, its centre
+  if (!recording_) return {};
+  std::unordered_set<std::uint64_t> cells;
+  const Calibration& calibration = recording_->info().calibration;
+  const int frames = recording_->frame_count(), step = (frames + kMostFrames - 1) / kMostFrames;
+  for (int index = 0; index < frames; index += step) {
+    const auto frame = frames_->get_depth(recording_->depth_of(index));
+    const Pose T_map_depth =
+        lattice_.map_frame().T_map_world() * frame->T_world_base * calibration.T_base_depth;
+    for (int v = 0; v < frame->depth.rows; v += kEvery_px)
+      for (int u = 0; u < frame->depth.cols; u += kEvery_px)
+        if (const double z_m = frame->depth(v, u) / kDepthUnitsPerMetre; z_m > 0)
+          if (const auto cell = packable_voxel_of(
+                  T_map_depth * calibration.depth.back_project(u, v, z_m), kCell_m))
+            cells.insert(pack(*cell));
+  }
+  std::vector<Eigen::Vector3d> points;
+  for (const std::uint64_t cell : cells) points.push_back(centre_of(unpack(cell), kCell_m));
+  return points;
+}
+
 const SurfaceAligner& TruthSource::aligner() {
-  if (!aligner_) aligner_.emplace(prepare(shapes_, lattice_.map_frame().T_map_world()), jobs_);
+  if (!aligner_)
+    aligner_.emplace(prepare(shapes_, lattice_.map_frame().T_map_world()), jobs_, seen_points());
   return *aligner_;
 }
 

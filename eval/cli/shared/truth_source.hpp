@@ -82,6 +82,9 @@ class TruthSource {
   [[nodiscard]] OccupancyTruth occupancy(const SurfaceTruth& surface);
 
  private:
+  /// Where frames of all the recording, whichever are selected, measured surfaces, frame map,
+  /// thinned, in no promised order; none for a scene.
+  [[nodiscard]] std::vector<Eigen::Vector3d> seen_points();
   /// Throws Error when the flags do not allow a truth of this size, with a view of all of it.
   [[nodiscard]] LatticeTruth surfaces(const ClassTable& table, const TruthOptions& options,
                                       bool whole_view) const;

@@ -200,7 +200,7 @@ void tell_failures(const RunnerOutcome& outcome, std::size_t commands,
       "sweep: {}{}; `mapscore trials {} --state failed` lists them, the same sweep tries them "
       "again{}\n",
       how, shown(first.reason), shell_word(results.native()),
-      commands > 0 ? fmt::format(" (the {} of commands with --retry_failed)", commands) : "");
+      commands > 0 ? ", where a command failed with --retry_failed alone" : "");
 }
 
 /// Computes what is missing.

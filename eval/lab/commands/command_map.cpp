@@ -22,6 +22,9 @@ namespace fs = std::filesystem;
 /// A row of text takes some ten times its bytes while it is read.
 constexpr std::uintmax_t kMostBytes = 256 << 20;
 
+/// Fewer voxels may lie anywhere.
+constexpr std::size_t kFewestOfAFrame = 100;
+
 void check_file(const fs::path& file) {
   std::error_code none;
   const fs::file_status status = fs::symlink_status(file, none);
@@ -58,7 +61,7 @@ MapSnapshot read_command_map(const fs::path& file, const ClassTable& table, doub
     if (!table.detected(voxel.best_class)) voxel.best_class = kBackground;
   MapSnapshot map(std::move(voxels));
   const SurfaceShare at = surface_share(map, surface);
-  if (at.in_another_frame())
+  if (at.occupied >= kFewestOfAFrame && at.in_another_frame())
     throw Error(fmt::format(
         "its map seems to lie in another frame: only {} of {} occupied voxels lie on or beside a "
         "surface; map in the frame of poses.txt, on the lattice through its origin",

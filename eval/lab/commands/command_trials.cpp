@@ -45,9 +45,19 @@ void remove_leftovers(const fs::path& folder) {
   }
 }
 
+/// Where scratch folders are made.
+fs::path temporary_folder() {
+  std::error_code problem;
+  const fs::path folder = fs::absolute(fs::temp_directory_path(problem));
+  if (problem)
+    throw Error(
+        fmt::format("TMPDIR: {}; set it to a folder that can be written", problem.message()));
+  return folder;
+}
+
 /// A folder of this sweep alone.
 fs::path new_scratch() {
-  std::string folder = fs::temp_directory_path() / fmt::format("{}XXXXXX", kScratchName);
+  std::string folder = temporary_folder() / fmt::format("{}XXXXXX", kScratchName);
   if (mkdtemp(folder.data()) == nullptr)
     throw Error(fmt::format("{}: cannot be made ({}); set TMPDIR to a folder that can be written",
                             folder, std::strerror(errno)));
@@ -86,7 +96,7 @@ std::string how_it_ended(const CommandOutcome& outcome, double timeout_s) {
 
 CommandTrials::CommandTrials(Bench& bench, std::function<bool()> stop)
     : bench_(bench), stop_(std::move(stop)) {
-  remove_leftovers(fs::temp_directory_path());
+  remove_leftovers(temporary_folder());
   do {  // again where another sweep has just taken it for a leftover
     scratch_ = new_scratch();
     hold_.emplace(scratch_, WhenTaken::go_on);

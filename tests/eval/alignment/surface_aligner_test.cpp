@@ -16,6 +16,7 @@ namespace mapscore::eval {
 namespace {
 
 using Eigen::Vector3d;
+using testing::box_at;
 using testing::empty_room;
 using testing::furnished_room;
 using ::testing::HasSubstr;
@@ -96,6 +97,36 @@ TEST(SurfaceAligner, RefusesAFloorThatCouldLieAnywhere) {
   for (const Vector3d& p : inside_points(furnished_room(), 40'000))
     if (p.z() < 1e-6 && p.x() > 1.5 && p.x() < 2.5) floor.push_back(p);
   EXPECT_THAT(aligner_of(furnished_room()).align(floor).refusal, HasSubstr("two places fit alike"));
+}
+
+TEST(SurfaceAligner, RefusesAFloorThatFillsItsRoom) {
+  // Nothing but the rim of the floor holds it, and all other places overlap with this one.
+  const std::vector<Shape> floor{box_at({2, 1.5, -0.05}, {2.1, 1.6, 0.05}),
+                                 box_at({2, 1.5, 0.05}, {0.05, 0.08, 0.05})};
+  const Alignment found = aligner_of(floor).align(inside_points(floor, 20'000));
+  EXPECT_NE(found.refusal, "");
+}
+
+TEST(SurfaceAligner, SurfacesThatNoCameraSawHoldNoMap) {
+  // A house of two equal rooms, of which one was seen.
+  std::vector<Shape> house = furnished_room();
+  for (Shape shape : furnished_room()) {
+    shape.T_world_shape.pretranslate(Vector3d(7, 0, 0));
+    house.push_back(shape);
+  }
+  const std::vector<Vector3d> room = inside_points(furnished_room(), 30'000);
+  const std::vector<Vector3d> map = moved(room, far_motion());
+  EXPECT_THAT(aligner_of(house).align(map).refusal, HasSubstr("two places fit alike"));
+  expect_found(SurfaceAligner(prepare(house, Pose::Identity()), 2, room).align(map), far_motion(),
+               0.01);
+}
+
+TEST(SurfaceAligner, NeverMovesAMapToAWorsePlace) {
+  for (const std::size_t points : {300, 3'000, 30'000}) {
+    const Alignment found =
+        aligner_of(furnished_room()).align(inside_points(furnished_room(), points));
+    EXPECT_GE(found.best.share, found.before.share) << points;
+  }
 }
 
 TEST(SurfaceAligner, RefusesRandomPoints) {
