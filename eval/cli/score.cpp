@@ -70,7 +70,6 @@ std::string text_of(const std::vector<Leftover>& leftovers) {
 
 /// What the user may want to know, of figures that are right as they are.
 void note(const ScoreFlags& flags, const std::string& text) {
-  if (flags.work.quiet) return;
   std::cerr << "mapscore: note: " << (flags.maps.size() > 1 ? flags.map.file + ": " : "") << text
             << '\n';
 }

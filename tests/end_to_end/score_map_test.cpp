@@ -287,6 +287,22 @@ TEST_F(ScoreMap, ATurnAboutZIsNamedAndItsTransformMendsItFarFromTheOrigin) {
   EXPECT_EQ(figure("far.csv", "crate,recall", {"--transform", transform, "--frames", "0"}), "1");
 }
 
+TEST_F(ScoreMap, ClassesThatFitNothingAreTold) {
+  // Every surface where it is, as the crate; then as the wall alone, which is not detected.
+  const std::vector<SeenPoint> points = seen().front();
+  for (const auto& [name, told] : {std::pair{"crate", "surface of their class"},
+                                   std::pair{"wall", "none of the map's occupied voxels"}}) {
+    std::string map = "x,y,z,class\n";
+    for (const SeenPoint& point : points)
+      if (const Eigen::Vector3d p = point.p_world; point.class_id != 1)
+        map += fmt::format("{},{},{},{}\n", p.x(), p.y(), p.z(), name);
+    write_text(path("map.csv"), map);
+    const Outcome outcome = score("map.csv", {"-q"});
+    expect_done(outcome);
+    EXPECT_NE(outcome.err.find(told), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(ScoreMap, LabelImagesAgainstThemselves) {
   expect_refused(mapscore({"score", path("tiny/label"), "--truth", path("tiny")}),
                  {"tiny/label", "ids of instances"});

@@ -148,6 +148,18 @@ std::string motion_trouble(const std::vector<Vector3d>& p_map, TruthSource& sour
       motion_text(motion), 100 * found.best.share, 100 * found.before.share);
 }
 
+/// What is odd about the classes of a map that lies where the truth does.
+std::string class_note(const InputMap& map, const Places& places) {
+  if (map.geometry) return {};
+  if (places.detected.occupied == 0)
+    return "none of the map's occupied voxels is of a detected class; --detect chooses others";
+  if (places.detected.share() >= kDoubtfulShare) return {};
+  return fmt::format(
+      "only {:.0f} % of the voxels of detected classes lie on or beside a surface of their class; "
+      "are its classes and its scene those of the truth?",
+      100.0 * places.detected.share());
+}
+
 }  // namespace
 
 std::string motion_text(const Pose& motion) {
@@ -170,7 +182,8 @@ std::string transform_text(const Pose& T) {
 std::string frame_note(const MapFlags& flags, const InputMap& map, const SurfaceTruth& surface,
                        TruthSource& source) {
   const Places places = places_of(map, surface, source.table());
-  if (places.p_map.empty() || !places.odd()) return {};
+  if (places.p_map.empty()) return {};
+  if (!places.odd()) return class_note(map, places);
   Eigen::AlignedBox3d truth;
   for (const SurfaceVoxel& row : surface.voxels())
     truth.extend(centre_of(row.key, surface.edge_m()));
@@ -196,7 +209,7 @@ std::string frame_note(const MapFlags& flags, const InputMap& map, const Surface
         "only {:.0f} % of the map's occupied voxels lie on or beside a surface; is it in the frame "
         "that --transform, --origin_m and --yaw_deg say?",
         100.0 * places.surfaces.share());
-  return {};
+  return class_note(map, places);
 }
 
 }  // namespace mapscore::eval

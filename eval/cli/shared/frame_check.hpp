@@ -25,8 +25,9 @@ namespace mapscore::eval {
 /// four of its detected classes' voxels on or beside a surface of their class, fewer than half of
 /// those within upright surfaces (an occupied voxel above and below) on or beside a surface. Then
 /// it says what is wrong, where that can be told: the unit, the axes, or a motion that explains the
-/// map better. Throws Error, with the bounds of both and the same, when fewer than one in a hundred
-/// lie on or beside a surface.
+/// map better, or else that the classes do not fit; so it does where none is detected. Throws
+/// Error, with the bounds of both and the same, when fewer than one in a hundred lie on or beside a
+/// surface.
 [[nodiscard]] std::string frame_note(const MapFlags& flags, const InputMap& map,
                                      const SurfaceTruth& surface, TruthSource& source);
 
