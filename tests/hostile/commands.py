@@ -44,7 +44,7 @@ WAYS = {
     "not_a_number": ('printf "x,y,z,class\\nnan,0,0,1\\n" > "$2"', "nan"),
     "empty_file": (': > "$2"', "empty"),
     "too_many_bytes": ('head -c 300000000 /dev/zero > "$2"', "bytes, more than"),
-    "file_without_end": ('cat /dev/zero > "$2"', "signal 25"),
+    "file_without_end": ('cat /dev/zero > "$2"', "exit code 153"),  # of the shell, whose cat got signal 25
     "writes_input": ('chmod u+w "$1"/color/*; echo more >> "$1/color/000001.png"; ' + GOOD, "changed its input color/000001.png"),
     "removes_input": ("rm -rf ../images; " + GOOD, "changed its input"),
     "leaves_children": ("sleep 1000 & setsid sleep 1000 & " + GOOD, None),

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMostBytes = 256 << 20;
 
 /// Fewer voxels may lie anywhere.
-constexpr std::size_t kFewestOfAFrame = 100;
+constexpr std::size_t kFewestOfAFrame = 10;
 
 void check_file(const fs::path& file) {
   std::error_code none;
