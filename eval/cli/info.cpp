@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "eval/cli/info_scene.hpp"
 #include "eval/cli/verbs.hpp"
+#include "eval/foreign/trial_sheet.hpp"
 #include "eval/map_files/legend.hpp"
 #include "eval/map_files/map_file.hpp"
 #include "eval/recording/recording.hpp"
@@ -141,6 +142,16 @@ void print_map(const fs::path& file) {
     std::cout << fmt::format("  and {} labels more\n", labels.size() - kLabels);
 }
 
+void print_trial(const fs::path& folder) {
+  const TrialSheet sheet = read_sheet(folder);
+  std::cout << fmt::format(
+      "{}: trial of study {}, method {}, seed {}, {} frames, {} lines of detections\n"
+      "voxels of {} m, origin {} {} {} m, yaw {} deg\n",
+      shown(folder), shown(sheet.study), shown(sheet.method), sheet.seed_index, sheet.frames.size(),
+      sheet.detections.size(), sheet.voxel_m, sheet.map_origin_m.x(), sheet.map_origin_m.y(),
+      sheet.map_origin_m.z(), sheet.map_yaw_deg);
+}
+
 struct InfoFlags : SceneInfoFlags {
   std::string file;
 };
@@ -154,18 +165,20 @@ void info(const InfoFlags& flags) {
   if (flags.any()) throw Error(file.string() + ": not a scene (.xml), so no flag applies");
   if (has_ending_of_a_map(file)) return print_map(file);
   if (fs::exists(file / "recording.yaml")) return print_recording(file);
+  if (is_trial_folder(file)) return print_trial(file);
   if (fs::exists(store_file(file)) && store_file(file).extension() == ".sqlite")
     return print_store(file);
-  throw Error(file.string() + ": not a scene (.xml), a recording's folder, a map (" +
+  throw Error(file.string() + ": not a scene (.xml), a recording's or trial's folder, a map (" +
               map_endings() + ") or a results folder");
 }
 
 }  // namespace
 
 void add_info(CLI::App& program) {
-  const auto [verb, flags] =
-      add_verb<InfoFlags>(program, "info", "What is this scene, recording, map or store", info);
-  verb->add_option("FILE", flags->file, "Scene, recording, map or results")->required();
+  const auto [verb, flags] = add_verb<InfoFlags>(
+      program, "info", "What is this scene, recording, trial, map or store", info);
+  verb->add_option("FILE", flags->file, "Scene, recording, folder of a trial, map or results")
+      ->required();
   verb->add_option("--picture", flags->picture,
                    "Of a scene: where its picture by class goes [STEM.classes.png beside it]");
   verb->add_flag("--no_picture", flags->no_picture, "Of a scene: draw none");

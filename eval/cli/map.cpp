@@ -149,6 +149,21 @@ void refuse_beside_trial(const MapVerbFlags& flags) {
           option->get_name(), shown(flags.folder)));
 }
 
+/// Where `score` finds the map.
+std::string lattice_line(const TrialSheet& sheet) {
+  const Eigen::Vector3d& origin = sheet.map_origin_m;
+  return fmt::format("its lattice, for `score`: --voxel_m {} --origin_m {} {} {} --yaw_deg {}\n",
+                     sheet.voxel_m, origin.x(), origin.y(), origin.z(), sheet.map_yaw_deg);
+}
+
+/// What both files say must agree: method.yaml is what decides.
+void check_sheet(const TrialSheet& sheet, const Study& study, const std::string& folder) {
+  if (sheet.voxel_m != study.voxel_m)
+    throw Error(fmt::format(
+        "{}: voxel_m is {} in trial.yaml and {} in method.yaml; write the same into both",
+        shown(folder), sheet.voxel_m, study.voxel_m));
+}
+
 Mapped mapped_trial(const MapVerbFlags& flags, const FramesDone& shown_done) {
   refuse_beside_trial(flags);
   const TrialFolder folder(flags.folder);
@@ -156,6 +171,7 @@ Mapped mapped_trial(const MapVerbFlags& flags, const FramesDone& shown_done) {
   if (study.methods.front().command)
     throw Error(fmt::format("{}: is the trial of a command (method.yaml), which maps it itself",
                             shown(flags.folder)));
+  check_sheet(folder.sheet(), study, flags.folder);
   ClassTable table{folder.sheet().classes};
   FolderMapping mapping{mapping_of(study, table), {}, study.methods.front().refinement};
   MappedCounts counts;
@@ -163,7 +179,7 @@ Mapped mapped_trial(const MapVerbFlags& flags, const FramesDone& shown_done) {
       map_trial(folder, chosen_frames(flags, folder.frame_count()), mapping, counts, shown_done);
   return {std::move(map), std::move(table),
           flags.threshold.value_or(default_threshold(mapping.mapping.fusion.rule)),
-          counts_text({folder.frame_count()}, counts)};
+          counts_text({folder.frame_count()}, counts) + lattice_line(folder.sheet())};
 }
 
 Mapped mapped_folder(const MapVerbFlags& flags, const FramesDone& shown_done) {

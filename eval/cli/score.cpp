@@ -147,11 +147,14 @@ std::optional<double> f1_as_given(ScoreFlags flags, const LabelledMap& map, cons
 /// Moves the map to where its geometry fits the truth's surfaces best, and says what that changed.
 ScoredMap score_aligned(const ScoreFlags& flags, const LabelledMap& map, TruthSource& source) {
   const Pose T_map_file = flags.map.T_map_file();
-  const Alignment found =
-      source.aligner().align(points_of(map.file, T_map_file, flags.lattice.voxel_m));
-  if (!found.refusal.empty())
-    throw Error(fmt::format("{}: --align: {}; give --transform, or leave --align out",
-                            flags.map.file, found.refusal));
+  const std::vector<Eigen::Vector3d> points =
+      points_of(map.file, T_map_file, flags.lattice.voxel_m);
+  const Alignment found = source.aligner().align(points);
+  if (!found.refusal.empty()) {
+    const std::string unit = unit_trouble(points, source.surface(), flags.map.scale);
+    throw Error(fmt::format("{}: --align: {}; {}", flags.map.file, found.refusal,
+                            unit.empty() ? "give --transform, or leave --align out" : unit));
+  }
   const Pose T_aligned = found.best.motion * T_map_file;
   ScoredMap after = score_at(flags, map, T_aligned, source);
   after.alignment = {
@@ -212,6 +215,8 @@ void check_several(const ScoreFlags& flags) {
 
 void score(const ScoreFlags& all) {
   ScoreFlags flags = all;
+  if (flags.align && flags.map.trust_frame)
+    throw Error("--trust_frame: keeps the map where it is, and --align moves it; give one of them");
   if (flags.details && flags.format == "csv")
     throw Error("--details: --format csv holds one table; --tidy prints everything as one");
   if (flags.maps.size() > 1) check_several(flags);

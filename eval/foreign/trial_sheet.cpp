@@ -18,6 +18,9 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <set>
+#include <tuple>
 
 namespace mapscore::eval {
 namespace {
@@ -203,11 +206,17 @@ void read_beliefs(const fs::path& file, std::vector<TrialFrame>& frames) {
   if (frame != frames.end()) refuse(file, "has fewer lines than frames.csv; {}", kMend);
 }
 
-std::vector<TrialDetection> read_detections(const fs::path& file, std::size_t class_count) {
+std::vector<TrialDetection> read_detections(const fs::path& file,
+                                            const std::vector<TrialFrame>& frames,
+                                            std::size_t class_count) {
   std::vector<TrialDetection> detections;
+  std::set<int> listed;
+  for (const TrialFrame& frame : frames) listed.insert(frame.index);
+  std::set<std::tuple<std::optional<int>, int, InstanceId>> seen;
   read_csv(file, kDetectionColumns, [&](const auto& cells, const auto& fail) {
     TrialDetection row;
     if (cells[0] != "*") row.frame = index_of(cells[0], fail);
+    if (row.frame && !listed.contains(*row.frame)) fail("its frame is not in frames.csv");
     const auto layer = parse_count(cells[1]), id = parse_count(cells[2]),
                class_id = parse_count(cells[3]);
     const auto score = parse_number(cells[4]);
@@ -220,9 +229,21 @@ std::vector<TrialDetection> read_detections(const fs::path& file, std::size_t cl
     row.id = static_cast<InstanceId>(*id);
     row.class_id = static_cast<ClassId>(*class_id);
     row.score = *score;
+    if (!seen.emplace(row.frame, row.layer, row.id).second ||
+        (row.frame && seen.contains({std::nullopt, row.layer, row.id})))
+      fail("its id of this layer stands in a line before");
     detections.push_back(row);
   });
   return detections;
+}
+
+/// Label images of a layer that no line names would not be read.
+void check_layers(const fs::path& folder, const TrialSheet& sheet) {
+  int most = 0;
+  for (const TrialDetection& row : sheet.detections) most = std::max(most, row.layer);
+  for (const TrialFrame& frame : sheet.frames)
+    if (const fs::path beyond = folder / layer_path(frame.label, most + 1); fs::exists(beyond))
+      refuse(beyond, "is of layer {}, which detections.csv does not name; {}", most + 1, kMend);
 }
 
 /// A changed poses.txt must not go without a word.
@@ -256,7 +277,8 @@ TrialSheet read_sheet(const fs::path& folder) {
   TrialSheet sheet = read_trial_yaml(folder / kSheetFile);
   sheet.frames = read_frames(folder);
   read_beliefs(folder / "beliefs.csv", sheet.frames);
-  sheet.detections = read_detections(folder / "detections.csv", sheet.classes.size());
+  sheet.detections = read_detections(folder / "detections.csv", sheet.frames, sheet.classes.size());
+  check_layers(folder, sheet);
   check_poses(folder / "poses.txt", sheet.frames);
   return sheet;
 }

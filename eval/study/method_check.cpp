@@ -3,14 +3,30 @@
 
 #include "eval/study/method_check.hpp"
 
+#include "files/suggestion.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 #include <string>
 #include <vector>
 
 namespace mapscore::eval {
 namespace {
+
+/// A misspelt one would reach the program as it is.
+std::string placeholder_trouble(const std::string& word) {
+  static const std::regex braced(R"(\{[A-Za-z_]+\})");
+  const std::vector<std::string> known{"{trial}", "{map}", "{threads}"};
+  for (std::sregex_iterator found(word.begin(), word.end(), braced), end; found != end; ++found) {
+    const std::string name = found->str();
+    if (std::ranges::find(known, name) != known.end()) continue;
+    if (const std::string near = suggestion(name, known); near.starts_with("did you mean"))
+      return fmt::format("has {}, which stands for nothing; {}", name, near);
+  }
+  return {};
+}
 
 void check_command(const Study& study, const MethodSettings& method, const Blame& blame) {
   const auto blame_key = [&](const char* key, const std::string& problem) {
@@ -25,6 +41,12 @@ void check_command(const Study& study, const MethodSettings& method, const Blame
                            [](const std::string& word) { return word.find("{map}") != word.npos; }))
     blame_key("command",
               "does not name {map}; write it where the program expects the path of the map");
+  for (const std::string& word : words) {
+    if (word.find('\0') != word.npos)
+      blame_key("command", "holds a NUL byte, at which a program would end the word; remove it");
+    if (const std::string trouble = placeholder_trouble(word); !trouble.empty())
+      blame_key("command", trouble);
+  }
   const std::string& map = method.command->map;
   if (map.find('/') != map.npos || map.starts_with('.'))
     blame_key("map",

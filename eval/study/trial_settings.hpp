@@ -106,7 +106,8 @@ using Refinement = std::variant<NoRefinement, Crf>;
 
 /// A mapper of others: a program that makes a map file of a trial folder.
 struct CommandMethod {
-  std::vector<std::string> command;  ///< words; {trial} and {map} stand for paths
+  std::vector<std::string>
+      command;  ///< words; {trial} and {map} stand for paths, {threads} for a number
   std::string map;
   double timeout_s = 600;
   int threads = 1;
@@ -117,8 +118,9 @@ struct CommandMethod {
     visit(s.command, Field{.key = "command",
                            .meaning = "a program that maps a trial, and its arguments, which no "
                                       "shell reads: {trial} is the folder of the trial, {map} the "
-                                      "file to write (docs/external_methods.md); in place of "
-                                      "segmentation, place, fusion and refinement",
+                                      "file to write, {threads} its threads "
+                                      "(docs/external_methods.md); in place of segmentation, "
+                                      "place, fusion and refinement",
                            .required = true,
                            .swept = false});
     visit(s.map, Field{.key = "map",
@@ -130,7 +132,7 @@ struct CommandMethod {
                              .range = above(0, 1e6),
                              .swept = false});
     visit(s.threads, Field{.key = "threads",
-                           .meaning = "how many of --jobs it takes up",
+                           .meaning = "how many of --jobs it takes up; {threads} tells it",
                            .range = {1, 1024},
                            .swept = false});
     UnlessEmpty depends_unless_empty{s.depends};

@@ -238,6 +238,12 @@ TEST_F(CommandSweep, WhatCannotRunIsRefusedBeforeAnyTrial) {
   write_text(path("mine.sh"), "#!/bin/sh\ntrue\n");
   refused("[./mine.sh, \"{trial}\", \"{map}\"]", {"mine.sh", "chmod +x"});
   fs::permissions(path("mine.sh"), fs::perms::owner_all);
+  for (const auto& [script, what] :
+       {std::pair("#!/usr/bin/no_such -u\ntrue\n", "'/usr/bin/no_such', which is not there"),
+        std::pair("true\n", "no line of #!")}) {
+    write_text(path("mine.sh"), script);
+    refused("[./mine.sh, \"{trial}\", \"{map}\"]", {"mine.sh", what, "first line"});
+  }
   write_methods("  mine: {command: [./mine.sh, \"{trial}\", \"{map}\"], map: voxels.txt}\n");
   expect_refused(sweep({"-q"}), {"methods.mine.map", ".csv"});
   write_methods("  mine: {command: [], map: voxels.csv}\n");

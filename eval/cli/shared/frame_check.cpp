@@ -83,6 +83,13 @@ double share_after(const std::vector<Vector3d>& p_file, const SurfaceTruth& surf
   return share.share();
 }
 
+Eigen::AlignedBox3d bounds_of(const SurfaceTruth& surface) {
+  Eigen::AlignedBox3d bounds;
+  for (const SurfaceVoxel& row : surface.voxels())
+    bounds.extend(centre_of(row.key, surface.edge_m()));
+  return bounds;
+}
+
 /// Another unit of length, by the bounds; `scale`: the metres in a unit that the map was read with.
 std::string unit_trouble(const Eigen::AlignedBox3d& map, const Eigen::AlignedBox3d& truth,
                          double scale) {
@@ -98,8 +105,17 @@ std::string unit_trouble(const Eigen::AlignedBox3d& map, const Eigen::AlignedBox
   return {};
 }
 
-/// What a turn by right angles mends.
+/// What a turn by right angles, or a reflection, mends.
 std::string turn_text(const Eigen::Matrix3d& R) {
+  if (R.determinant() < 0.0) {
+    std::string axes;
+    for (int row = 0; row < 3; ++row) {
+      int axis = 0;
+      R.row(row).cwiseAbs().maxCoeff(&axis);
+      axes += fmt::format("{}{}{}", row ? ", " : "", R(row, axis) < 0 ? "-" : "", "xyz"[axis]);
+    }
+    return fmt::format("it is a mirror image; write its ({}) as (x, y, z)", axes);
+  }
   int up = 0;
   R.row(2).cwiseAbs().maxCoeff(&up);
   const bool is_upright = up == 2 && R(2, 2) > 0;
@@ -117,18 +133,22 @@ std::string axes_trouble(const std::vector<Vector3d>& p_file, const Pose& T_map_
   for (int x = 0; x < 6; ++x)
     for (int y = 0; y < 6; ++y) {
       if (x / 2 == y / 2) continue;
-      Pose turn = Pose::Identity();
       const auto unit = [](int axis) {
         return Vector3d((axis % 2 == 0 ? 1 : -1) * Vector3d::Unit(axis / 2));
       };
-      turn.linear() << unit(x), unit(y), unit(x).cross(unit(y));
-      const double share = share_after(
-          p_file, surface, [&](const Vector3d& p) { return Vector3d(T_map_file * turn * p); });
-      if (share <= most) continue;
-      most = share;
-      best = turn;
+      for (const double side : {1.0, -1.0}) {  // -1: another handedness
+        Pose turn = Pose::Identity();
+        turn.linear() << unit(x), unit(y), side * unit(x).cross(unit(y));
+        const double share = share_after(
+            p_file, surface, [&](const Vector3d& p) { return Vector3d(T_map_file * turn * p); });
+        if (share <= most + (side < 0 ? kBetter : 0.0)) continue;
+        most = share;
+        best = turn;
+      }
     }
   if (best.isApprox(Pose::Identity())) return {};
+  if (best.linear().determinant() < 0.0)
+    return fmt::format("{}: {:.0f} % then lie at surfaces", turn_text(best.linear()), 100 * most);
   return fmt::format("{}: {:.0f} % lie at surfaces with --transform '{}'", turn_text(best.linear()),
                      100 * most, transform_text(T_map_file * best));
 }
@@ -179,14 +199,19 @@ std::string transform_text(const Pose& T) {
                      q.x(), q.y(), q.z(), q.w());
 }
 
+std::string unit_trouble(std::span<const Vector3d> map, const SurfaceTruth& surface, double scale) {
+  Eigen::AlignedBox3d bounds;
+  for (const Vector3d& p : map) bounds.extend(p);
+  const Eigen::AlignedBox3d truth = bounds_of(surface);
+  return bounds.isEmpty() || truth.isEmpty() ? std::string() : unit_trouble(bounds, truth, scale);
+}
+
 std::string frame_note(const MapFlags& flags, const InputMap& map, const SurfaceTruth& surface,
                        TruthSource& source) {
   const Places places = places_of(map, surface, source.table());
   if (places.p_map.empty()) return {};
   if (!places.odd()) return class_note(map, places);
-  Eigen::AlignedBox3d truth;
-  for (const SurfaceVoxel& row : surface.voxels())
-    truth.extend(centre_of(row.key, surface.edge_m()));
+  const Eigen::AlignedBox3d truth = bounds_of(surface);
   std::string trouble;
   if (!truth.isEmpty()) {
     std::vector<Vector3d> p_file;

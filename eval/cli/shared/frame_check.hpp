@@ -8,6 +8,7 @@
 #include "eval/cli/shared/truth_source.hpp"
 #include "eval/truth/surface_truth.hpp"
 
+#include <span>
 #include <string>
 
 namespace mapscore::eval {
@@ -19,6 +20,11 @@ namespace mapscore::eval {
 /// What --transform takes: tx ty tz qx qy qz qw, to a hundredth of a millimetre 1000 km from the
 /// origin.
 [[nodiscard]] std::string transform_text(const Pose& T);
+
+/// Another unit of length that the points of a map and the surfaces suggest by their bounds, and the
+/// flag that mends it; empty where none does. `scale`: metres in a unit, as the map was read.
+[[nodiscard]] std::string unit_trouble(std::span<const Eigen::Vector3d> map,
+                                       const SurfaceTruth& surface, double scale);
 
 /// Whether a map lies where its truth does, in words for a note; empty where nothing is odd. Odd
 /// are: fewer than one in four of its occupied voxels on or beside a surface, fewer than one in

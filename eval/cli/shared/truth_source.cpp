@@ -113,7 +113,11 @@ TruthSource::TruthSource(const std::string& source, const LatticeFlags& lattice,
                 ": the recording has no truth/; only maps of rendered recordings can be scored");
   if (lattice.frames) selection_ = FrameSelection(*lattice.frames);
   table_ = recording_->info().table;
-  shapes_ = shapes_of(*recording_).at(time_of(lattice, *recording_));
+  const RecordedShapes shapes = shapes_of(*recording_);
+  if (shapes.poses.empty() && (lattice.frame || lattice.at_s))
+    throw Error(fmt::format("--{}: nothing moves in {}, so no time matters; leave it out",
+                            lattice.frame ? "frame" : "at_s", source));
+  shapes_ = shapes.at(time_of(lattice, *recording_));
   frames_.emplace(*recording_,
                   Channels{.color = false, .label = false, .depth = true, .depth_label = true},
                   work.memory_bytes);

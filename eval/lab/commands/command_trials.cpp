@@ -160,7 +160,7 @@ std::optional<TrialResult> CommandTrials::run_in(Workplace& workplace, const Tas
        [&](int index, int depth_index) { return bench_.frame(index, depth_index); }},
       given);
   const CommandOutcome outcome =
-      run_command(with_paths(words, given, map), work,
+      run_command(filled_words(words, given, map, method.threads), work,
                   {method.timeout_s, kMostFileBytes, kKeptBytes, true, &server_, stop_});
   if (outcome.stopped) return std::nullopt;
   cost = TrialCost{outcome.exit_code, outcome.wall_s, outcome.processor_s, outcome.peak_bytes};

@@ -12,12 +12,36 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
+#include <fstream>
 #include <optional>
+#include <sstream>
 
 namespace mapscore::eval {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Why the kernel would not start a script, which Linux says in words that name neither.
+std::string script_trouble(const fs::path& program) {
+  std::string line(256, '\0');
+  std::ifstream file(program, std::ios::binary);
+  file.read(line.data(), static_cast<std::streamsize>(line.size()));
+  line.resize(static_cast<std::size_t>(file.gcount()));
+  if (!line.starts_with("#!")) {
+    const bool is_text = std::ranges::all_of(line, [](const char c) {
+      const auto byte = static_cast<unsigned char>(c);
+      return byte >= 0x20 || std::isspace(byte);
+    });
+    return is_text ? "begins with no line of #!" : std::string();
+  }
+  std::istringstream words(line.substr(2, line.find('\n') - 2));
+  std::string interpreter;
+  words >> interpreter;
+  return fs::exists(interpreter)
+             ? std::string()
+             : fmt::format("names the interpreter '{}', which is not there", shown(interpreter));
+}
 
 fs::path program_of(const Study& config, const std::string& name, const std::string& key) {
   std::optional<fs::path> program = file_beside(config, name);
@@ -32,6 +56,9 @@ fs::path program_of(const Study& config, const std::string& name, const std::str
         fmt::format("{}: {} cannot be executed; `chmod +x` it, or write its interpreter "
                     "before it",
                     key, shown(*program)));
+  if (const std::string trouble = script_trouble(*program); !trouble.empty())
+    throw Error(fmt::format("{}: {} {}; mend its first line, or write its interpreter before it",
+                            key, shown(*program), trouble));
   return *program;
 }
 
@@ -60,9 +87,10 @@ std::vector<std::string> command_words(const Study& config) {
   return words;
 }
 
-std::vector<std::string> with_paths(std::vector<std::string> words, const fs::path& trial,
-                                    const fs::path& map) {
+std::vector<std::string> filled_words(std::vector<std::string> words, const fs::path& trial,
+                                      const fs::path& map, int threads) {
   for (std::string& word : words) {
+    replace_all(word, "{threads}", std::to_string(threads));
     replace_all(word, "{trial}", trial);
     replace_all(word, "{map}", map);
   }

@@ -16,14 +16,14 @@ namespace mapscore::eval {
 [[nodiscard]] bool is_command(const Study& study, const std::string& method);
 
 /// The words of the command that a study's first method is: its program as an absolute path, files
-/// that lie beside the study likewise, {trial} and {map} as they are. Throws Error naming the key
-/// when the program is neither on the PATH nor beside the study, or cannot be executed, or {map}
-/// has no ending of a map.
+/// that lie beside the study likewise, placeholders as they are. Throws Error naming the key when
+/// the program is neither on the PATH nor beside the study, or cannot be executed, or a script
+/// whose interpreter is not there, or {map} has no ending of a map.
 [[nodiscard]] std::vector<std::string> command_words(const Study& config);
 
-/// The words with these paths in the place of {trial} and {map}, wherever they stand in a word.
-[[nodiscard]] std::vector<std::string> with_paths(std::vector<std::string> words,
-                                                  const std::filesystem::path& trial,
-                                                  const std::filesystem::path& map);
+/// The words with these in the place of {trial}, {map} and {threads}, wherever they stand in one.
+[[nodiscard]] std::vector<std::string> filled_words(std::vector<std::string> words,
+                                                    const std::filesystem::path& trial,
+                                                    const std::filesystem::path& map, int threads);
 
 }  // namespace mapscore::eval

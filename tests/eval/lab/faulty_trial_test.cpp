@@ -260,13 +260,20 @@ TEST_F(FaultyTrial, RefusesAFolderThatWasChanged) {
   refused("beliefs.csv", "", cut);
   refused("poses.txt", "other poses than beliefs.csv", replaced("\n0.5 ", "\n0.5 1"));
   refused("detections.csv", "class", replaced("\n0,0,1,", "\n0,0,1,99"));
-  refused("detections.csv", "stands twice", [](const std::string& text) {
+  refused("detections.csv", "stands in a line before", [](const std::string& text) {
     const std::size_t first = text.find('\n') + 1;
     return text + text.substr(first, text.find('\n', first) + 1 - first);
   });
+  refused("detections.csv", "not in frames.csv", replaced("\n0,0,1,", "\n99,0,1,"));
   refused("depth/000002.png", "", cut);
   refused("label/000002.png", "", cut);
   refused("method.yaml", "segmentatoin", replaced("segmentation:", "segmentatoin:"));
+}
+
+TEST_F(FaultyTrial, LabelImagesOfALayerThatNoLineNamesAreRefused) {
+  const fs::path folder = written(task("faults: {misregistration: {magnitude_m: 0.03}}\n"));
+  fs::copy(folder / "label", folder / "label_1");
+  expect_error("layer 1", [&] { static_cast<void>(map_of(folder)); });
 }
 
 TEST_F(FaultyTrial, OfSingleFramesIsRefused) {

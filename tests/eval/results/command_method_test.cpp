@@ -141,6 +141,9 @@ TEST_F(CommandMethodTest, WhatItCannotFollowIsRefused) {
   refused("names no program", "command: [], map: voxels.csv");
   refused("'map' is missing", kCommand);
   refused("does not name {map}", "command: [mapper, \"{trial}\"], map: voxels.csv");
+  refused("did you mean '{trial}'", "command: [mapper, \"{trail}\", \"{map}\"], map: voxels.csv");
+  refused("NUL", "command: [mapper, \"a\\0b\", \"{map}\"], map: voxels.csv");
+  EXPECT_NO_THROW((void)study("command: [awk, \"{print}\", \"{map}\"], map: voxels.csv"));
   refused("no name of a file", kCommand + ", map: ../voxels.csv");
   refused("no name of a file", kCommand + ", map: .csv");
   refused("timeout_s", kPlain + ", timeout_s: 0");
