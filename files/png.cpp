@@ -85,7 +85,7 @@ std::string png_of(const std::string& pixels, cv::Size size, const PixelType& ty
   return png;
 }
 
-[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+[[noreturn]] void refuse_png(const std::string& name, const std::string& what) {
   throw Error(fmt::format("{}: {}; copy the file anew or make the recording again", name, what));
 }
 
@@ -98,17 +98,17 @@ Chunk next_chunk(std::string_view png, std::size_t& offset, const std::string& n
   const std::size_t left = png.size() - offset;
   const std::size_t length = left < kChunkFrame ? 0 : from_big_endian(png.substr(offset));
   if (left < kChunkFrame || length > left - kChunkFrame)
-    refuse(name, fmt::format("PNG cut off after {} bytes", png.size()));
+    refuse_png(name, fmt::format("PNG cut off after {} bytes", png.size()));
   const std::string_view checked = png.substr(offset + 4, 4 + length);
   if (crc_of(checked) != from_big_endian(png.substr(offset + 8 + length)))
-    refuse(name, fmt::format("PNG chunk at byte {} is damaged (wrong CRC)", offset));
+    refuse_png(name, fmt::format("PNG chunk at byte {} is damaged (wrong CRC)", offset));
   offset += kChunkFrame + length;
   return {checked.substr(0, 4), checked.substr(4)};
 }
 
 void check_header(const Chunk& chunk, cv::Size size, const PixelType& type,
                   const std::string& name) {
-  if (chunk.type != "IHDR" || chunk.data.size() != 13) refuse(name, "PNG without a header");
+  if (chunk.type != "IHDR" || chunk.data.size() != 13) refuse_png(name, "PNG without a header");
   const std::uint32_t width = from_big_endian(chunk.data);
   const std::uint32_t height = from_big_endian(chunk.data.substr(4));
   if (width != static_cast<std::uint32_t>(size.width) ||
@@ -123,7 +123,7 @@ void check_header(const Chunk& chunk, cv::Size size, const PixelType& type,
 /// their CRC; what follows IEND is refused.
 std::string compressed_pixels(std::string_view png, cv::Size size, const PixelType& type,
                               const std::string& name) {
-  if (png.substr(0, kSignature.size()) != kSignature) refuse(name, "not a PNG file");
+  if (png.substr(0, kSignature.size()) != kSignature) refuse_png(name, "not a PNG file");
   std::size_t offset = kSignature.size();
   check_header(next_chunk(png, offset, name), size, type, name);
   std::string compressed;
@@ -133,9 +133,9 @@ std::string compressed_pixels(std::string_view png, cv::Size size, const PixelTy
     if (chunk.type == "IDAT")
       compressed += chunk.data;
     else if (critical && chunk.type != "PLTE")
-      refuse(name, fmt::format("PNG with an unknown chunk before byte {}", offset));
+      refuse_png(name, fmt::format("PNG with an unknown chunk before byte {}", offset));
   }
-  if (offset != png.size()) refuse(name, "bytes after the end of the PNG");
+  if (offset != png.size()) refuse_png(name, "bytes after the end of the PNG");
   return compressed;
 }
 
@@ -150,8 +150,8 @@ std::unique_ptr<std::uint8_t[]> rows_of(std::string_view png, cv::Size size, con
       libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
   const auto result = libdeflate_zlib_decompress(inflater.get(), compressed.data(),
                                                  compressed.size(), rows.get(), bytes, nullptr);
-  if (result != LIBDEFLATE_SUCCESS) refuse(name, "PNG with damaged pixel data");
-  if (!unfilter_rows(rows.get(), layout)) refuse(name, "PNG with an unknown row filter");
+  if (result != LIBDEFLATE_SUCCESS) refuse_png(name, "PNG with damaged pixel data");
+  if (!unfilter_rows(rows.get(), layout)) refuse_png(name, "PNG with an unknown row filter");
   return rows;
 }
 

@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -110,6 +111,37 @@ OrientedCloud oriented_cloud(std::span<const Vector3d> points, double cell_m, st
   for (const std::size_t n : spread_numbers(all.size(), most))
     cloud.points.push_back({all[n], normal_of(all, tree.within(all[n], kReach_cells * cell_m))});
   return cloud;
+}
+
+Eigen::Vector3d up_of(std::span<const OrientedPoint> cloud) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  constexpr double kTilt = 20 * kDegree, kStep = 1.5 * kDegree, kWidth = 4 * kDegree;
+  std::vector<Vector3d> steep;
+  for (const OrientedPoint& point : cloud)
+    if (std::abs(point.n.z()) > std::cos(kTilt + kWidth))
+      steep.push_back(point.n.z() > 0 ? point.n : Vector3d(-point.n));
+  const auto count = [&](const Vector3d& up) {
+    return std::ranges::count_if(steep,
+                                 [&](const Vector3d& n) { return n.dot(up) > std::cos(kWidth); });
+  };
+  Vector3d up = Vector3d::UnitZ();
+  auto most = count(up);
+  for (double tilt = kStep; tilt <= kTilt; tilt += kStep) {
+    const int around = static_cast<int>(std::ceil(2 * std::numbers::pi * std::sin(tilt) / kStep));
+    for (int n = 0; n < around; ++n) {
+      const double heading = 2 * std::numbers::pi * n / around;
+      const Vector3d other(std::sin(tilt) * std::cos(heading), std::sin(tilt) * std::sin(heading),
+                           std::cos(tilt));
+      if (const auto votes = count(other); votes > most) {
+        most = votes;
+        up = other;
+      }
+    }
+  }
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d& n : steep)
+    if (n.dot(up) > std::cos(kWidth)) sum += n;
+  return sum.isZero() ? up : sum.normalized();
 }
 
 }  // namespace mapscore::eval

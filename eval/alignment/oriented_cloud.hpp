@@ -26,6 +26,10 @@ struct OrientedCloud {
 [[nodiscard]] OrientedCloud oriented_cloud(std::span<const Eigen::Vector3d> points, double cell_m,
                                            std::size_t most);
 
+/// The unit direction, within 20 degrees of z, that most normals lie along: of floors and table
+/// tops; z where none does.
+[[nodiscard]] Eigen::Vector3d up_of(std::span<const OrientedPoint> cloud);
+
 /// Up to `most` of the numbers below `count`, ascending, as if drawn at random, always the same.
 [[nodiscard]] std::vector<std::size_t> spread_numbers(std::size_t count, std::size_t most);
 

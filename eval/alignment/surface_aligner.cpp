@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unordered_set>
 #include <utility>
 
 namespace mapscore::eval {
@@ -41,38 +40,6 @@ std::vector<Vector3d> positions(std::span<const WeightedPoint> points) {
   std::vector<Vector3d> all;
   for (const WeightedPoint& point : points) all.push_back(point.p);
   return all;
-}
-
-/// The direction, within 20 degrees of z, that most normals lie along: floors
-/// and table tops.
-Vector3d up_of(std::span<const OrientedPoint> cloud) {
-  constexpr double kTilt = 20 * kDegree, kStep = 1.5 * kDegree, kWidth = 4 * kDegree;
-  std::vector<Vector3d> steep;
-  for (const OrientedPoint& point : cloud)
-    if (std::abs(point.n.z()) > std::cos(kTilt + kWidth))
-      steep.push_back(point.n.z() > 0 ? point.n : Vector3d(-point.n));
-  const auto count = [&](const Vector3d& up) {
-    return std::ranges::count_if(steep,
-                                 [&](const Vector3d& n) { return n.dot(up) > std::cos(kWidth); });
-  };
-  Vector3d up = Vector3d::UnitZ();
-  auto most = count(up);
-  for (double tilt = kStep; tilt <= kTilt; tilt += kStep) {
-    const int around = static_cast<int>(std::ceil(2 * std::numbers::pi * std::sin(tilt) / kStep));
-    for (int n = 0; n < around; ++n) {
-      const double heading = 2 * std::numbers::pi * n / around;
-      const Vector3d other(std::sin(tilt) * std::cos(heading), std::sin(tilt) * std::sin(heading),
-                           std::cos(tilt));
-      if (const auto votes = count(other); votes > most) {
-        most = votes;
-        up = other;
-      }
-    }
-  }
-  Vector3d sum = Vector3d::Zero();
-  for (const Vector3d& n : steep)
-    if (n.dot(up) > std::cos(kWidth)) sum += n;
-  return sum.isZero() ? up : sum.normalized();
 }
 
 /// Weights that let each direction of normals count alike, so that a floor does
@@ -199,22 +166,6 @@ Pose settled(const std::vector<WeightedPoint>& points, const std::vector<Weighte
     T = best.motion;
   }
   return T;
-}
-
-/// Keeps the points that lie within a cell, or a cell and its neighbours, of those that were seen.
-void keep_seen(std::vector<OrientedPoint>& points, std::span<const Vector3d> seen) {
-  constexpr double kSeenCell_m = 0.03;
-  std::unordered_set<std::uint64_t> cells;
-  for (const Vector3d& p : seen) {
-    const VoxelKey at = packable_voxel_of(p, kSeenCell_m).value();
-    for (int i = -1; i <= 1; ++i)
-      for (int j = -1; j <= 1; ++j)
-        for (int k = -1; k <= 1; ++k) cells.insert(pack({at.i + i, at.j + j, at.k + k}));
-  }
-  std::erase_if(points, [&](const OrientedPoint& point) {
-    const auto at = packable_voxel_of(point.p, kSeenCell_m);
-    return !at || !cells.contains(pack(*at));
-  });
 }
 
 /// Of surfaces too large for the points' own spacing the next point may lie farther along them.

@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 #include <tuple>
+#include <unordered_set>
 #include <variant>
 
 namespace mapscore::eval {
@@ -198,6 +199,21 @@ std::vector<OrientedPoint> surface_points(std::span<const PreparedShape> pieces,
   std::erase_if(points, [&](const OrientedPoint& point) { return solids.contain(point.p); });
   thin(points, spacing_m);
   return points;
+}
+
+void keep_seen(std::vector<OrientedPoint>& points, std::span<const Eigen::Vector3d> seen) {
+  constexpr double kSeenCell_m = 0.03;
+  std::unordered_set<std::uint64_t> cells;
+  for (const Eigen::Vector3d& p : seen) {
+    const VoxelKey at = packable_voxel_of(p, kSeenCell_m).value();
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -1; k <= 1; ++k) cells.insert(pack({at.i + i, at.j + j, at.k + k}));
+  }
+  std::erase_if(points, [&](const OrientedPoint& point) {
+    const auto at = packable_voxel_of(point.p, kSeenCell_m);
+    return !at || !cells.contains(pack(*at));
+  });
 }
 
 }  // namespace mapscore::eval

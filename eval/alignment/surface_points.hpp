@@ -27,4 +27,7 @@ struct OrientedPoint {
 /// are: 5 cm, and more for those of more than a city block's homes.
 [[nodiscard]] double bounded_spacing_m(std::span<const PreparedShape> pieces);
 
+/// Keeps the points that lie within a cell of 3 cm, or a cell and its neighbours, of those seen.
+void keep_seen(std::vector<OrientedPoint>& points, std::span<const Eigen::Vector3d> seen);
+
 }  // namespace mapscore::eval

@@ -9,6 +9,7 @@
 #include "eval/results/study_store.hpp"
 #include "eval/study/grid.hpp"
 #include "files/file_bytes.hpp"
+#include "files/suggestion.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
@@ -88,7 +89,13 @@ std::vector<std::string> InputFiles::depends(const Study& config) {
   for (const std::string& word : command->command)
     if (are_known_ ? hashes_.contains("file " + word) : file_beside(config, word).has_value())
       add(word);
-  for (const std::string& file : command->depends) add(file);
+  for (const std::string& file : command->depends) {
+    if (!are_known_ && !std::filesystem::is_regular_file(resolve_path(config, file)))
+      throw Error(fmt::format("methods.{}.depends: there is no file '{}' beside the study; {}",
+                              config.methods.front().name, shown(file),
+                              path_suggestion(resolve_path(config, file), "mend its path")));
+    add(file);
+  }
   std::vector<std::string> hashes;
   for (const std::string& file : files)
     hashes.push_back(of("file " + file, [&] { return read_file(resolve_path(config, file)); }));

@@ -177,29 +177,6 @@ TEST_F(ScoreMap, RefusesWhatDoesNotFit) {
   expect_refused(score("map.txt"), {"map.txt", ".ply"});
 }
 
-TEST_F(ScoreMap, AMirroredMapIsNamed) {
-  // Three blocks that no turn brings onto their mirror image.
-  write_text(path("blocks.xml"), R"(<mujoco><worldbody>
-    <light pos="0 0 3"/>
-    <body name="crate"><geom type="box" size="1 .2 .1" pos="1 4 0"/></body>
-    <body name="wall"><geom type="box" size=".2 .6 .1" pos=".2 4.8 0"/></body>
-    <body name="post"><geom type="box" size=".2 .2 .4" pos=".2 4.2 .5"/></body>
-  </worldbody></mujoco>)");
-  write_text(path("blocks.classes.yaml"),
-             "classes:\n  - {name: block, colour: \"FF0000\", detect: true, bodies: [\"*\"]}\n");
-  expect_done(mapscore({"truth", path("blocks.xml"), "-o", path("truth.csv")}));
-  std::istringstream truth(bytes_of(path("truth.csv")));
-  std::string line, swapped = "i,j,k,class\n";
-  std::getline(truth, line);
-  for (std::string i, j, k, name; std::getline(truth, i, ',') && std::getline(truth, j, ',') &&
-                                  std::getline(truth, k, ',') && std::getline(truth, name, ',') &&
-                                  std::getline(truth, line);)
-    swapped += fmt::format("{},{},{},{}\n", i, k, j, name);
-  write_text(path("swapped.csv"), swapped);
-  const Outcome outcome = mapscore({"score", path("swapped.csv"), "--truth", path("blocks.xml")});
-  EXPECT_THAT(outcome.err, ::testing::HasSubstr("mirror image; write its (x, z, y) as (x, y, z)"));
-}
-
 TEST_F(ScoreMap, FlagsThatWouldDoNothingAreRefused) {
   std::filesystem::copy(path("tiny/label"), path("network"));
   expect_done(mapscore({"truth", path("tiny"), "-o", path("truth.csv")}));
