@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 the mapscore authors
+# SPDX-License-Identifier: MIT
+"""What is written beside a network: its classes, its card, and the table of several."""
+
+import evaluate
+
+LIMITS = """\
+## Limits
+
+Made to measure how errors of perception reach a map of rendered homes, and for nothing else. It has seen
+drawn homes alone: pictures of a real camera are out of its reach. Input is 320 x 240 with a horizontal field
+of view of 60 degrees, the camera upright, 0.7 to 1.6 m above the floor, at most 28 degrees down; depth reaches
+from 0.6 to 8 m. The furniture's models are the same in all homes, only their looks, places and rooms differ;
+so the figures on the unseen home say what a network does in another home of this family, not in any home.
+"""
+
+
+def percent(scores):
+    return f"MPA {100 * scores['mpa']:.1f}, MIoU {100 * scores['miou']:.1f}, pixels {100 * scores['pixel_accuracy']:.1f}"
+
+
+def write_classes(file, names, fold):
+    """The format of docs/foreign_recordings.md, `label` being the channel, and `folds`: whose truth is whose."""
+    lines = ["# Classes of the network beside this file: label is the channel of its logits. A class with",
+             "# detect: false is none of the recording's. folds: recording's classes that count as this one.",
+             "classes:"]
+    for channel, name in enumerate(names[1:], 1):
+        own = "" if name in fold[name] else ", detect: false"
+        lines.append(f"  - {{name: {name}, label: {channel}{own}}}")
+    lines.append("folds:")
+    lines += [f"  {name}: [{', '.join(members)}]" for name, members in fold.items()]
+    file.write_text("\n".join(lines) + "\n")
+
+
+def write_card(file, record):
+    """Data, training, figures and limits of one network."""
+    name = file.stem
+    again = (f"scripts/train/train.sh --net {record['net']} --first_seed {record['seed']} --classes {record['classes']} "
+             f"--homes {record['homes']} --steps {record['steps']} --threads {record['threads']}")
+    lines = [f"# {name}", "",
+             f"`{record['net']}` of docs/networks.md, {record['parameters']} parameters, {record['bytes']} bytes, classes "
+             f"`{record['classes']}`, seed {record['seed']}.", "", "## Data and training", "",
+             f"{record['frames']} frames of {record['homes']} variations of scenes/apartment.xml and scenes/home.xml "
+             f"(seeds 0 to {record['homes'] - 1}; a third, two thirds), seen from around the drives of "
+             "configs/demo.yaml and configs/home.yaml. "
+             f"{record['steps']} steps of 8 frames ({record['epochs']} epochs), {record['processor_s']:.0f} s of "
+             f"processor time on {record['threads']} thread(s). Again, with the same bytes on the same machine:", "",
+             f"    {again}", "", "## Figures", "",
+             f"Cottage, drive of configs/segmentation_cottage.yaml at 1.4 frames a second, never trained or selected on: "
+             f"{percent(record['unseen'])}. Held-out variations of the homes of the training: {percent(record['validation'])}.",
+             "", "| class | IoU, cottage | accuracy, cottage |", "| --- | --- | --- |"]
+    for c, iou in record["unseen"]["iou"].items():
+        lines.append(f"| {c} | {100 * iou:.1f} | {100 * record['unseen']['accuracy'][c]:.1f} |")
+    file.write_text("\n".join(lines) + "\n\n" + LIMITS)
+
+
+def row(record):
+    return (f"{record['net']} seed {record['seed']}: cottage {percent(record['unseen'])}; held-out "
+            f"{percent(record['validation'])}; {record['steps']} steps, {record['processor_s']:.0f} s")
+
+
+def table(records):
+    """Means over seeds with Student's 95 % interval, in percent, a line a network."""
+    lines = ["| net | seeds | MPA | MIoU | pixels | held-out MIoU | epochs | processor s |",
+             "| --- | --- | --- | --- | --- | --- | --- | --- |"]
+    for net in dict.fromkeys(r["net"] for r in records):
+        of = [r for r in records if r["net"] == net]
+        cells = [evaluate.with_interval([r["unseen"][m] for r in of]) for m in ("mpa", "miou", "pixel_accuracy")]
+        cells.append(evaluate.with_interval([r["validation"]["miou"] for r in of]))
+        mean = {key: sum(r[key] for r in of) / len(of) for key in ("epochs", "processor_s")}
+        lines.append(f"| {net} | {len(of)} | {' | '.join(cells)} | {mean['epochs']:.1f} | {mean['processor_s']:.0f} |")
+    return "\n".join(lines)

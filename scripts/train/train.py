@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 the mapscore authors
+# SPDX-License-Identifier: MIT
+"""Records varied homes, trains networks on them, exports, scores them on the unseen home, writes cards.
+
+Called by train.sh, which says what is missing.
+"""
+
+import argparse
+import dataclasses
+import json
+import pathlib
+import sys
+import time
+
+import cv2
+import torch
+
+import card
+import evaluate
+import export
+import fit
+import nets
+import recordings
+from data import Frames, class_lists
+
+TRAINED_ON = ("apartment", "home", "home")   # in turn: the home has more rooms
+UNSEEN = "cottage"
+VALIDATION_SEEDS = range(1000, 1006)
+DULL = 0.85
+
+
+@dataclasses.dataclass(frozen=True)
+class Data:
+    """Frames of training, of held-out variations of the same homes, and of the unseen home."""
+
+    train: Frames
+    validation: Frames
+    unseen: Frames
+
+
+def parsed(argv):
+    parser = argparse.ArgumentParser(prog="train.sh", description=__doc__)
+    add = parser.add_argument
+    add("--net", choices=[*nets.NETS, "all"], default="all", help="which network [all]")
+    add("--seeds", type=int, default=1, help="train with so many seeds, from 0 on [1]")
+    add("--first_seed", type=int, default=0, help="first of the seeds [0]")
+    budget = parser.add_mutually_exclusive_group()
+    budget.add_argument("--steps", type=int, help="steps of 8 frames [2000]; equal seeds and threads, equal bytes")
+    budget.add_argument("--epochs", type=float, help="times that each frame is seen, in place of --steps")
+    budget.add_argument("--minutes", type=float, help="processor minutes a network, in place of --steps: the steps "
+                                                      "that fit are measured, and then stand in the card")
+    add("--classes", default="nyu13", choices=list(class_lists()), help="list of classes.yaml [nyu13]")
+    add("--homes", type=int, default=120, help="varied homes to record [120]")
+    add("--frames", type=int, default=20, help="frames of each [20]")
+    add("--threads", type=int, default=2, help="of PyTorch; another number gives other last bits [2]")
+    add("--program", default=str(recordings.ROOT / "build/release/mapscore"), help="mapscore [build/release]")
+    add("--data", default=str(recordings.ROOT / "build/train"), help="folder of recordings, kept [build/train]")
+    add("-o", "--output", default=str(recordings.ROOT / "build/weights"), help="weights and cards [build/weights]")
+    add("--quick", action="store_true", help="a minute: few homes, few steps; fails unless the loss falls")
+    args = parser.parse_args(argv)
+    for key in ("seeds", "homes", "frames", "threads"):
+        if getattr(args, key) < 1:
+            parser.error(f"--{key} is {getattr(args, key)}; give 1 or more")
+    for key in ("steps", "epochs", "minutes"):
+        if getattr(args, key) is not None and getattr(args, key) <= 0:
+            parser.error(f"--{key} is {getattr(args, key)}; give more than 0")
+    if args.quick:
+        args.homes, args.frames, args.steps, args.epochs, args.minutes = 3, 12, 40, None, None
+    return args
+
+
+def gathered(args, fold):
+    """Records what is not there yet, and reads it."""
+    folder = pathlib.Path(args.data)
+    homes = [(TRAINED_ON[seed % 3], seed) for seed in range(args.homes)]
+    held_out = [(TRAINED_ON[seed % 3], seed) for seed in VALIDATION_SEEDS][:1 if args.quick else None]
+    made = recordings.varied_all(args.program, homes + held_out, args.frames, folder, args.threads)
+    unseen = recordings.drive(args.program, UNSEEN, folder, 0.2 if args.quick else 1.4)
+    return Data(Frames(made[:len(homes)], fold, DULL), Frames(made[len(homes):], fold), Frames([unseen], fold))
+
+
+def steps_of(args, name, data, classes):
+    if args.minutes:
+        return fit.steps_in(name, data.train, classes, 60 * args.minutes)
+    if args.epochs:
+        return max(1, round(args.epochs * len(data.train) / fit.Recipe.batch))
+    return args.steps or 2000
+
+
+def trained(args, name, seed, data, names):
+    """One network: weights, card and record. Returns the record."""
+    classes, channels = len(names), nets.channels_of(name)
+    recipe = fit.Recipe(steps=steps_of(args, name, data, classes))
+    began = time.process_time(), time.monotonic()
+    net, losses = fit.fit(name, data.train, classes, seed, recipe, lambda text: print(text, flush=True))
+    seconds = time.process_time() - began[0], time.monotonic() - began[1]
+    file = pathlib.Path(args.output) / f"{name}_{args.classes}_{seed}.onnx"
+    deployed = export.export(net, channels, file, evaluate.images_of(data.unseen, slice(0, 1), channels))
+    record = {"net": name, "seed": seed, "classes": args.classes, "threads": args.threads,
+              "homes": args.homes, "frames": len(data.train), "parameters": sum(p.numel() for p in deployed.parameters()),
+              "bytes": file.stat().st_size, "steps": recipe.steps,
+              "epochs": round(recipe.steps * recipe.batch / len(data.train), 2),
+              "processor_s": round(seconds[0], 1), "wall_s": round(seconds[1], 1),
+              "loss": [round(sum(part) / len(part), 4) for part in (losses[:10], losses[-10:])]}
+    for where, frames in (("validation", data.validation), ("unseen", data.unseen)):
+        scored = evaluate.scores(evaluate.confusion(deployed, frames, channels, classes), names)
+        record[where] = dataclasses.asdict(scored)
+    file.with_suffix(".json").write_text(json.dumps(record, indent=1) + "\n")
+    card.write_classes(file.with_suffix(".classes.yaml"), names, class_lists()[args.classes])
+    card.write_card(file.with_suffix(".md"), record)
+    print(card.row(record), flush=True)
+    return record
+
+
+def main(argv):
+    args = parsed(argv)
+    cv2.setNumThreads(1)
+    torch.set_num_threads(args.threads)
+    torch.use_deterministic_algorithms(True)
+    fold = class_lists()[args.classes]
+    names = ["background", *fold]
+    pathlib.Path(args.output).mkdir(parents=True, exist_ok=True)
+    data = gathered(args, fold)
+    print(f"{len(data.train)} frames of {args.homes} varied homes, {len(data.validation)} of held-out ones, "
+          f"{len(data.unseen)} of {UNSEEN}", flush=True)
+    records = [trained(args, name, seed, data, names)
+               for seed in range(args.first_seed, args.first_seed + args.seeds)
+               for name in (nets.NETS if args.net == "all" else [args.net])]
+    print(card.table(records))
+    if args.quick and any(r["loss"][1] >= r["loss"][0] for r in records):
+        raise SystemExit("the loss did not fall")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
