@@ -9,7 +9,7 @@ LIMITS = """\
 
 Made to measure how errors of perception reach a map of rendered homes, and for nothing else. It has seen
 drawn homes alone: pictures of a real camera are out of its reach. Input is 320 x 240 with a horizontal field
-of view of 60 degrees, the camera upright, 0.7 to 1.6 m above the floor, at most 28 degrees down; depth reaches
+of view of 60 degrees, the camera upright, 0.7 to 1.6 m above the floor, 15 degrees up to 28 down; depth reaches
 from 0.6 to 8 m. The furniture's models are the same in all homes, only their looks, places and rooms differ;
 so the figures on the unseen home say what a network does in another home of this family, not in any home.
 """
@@ -20,15 +20,12 @@ def percent(scores):
 
 
 def write_classes(file, names, fold):
-    """The format of docs/foreign_recordings.md, `label` being the channel, and `folds`: whose truth is whose."""
-    lines = ["# Classes of the network beside this file: label is the channel of its logits. A class with",
-             "# detect: false is none of the recording's. folds: recording's classes that count as this one.",
-             "classes:"]
+    """A file of classes as in docs/foreign_recordings.md, `label` being the channel of the logits."""
+    lines = ["# Classes of the network beside this file, by channel of its logits (label); channel 0 is background.",
+             "# A class with detect: false is none of the recordings'.", "classes:"]
     for channel, name in enumerate(names[1:], 1):
         own = "" if name in fold[name] else ", detect: false"
         lines.append(f"  - {{name: {name}, label: {channel}{own}}}")
-    lines.append("folds:")
-    lines += [f"  {name}: [{', '.join(members)}]" for name, members in fold.items()]
     file.write_text("\n".join(lines) + "\n")
 
 

@@ -107,7 +107,7 @@ class Normalised(nn.Module):
 
 
 class Segmenter(nn.Module):
-    """`scores` at 1/8 of the picture's size, enlarged to its own."""
+    """`scores` at 1/8 of the picture's size, enlarged to its own. `last`: the layer whose bias is that of the scores."""
 
     def forward(self, image):
         return resized(self.scores(image), image.shape[2:])
@@ -119,14 +119,15 @@ class FCN(Segmenter):
     def __init__(self, classes):
         super().__init__()
         self.encoder = encoder(dilated=False)
-        self.coarse, self.fine = nn.Conv2d(WIDTHS[3], classes, 1), nn.Conv2d(WIDTHS[2], classes, 1)
+        self.fine = nn.Conv2d(WIDTHS[2], classes, 1)
+        self.last = nn.Conv2d(WIDTHS[3], classes, 1)
 
     def scores(self, image):
         x, taps = Normalised.colour(image), []
         for stage in self.encoder:
             x = stage(x)
             taps.append(x)
-        return resized(self.coarse(x), taps[2].shape[2:]) + self.fine(taps[2])
+        return resized(self.last(x), taps[2].shape[2:]) + self.fine(taps[2])
 
 
 def pooled(x, bins):
@@ -147,14 +148,14 @@ class PSPNet(Segmenter):
         self.encoder = encoder(attention)
         self.levels = nn.ModuleList([convolution(width, width // 4, 1) for _ in self.BINS])
         self.mix = convolution(2 * width, mixed)
-        self.head = nn.Conv2d(mixed, classes, 1)
+        self.last = nn.Conv2d(mixed, classes, 1)
 
     def scores(self, image):
         x = Normalised.colour(image)
         for stage in self.encoder:
             x = stage(x)
         levels = [resized(level(pooled(x, bins)), x.shape[2:]) for level, bins in zip(self.levels, self.BINS)]
-        return self.head(self.mix(torch.cat([x, *levels], 1)))
+        return self.last(self.mix(torch.cat([x, *levels], 1)))
 
 
 class Fusion(Segmenter):
@@ -173,7 +174,7 @@ class Fusion(Segmenter):
         self.three = separable(width, path, self.DILATION)
         self.five = nn.Sequential(separable(width, path, self.DILATION), separable(path, path, self.DILATION))
         self.greatest = nn.Sequential(nn.MaxPool2d(3, 1, 1), convolution(width, path, 1))
-        self.head = nn.Conv2d(4 * path, classes, 1)
+        self.last = nn.Conv2d(4 * path, classes, 1)
 
     def scores(self, image):
         x = Normalised.colour(image)
@@ -184,7 +185,7 @@ class Fusion(Segmenter):
                 z = self.depth[n](z)
                 x = x + z
         joined = torch.cat([self.point(x), self.three(x), self.five(x), self.greatest(x)], 1)
-        return self.head(joined)
+        return self.last(joined)
 
 
 def make(name, classes):

@@ -45,12 +45,12 @@ def parsed(argv):
     add("--seeds", type=int, default=1, help="train with so many seeds, from 0 on [1]")
     add("--first_seed", type=int, default=0, help="first of the seeds [0]")
     budget = parser.add_mutually_exclusive_group()
-    budget.add_argument("--steps", type=int, help="steps of 8 frames [2000]; equal seeds and threads, equal bytes")
+    budget.add_argument("--steps", type=int, help="steps of 8 frames [4000]; equal seeds and threads, equal bytes")
     budget.add_argument("--epochs", type=float, help="times that each frame is seen, in place of --steps")
     budget.add_argument("--minutes", type=float, help="processor minutes a network, in place of --steps: the steps "
                                                       "that fit are measured, and then stand in the card")
     add("--classes", default="nyu13", choices=list(class_lists()), help="list of classes.yaml [nyu13]")
-    add("--homes", type=int, default=120, help="varied homes to record [120]")
+    add("--homes", type=int, default=96, help="varied homes to record [96]")
     add("--frames", type=int, default=20, help="frames of each [20]")
     add("--threads", type=int, default=2, help="of PyTorch; another number gives other last bits [2]")
     add("--program", default=str(recordings.ROOT / "build/release/mapscore"), help="mapscore [build/release]")
@@ -84,7 +84,7 @@ def steps_of(args, name, data, classes):
         return fit.steps_in(name, data.train, classes, 60 * args.minutes)
     if args.epochs:
         return max(1, round(args.epochs * len(data.train) / fit.Recipe.batch))
-    return args.steps or 2000
+    return args.steps or 4000
 
 
 def trained(args, name, seed, data, names):

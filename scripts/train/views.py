@@ -42,10 +42,10 @@ def views(waypoints, count, seed):
     for n in range(count):
         place, heading = along(waypoints, random.random())
         place = place + np.clip(random.normal(0, 0.15, 2), -0.3, 0.3)
-        yaw = heading + random.normal(0, 30) if random.random() < 0.4 else random.uniform(0, 360)
-        as_robot = random.random() < 0.5
+        yaw = heading + random.normal(0, 30) if random.random() < 0.6 else random.uniform(0, 360)
+        as_robot = random.random() < 0.6
         height = ROBOT_HEIGHT_M if as_robot else random.uniform(0.7, 1.6)
-        tilt = ROBOT_TILT_DEG if as_robot else random.uniform(-2, 28)
+        tilt = ROBOT_TILT_DEG if as_robot else random.uniform(-15, 28)
         roll = 0 if as_robot else random.normal(0, 1.5)
         yaw, tilt, roll = (math.radians(v) for v in (yaw, tilt, roll))
         place = place + AHEAD_M * np.array([math.cos(yaw), math.sin(yaw)])
