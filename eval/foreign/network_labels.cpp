@@ -102,11 +102,28 @@ std::string text_of(const std::vector<std::int64_t>& pixels_of_value, const auto
   return values.size() > kMost ? fmt::format("{} and {} more", text, values.size() - kMost) : text;
 }
 
-/// Whether an image has a value that is scored.
-bool has_some(const cv::Mat1w& values, const ScoreOfValue& scores) {
+/// Whether an image has a value that is scored, or one of a pixel's scores there is.
+bool has_some(const cv::Mat1w& values, const FrameScores& scores) {
+  if (!scores.at_pixels.empty()) return true;
   std::vector<bool> present(std::numeric_limits<std::uint16_t>::max() + 1);
   for (const std::uint16_t value : values) present[value] = true;
-  return std::ranges::any_of(scores, [&](const auto& score) { return present[score.first]; });
+  return std::ranges::any_of(scores.of_value,
+                             [&](const auto& score) { return present[score.first]; });
+}
+
+/// The scores of the values that detections' first pixels have, in row-major order.
+void take_scores_of_values(const cv::Mat1w& values, const FrameScores& of_frame,
+                           NetworkDetections& found) {
+  std::vector<bool> seen(found.scores.size());
+  for (int v = 0; v < values.rows; ++v) {
+    for (int u = 0; u < values.cols; ++u) {
+      const InstanceId id = found.instances(v, u);
+      if (id == 0 || seen[id]) continue;
+      seen[id] = true;
+      const auto score = of_frame.of_value.find(values(v, u));
+      if (score != of_frame.of_value.end()) found.scores[id] = score->second;
+    }
+  }
 }
 
 }  // namespace
@@ -138,6 +155,26 @@ std::string content_of(const NetworkImages& images) {
   return content;
 }
 
+std::vector<ClassId> classes_of_values(const LabelClasses& classes, const fs::path& file,
+                                       ClassMasks masks, const ClassTable& table) {
+  std::vector<std::string> names;
+  for (const SemanticClass& c : table.classes) names.push_back(c.name);
+  std::vector<ClassId> ours(classes.table.classes.size(), kBackground);  // by the file's class id
+  for (const SemanticClass& c : classes.table.classes) {
+    if (!c.detect) continue;
+    const auto found = std::ranges::find(names, c.name);
+    if (found == names.end())
+      refuse(file,
+             "the recording has no class '{}'; {}; or give it detect: false, and its pixels are "
+             "background",
+             c.name, suggestion(c.name, names));
+    ours[c.id] = static_cast<ClassId>(found - names.begin());
+  }
+  std::vector<ClassId> of_value = classes.class_of_value(masks);
+  for (ClassId& value : of_value) value = ours[value];
+  return of_value;
+}
+
 NetworkLabels::NetworkLabels(const NetworkImages& images, const Recording& recording,
                              const ClassTable& table)
     : images_(images),
@@ -150,32 +187,18 @@ NetworkLabels::NetworkLabels(const NetworkImages& images, const Recording& recor
   take_meaning(table);
   scores_.resize(files_.size());
   if (images.scores)
-    scores_ = read_scores(*images.scores, files_, color_stamps_of(recording), kMaxOffset_s);
+    scores_ = read_scores(*images.scores, files_, size_, color_stamps_of(recording), kMaxOffset_s);
 }
 
 void NetworkLabels::take_meaning(const ClassTable& table) {
   const LabelClasses file = read_label_classes(images_.classes, images_.masks);
   if (file.has_instances && images_.masks != ClassMasks::instances)
     refuse(images_.classes, "lists instances, each a detection; write masks: instances");
-  std::vector<std::string> names;
-  for (const SemanticClass& c : table.classes) names.push_back(c.name);
-  std::vector<ClassId> ours(file.table.classes.size(), kBackground);  // by the file's class id
-  for (const SemanticClass& c : file.table.classes) {
-    if (!c.detect) continue;
-    const auto found = std::ranges::find(names, c.name);
-    if (found == names.end())
-      refuse(images_.classes,
-             "the recording has no class '{}'; {}; or give it detect: false, and its pixels are "
-             "background",
-             c.name, suggestion(c.name, names));
-    ours[c.id] = static_cast<ClassId>(found - names.begin());
-  }
-  class_of_value_ = file.class_of_value(images_.masks);
-  known_.resize(class_of_value_.size());
-  for (std::size_t value = 0; value < known_.size(); ++value) {
-    known_[value] = value == 0 || class_of_value_[value] != kBackground;
-    class_of_value_[value] = ours[class_of_value_[value]];
-  }
+  const std::vector<ClassId> named = file.class_of_value(images_.masks);
+  known_.resize(named.size());
+  for (std::size_t value = 0; value < known_.size(); ++value)
+    known_[value] = value == 0 || named[value] != kBackground;
+  class_of_value_ = classes_of_values(file, images_.classes, images_.masks, table);
 }
 
 cv::Mat1w NetworkLabels::read(int frame) const {
@@ -193,19 +216,11 @@ NetworkDetections NetworkLabels::of(int frame) const {
   LabelledImage cut = instances_of(values, class_of_value_, table_, images_.masks);
   NetworkDetections found{cut.instances, std::move(cut.table), {}};
   found.scores.resize(found.table.instances.size(), 1.0);
-  const auto& of_frame = scores_[static_cast<std::size_t>(frame)];
-  if (of_frame.empty()) return found;
-  std::vector<bool> seen(
-      found.scores.size());  // the first pixel of each in row-major order decides
-  for (int v = 0; v < values.rows; ++v) {
-    for (int u = 0; u < values.cols; ++u) {
-      const InstanceId id = found.instances(v, u);
-      if (id == 0 || seen[id]) continue;
-      seen[id] = true;
-      if (const auto score = of_frame.find(values(v, u)); score != of_frame.end())
-        found.scores[id] = score->second;
-    }
-  }
+  const FrameScores& of_frame = scores_[static_cast<std::size_t>(frame)];
+  if (!of_frame.of_value.empty()) take_scores_of_values(values, of_frame, found);
+  for (const FrameScores::AtPixel& at : of_frame.at_pixels)
+    found.scores[found.instances(at.v, at.u)] = at.score;
+  found.scores[0] = 1.0;  // of no detection
   return found;
 }
 
@@ -234,11 +249,11 @@ void NetworkLabels::check() const {
     refuse(images_.folder,
            "no pixel is of a detected class, the values are {}; mend {} or the study's `detect`",
            text_of(pixels, [](std::size_t) { return true; }), images_.classes.string());
-  const auto row = std::ranges::find_if_not(scores_, &ScoreOfValue::empty);
+  const auto row = std::ranges::find_if_not(scores_, &FrameScores::empty);
   if (!scored && row != scores_.end())
     refuse(*images_.scores,
            "no id is a pixel value of its image, such as {} of {}; the images hold {}: write these",
-           row->begin()->first,
+           row->of_value.begin()->first,
            files_[static_cast<std::size_t>(row - scores_.begin())].filename().string(),
            text_of(pixels, [](std::size_t) { return true; }));
 }

@@ -30,6 +30,13 @@ struct NetworkImages {
 /// the folder holds no image.
 [[nodiscard]] std::string content_of(const NetworkImages& images);
 
+/// Classes of the recording's `table` by pixel value, as a file names them for images that are cut
+/// by `masks`; what is not detected by the file is background. Throws Error where it names a class
+/// that the table lacks.
+[[nodiscard]] std::vector<ClassId> classes_of_values(const LabelClasses& classes,
+                                                     const std::filesystem::path& file,
+                                                     ClassMasks masks, const ClassTable& table);
+
 /// What a network found in one colour image.
 struct NetworkDetections {
   cv::Mat1w instances;         ///< ids of the table, colour camera
@@ -63,7 +70,7 @@ class NetworkLabels {
   std::vector<std::filesystem::path> files_;  ///< by frame
   std::vector<ClassId> class_of_value_;       ///< of the recording, by pixel value
   std::vector<bool> known_;                   ///< values that the classes' file names, and 0
-  std::vector<ScoreOfValue> scores_;          ///< by frame
+  std::vector<FrameScores> scores_;           ///< by frame
 };
 
 }  // namespace mapscore::eval

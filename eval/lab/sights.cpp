@@ -119,12 +119,11 @@ Sights::Sights(const Task& task, const Recording& recording, const ClassTable& t
       faults_(task.config.faults) {
   if (const auto* settings = std::get_if<SimulatedPerception>(&task.config.perception))
     simulated_ = std::make_shared<const SimulatedLabels>(*settings, task.config, recording, table);
-  if (const auto* settings = std::get_if<ImagePerception>(&task.config.perception)) {
-    const NetworkImages images = network_images(task.config, *settings);
+  if (const auto images = network_images(task.config, recording)) {
     const auto read = [&] {
-      return std::make_shared<const NetworkLabels>(images, recording, table);
+      return std::make_shared<const NetworkLabels>(*images, recording, table);
     };
-    network_ = networks ? networks->get(images, read) : read();
+    network_ = networks ? networks->get(*images, read) : read();
   }
 }
 

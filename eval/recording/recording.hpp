@@ -71,6 +71,10 @@ class Recording {
 
   [[nodiscard]] const RecordingInfo& info() const { return info_; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  /// The folder of results of who opened it, where what is made of its images is kept; empty where
+  /// nobody said.
+  [[nodiscard]] const std::filesystem::path& results() const { return results_; }
+  void keep_in(const std::filesystem::path& results) { results_ = results; }
   /// Colour images, each a frame of every trial.
   [[nodiscard]] int frame_count() const { return info_.frame_count; }
   [[nodiscard]] int depth_count() const { return static_cast<int>(depth_.size()); }
@@ -146,7 +150,7 @@ class Recording {
   void check_frame(int index) const;
   [[nodiscard]] cv::Mat1w read_grey16(const std::string& path, const CameraModel& camera) const;
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, results_;
   RecordingInfo info_;
   std::string content_hash_;
   std::unordered_map<std::string, std::string> image_hashes_;  ///< by path

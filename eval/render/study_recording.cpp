@@ -53,17 +53,25 @@ std::optional<fs::path> own_robot() {
   return error ? std::nullopt : own_robot_of(program.parent_path());
 }
 
-/// A recording to which the study's network labels fit.
-Recording opened(const Study& study, const fs::path& folder) {
+/// A recording to which the study's networks and their labels fit.
+Recording opened(const Study& study, const fs::path& folder, const fs::path& results) {
   Recording recording = Recording::open(folder);
+  recording.keep_in(results);
   check_network_labels(study, recording);
   return recording;
 }
 
 /// The recording that a study names.
-Recording replayed(const Study& study) {
-  Recording recording = opened(study, resolve_path(study, *study.recording));
+Recording replayed(const Study& study, const fs::path& results) {
+  Recording recording = opened(study, resolve_path(study, *study.recording), results);
   check_replay(study, recording.info());
+  return recording;
+}
+
+/// With the label images that the study's networks give of it.
+Recording inferred(const Study& study, Recording recording, int jobs,
+                   const RecordingProgress& progress) {
+  infer_networks(study, recording, jobs, progress.networks);
   return recording;
 }
 
@@ -219,7 +227,7 @@ void record_study(const Study& study, const fs::path& folder, int jobs,
 Recording recording_of(const Study& study, const fs::path& results, int jobs,
                        const RecordingProgress& progress) {
   check_input_files(study);
-  if (study.recording) return replayed(study);
+  if (study.recording) return inferred(study, replayed(study, results), jobs, progress);
   const sim::World world = world_of(study);
   const fs::path folder = rendered_folder(study, world, results);
   const FolderLock lock(folder.parent_path());  // of several shards one records, the others wait
@@ -228,14 +236,14 @@ Recording recording_of(const Study& study, const fs::path& results, int jobs,
                  progress.images);
     note_light(study, world, progress);
   }
-  return opened(study, folder);
+  return inferred(study, opened(study, folder, results), jobs, progress);
 }
 
 std::optional<Recording> recording_there(const Study& study, const fs::path& results) {
   check_input_files(study);
-  if (study.recording) return replayed(study);
+  if (study.recording) return replayed(study, results);
   const fs::path folder = rendered_folder(study, world_of(study), results);
-  return fs::exists(folder) ? std::optional(opened(study, folder)) : std::nullopt;
+  return fs::exists(folder) ? std::optional(opened(study, folder, results)) : std::nullopt;
 }
 
 SceneSurfaces surfaces_of_scene(const fs::path& scene) {
@@ -268,14 +276,15 @@ void record_study(const Study&, const fs::path&, int, const RecordingProgress&, 
   refuse();
 }
 
-Recording recording_of(const Study& study, const fs::path&, int, const RecordingProgress&) {
+Recording recording_of(const Study& study, const fs::path& results, int jobs,
+                       const RecordingProgress& progress) {
   if (!study.recording) refuse();
-  return replayed(study);
+  return inferred(study, replayed(study, results), jobs, progress);
 }
 
-std::optional<Recording> recording_there(const Study& study, const fs::path&) {
+std::optional<Recording> recording_there(const Study& study, const fs::path& results) {
   if (!study.recording) refuse();
-  return replayed(study);
+  return replayed(study, results);
 }
 
 SceneSurfaces surfaces_of_scene(const fs::path&) {

@@ -17,10 +17,10 @@ namespace mapscore::eval {
 
 using FrameProgress = std::function<void(int done, int total)>;
 
-/// Called while a drive on wheels is simulated, and then while images are rendered; `note` before,
-/// with what the user may want to know of the scene.
+/// Called while a drive on wheels is simulated, then while images are rendered, and then while
+/// networks run over them; `note` before, with what the user may want to know of the scene.
 struct RecordingProgress {
-  FrameProgress images = {}, waypoints = {};
+  FrameProgress images = {}, waypoints = {}, networks = {};
   std::function<void(const std::string& text)> note = {};
 };
 
@@ -57,7 +57,8 @@ void record_study(const Study& study, const std::filesystem::path& folder, int j
 
 /// The recording that a study replays: its own `recording`, or the one below `results`/recordings
 /// that was rendered from the same scene, robot, trajectory and cameras; rendered now if there is
-/// none.
+/// none. What the study's networks see in it is inferred, and kept below `results`
+/// (infer_networks).
 [[nodiscard]] Recording recording_of(const Study& study, const std::filesystem::path& results,
                                      int jobs, const RecordingProgress& progress);
 

@@ -36,6 +36,25 @@ std::string grid_bytes(const std::filesystem::path& file) {
   return bytes;
 }
 
+NetworkImages images_of_folder(const Study& config, const ImagePerception& settings) {
+  NetworkImages images{resolve_path(config, settings.folder.value()),
+                       resolve_path(config, settings.classes.value()),
+                       settings.masks,
+                       {}};
+  if (settings.scores) images.scores = resolve_path(config, *settings.scores);
+  return images;
+}
+
+NetworkModel network_model(const Study& config, const NetworkPerception& settings) {
+  return {.model = resolve_path(config, settings.model.value()),
+          .classes = resolve_path(config, settings.classes.value()),
+          .channels = settings.channels,
+          .scale = settings.scale,
+          .mean = settings.mean,
+          .std = settings.std,
+          .output = settings.output};
+}
+
 /// Calls act(config) for the study, or for each cell of a sweep over what names files.
 void for_each_input(const Study& study, const auto& act) {
   const bool swept = std::ranges::any_of(study.sweep, [](const SweepAxis& axis) {
@@ -43,6 +62,18 @@ void for_each_input(const Study& study, const auto& act) {
   });
   if (!swept) return act(study);  // every cell reads the same ones
   for (const Cell& cell : cells(study)) act(resolve(study, cell));
+}
+
+/// The networks that run at the points of a study's grid, each once.
+std::vector<NetworkModel> networks_of(const Study& study) {
+  std::vector<NetworkModel> networks;
+  for_each_input(study, [&](const Study& config) {
+    const auto* settings = std::get_if<NetworkPerception>(&config.perception);
+    if (settings == nullptr) return;
+    const NetworkModel network = network_model(config, *settings);
+    if (std::ranges::find(networks, network) == networks.end()) networks.push_back(network);
+  });
+  return networks;
 }
 
 }  // namespace
@@ -61,11 +92,14 @@ std::string InputFiles::perceived(const Study& config) {
       simulated && simulated->objects)
     return of("objects " + *simulated->objects,
               [&] { return read_file(resolve_path(config, *simulated->objects)); });
+  if (const auto* network = std::get_if<NetworkPerception>(&config.perception))
+    return of(fmt::format("network {}\n{}", network->model.value(), network->classes.value()),
+              [&] { return content_of(network_model(config, *network)); });
   const auto* images = std::get_if<ImagePerception>(&config.perception);
   if (images == nullptr) return "";
   return of(fmt::format("images {}\n{}\n{}", images->folder.value(), images->classes.value(),
                         images->scores.value_or("")),
-            [&] { return content_of(network_images(config, *images)); });
+            [&] { return content_of(images_of_folder(config, *images)); });
 }
 
 std::string InputFiles::poses(const Study& config) {
@@ -102,13 +136,12 @@ std::vector<std::string> InputFiles::depends(const Study& config) {
   return hashes;
 }
 
-NetworkImages network_images(const Study& config, const ImagePerception& settings) {
-  NetworkImages images{resolve_path(config, settings.folder.value()),
-                       resolve_path(config, settings.classes.value()),
-                       settings.masks,
-                       {}};
-  if (settings.scores) images.scores = resolve_path(config, *settings.scores);
-  return images;
+std::optional<NetworkImages> network_images(const Study& config, const Recording& recording) {
+  if (const auto* images = std::get_if<ImagePerception>(&config.perception))
+    return images_of_folder(config, *images);
+  const auto* network = std::get_if<NetworkPerception>(&config.perception);
+  if (network == nullptr) return std::nullopt;
+  return inferred_images(network_model(config, *network), recording, recording.results());
 }
 
 void check_input_files(const Study& study) {
@@ -124,10 +157,25 @@ void check_network_labels(const Study& study, const Recording& recording) {
   for_each_input(study, [&](const Study& config) {
     const auto* settings = std::get_if<ImagePerception>(&config.perception);
     if (settings == nullptr) return;
-    const NetworkImages images = network_images(config, *settings);
+    const NetworkImages images = images_of_folder(config, *settings);
     if (checked.insert(images).second)
       NetworkLabels(images, recording, detected_table(config, recording.info().table)).check();
   });
+  for (const NetworkModel& network : networks_of(study)) check_network(network, recording);
+}
+
+void infer_networks(const Study& study, const Recording& recording, int jobs,
+                    const std::function<void(int, int)>& progress) {
+  const std::vector<NetworkModel> networks = networks_of(study);
+  int before = 0;
+  const int all = static_cast<int>(networks.size()) * recording.frame_count();
+  for (const NetworkModel& network : networks) {
+    static_cast<void>(
+        inferred_images(network, recording, recording.results(), jobs, [&](int done, int) {
+          if (progress) progress(before + done, all);
+        }));
+    before += recording.frame_count();
+  }
 }
 
 }  // namespace mapscore::eval

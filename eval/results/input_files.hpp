@@ -4,12 +4,14 @@
 #pragma once
 
 #include "eval/foreign/network_labels.hpp"
+#include "eval/networks/inferred_images.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/study/study.hpp"
 
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,8 +31,8 @@ class InputFiles {
   explicit InputFiles(Hashes known) : hashes_(std::move(known)), are_known_(true) {}
 
   /// Hash of what the perception of a configuration reads: the object map of simulated perception,
-  /// or a network's images, classes and scores; empty where it reads none. Throws Error when one is
-  /// missing.
+  /// a network's images, classes and scores, or its model and classes; empty where it reads none.
+  /// Throws Error when one is missing.
   std::string perceived(const Study& config);
 
   /// Hash of the file that the source of a configuration's poses reads; empty when it reads none.
@@ -52,16 +54,25 @@ class InputFiles {
   bool are_known_ = false;
 };
 
-/// Where the label images of a configuration's perception lie. Throws Error where a path is
-/// missing.
-[[nodiscard]] NetworkImages network_images(const Study& config, const ImagePerception& settings);
+/// The label images that the perception of a configuration reads: those of a folder, or those that
+/// its network gives of the recording, inferred by one thread where nobody did before
+/// (infer_networks). None where it reads none. Throws Error as inferred_images.
+[[nodiscard]] std::optional<NetworkImages> network_images(const Study& config,
+                                                          const Recording& recording);
 
 /// Reads the files that poses and detections of a study come from, at every point of its grid.
 /// Throws Error naming the file when one is refused.
 void check_input_files(const Study& study);
 
 /// Reads the label images of the networks of a study, at every point of its grid, as those of a
-/// recording. Throws Error as NetworkLabels::check.
+/// recording, and loads the networks that are to run. Throws Error as NetworkLabels::check and
+/// check_network.
 void check_network_labels(const Study& study, const Recording& recording);
+
+/// Runs the networks of a study, at every point of its grid, over a recording, where nobody did
+/// before, on `jobs` threads; `progress(done, all)` counts the frames of all. Throws Error as
+/// inferred_images.
+void infer_networks(const Study& study, const Recording& recording, int jobs,
+                    const std::function<void(int, int)>& progress);
 
 }  // namespace mapscore::eval

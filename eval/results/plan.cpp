@@ -47,6 +47,10 @@ Study determining(Study config, InputFiles& files) {
     images->classes.reset();
     images->scores.reset();
   }
+  if (auto* network = std::get_if<NetworkPerception>(&config.perception)) {
+    network->model = perceived;
+    network->classes.reset();
+  }
   config.base_folder.clear();
   for (MethodSettings& method : config.methods) {
     method.name = "method";
@@ -62,7 +66,9 @@ Study determining(Study config, InputFiles& files) {
 Study without_faults(Study config) {
   config.localization = {};
   config.faults = {};
-  if (std::holds_alternative<ImagePerception>(config.perception)) config.perception = {};
+  if (std::holds_alternative<ImagePerception>(config.perception) ||
+      std::holds_alternative<NetworkPerception>(config.perception))
+    config.perception = {};
   return config;
 }
 

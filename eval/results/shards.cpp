@@ -33,6 +33,11 @@ fs::path shard_folder(const fs::path& results, int shard, int shards) {
   return results / "shards" / fmt::format("{}-of-{}@{}", shard, shards, host_name());
 }
 
+fs::path whole_folder(const fs::path& results) {
+  const fs::path folder = fs::absolute(results / "").lexically_normal().parent_path();
+  return folder.parent_path().filename() == "shards" ? folder.parent_path().parent_path() : results;
+}
+
 std::vector<ShardFolder> shard_folders(const fs::path& results) {
   std::vector<ShardFolder> found;
   std::error_code none;

@@ -21,6 +21,9 @@ struct ShardFolder {
 [[nodiscard]] std::filesystem::path shard_folder(const std::filesystem::path& results, int shard,
                                                  int shards);
 
+/// The folder of results to which a folder belongs: that of a shard's, else itself.
+[[nodiscard]] std::filesystem::path whole_folder(const std::filesystem::path& results);
+
 /// All that are there, in the order of N, I and HOST; other names are passed over.
 [[nodiscard]] std::vector<ShardFolder> shard_folders(const std::filesystem::path& results);
 

@@ -4,6 +4,7 @@
 #include "eval/results/study_store.hpp"
 
 #include "core/error.hpp"
+#include "eval/results/shards.hpp"
 #include "files/file_bytes.hpp"
 #include "files/suggestion.hpp"
 #include "files/text.hpp"
@@ -262,6 +263,7 @@ Recording recording_of(const StudyRecord& record, const std::filesystem::path& f
       (only ? record.recording_hash : scene_named(record, scene).recording_hash))
     throw Error(place.string() +
                 ": is another recording than that of the study's trials; sweep again");
+  recording.keep_in(whole_folder(folder));
   return recording;
 }
 

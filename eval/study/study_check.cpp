@@ -142,6 +142,16 @@ void check_perception(const Study& study, const Blame& blame) {
     blame("faults.time_offset_ms",
           "stands beside simulated perception, which sees the depth image itself, at no offset; "
           "keep one of the two");
+  if (const auto* network = std::get_if<NetworkPerception>(&study.perception)) {
+    if (!network->model)
+      blame("perception.network.model", "is missing; write model: FILE.onnx, the network");
+    if (!network->classes)
+      blame("perception.network.classes",
+            "is missing; write classes: FILE, what the channels of its output mean");
+    if (study.faults.labels.dose().scores != 0)
+      blame("faults.labels.scores",
+            "stands beside perception.network, which scores its detections; keep one of the two");
+  }
   const auto* images = std::get_if<ImagePerception>(&study.perception);
   if (images == nullptr) return;
   if (!images->folder)

@@ -9,6 +9,7 @@
 #include "core/refinement/dense_crf.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "eval/foreign/label_classes.hpp"
+#include "eval/networks/network_model.hpp"
 #include "eval/score/counts.hpp"
 
 #include <array>
@@ -87,8 +88,45 @@ struct ImagePerception {
   bool operator==(const ImagePerception&) const = default;
 };
 
+/// A network that runs over the recording's images.
+struct NetworkPerception {
+  static constexpr std::string_view kKind = "network";
+  static constexpr std::string_view kMeaning =
+      "a segmentation network, run on each colour image (docs/networks_in_the_loop.md)";
+  std::optional<std::string> model, classes;
+  ChannelOrder channels = ChannelOrder::rgb;
+  double scale = 1;
+  std::vector<double> mean, std;
+  NetworkOutput output = NetworkOutput::logits;
+
+  static void fields(auto& s, auto&& visit) {
+    visit(s.model, Field{"model",
+                         "ONNX file of the network: an image in, of 3 channels or, with depth, 4; "
+                         "classes by pixel out; from the study file's folder"});
+    visit(s.classes, Field{"classes",
+                           "file that names the recording's classes of the output's channels, from "
+                           "the study file's folder"});
+    visit(s.channels, Field{"channels", "order of the colours in the input"});
+    visit(s.scale,
+          Field{"scale", "factor of the colours, 0 to 255, before mean and std", above(0)});
+    UnlessEmpty mean_unless_empty{s.mean};
+    visit(mean_unless_empty, Field{.key = "mean",
+                                   .meaning = "taken off each channel of the input; of depth in "
+                                              "metres; default: 0",
+                                   .swept = false});
+    UnlessEmpty std_unless_empty{s.std};
+    visit(std_unless_empty, Field{.key = "std",
+                                  .meaning = "then divides each channel of the input; default: 1",
+                                  .range = above(0),
+                                  .swept = false});
+    visit(s.output, Field{"output", "what the output holds for each class"});
+  }
+  bool operator==(const NetworkPerception&) const = default;
+};
+
 /// Where the detections of a study come from.
-using PerceptionSettings = std::variant<LabelPerception, SimulatedPerception, ImagePerception>;
+using PerceptionSettings =
+    std::variant<LabelPerception, SimulatedPerception, ImagePerception, NetworkPerception>;
 
 struct StudyFusion : NoFields {
   static constexpr std::string_view kKind = "study";

@@ -55,10 +55,10 @@ std::string Progress::line(std::int64_t done, std::int64_t total, double seconds
   return text + fmt::format(", {} left", duration_text(left));
 }
 
-StoppedRecording::StoppedRecording(int by)
-    : std::runtime_error(
-          "stopped while the recording was made; no trial is lost, the same command makes the "
-          "recording anew and goes on"),
+StoppedRecording::StoppedRecording(int by, const std::string& work, const std::string& thing)
+    : std::runtime_error(fmt::format(
+          "stopped while {}; no trial is lost, the same command makes {} anew and goes on", work,
+          thing)),
       signal(by) {}
 
 Recording shown_recording(const char* verb, const Study& study,

@@ -43,15 +43,17 @@ class Progress {
   bool open_line_ = false;
 };
 
-/// A signal asked to stop while a recording was made; what() tells the user how to go on.
+/// A signal asked to stop while a recording was made, or a network ran over it; what() tells the
+/// user how to go on.
 struct StoppedRecording : std::runtime_error {
-  explicit StoppedRecording(int by);
+  /// `work`: what was going on, and `thing`: what is made anew, as in the text.
+  StoppedRecording(int by, const std::string& work, const std::string& thing);
 
   int signal;
 };
 
-/// Shows how a recording is made: the drive, then its images. From its first step on the first
-/// Ctrl-C ends it in order, by StoppedRecording.
+/// Shows how a recording is made: the drive, its images, and what networks see in them. From its
+/// first step on the first Ctrl-C ends it in order, by StoppedRecording.
 class ShownRecording {
  public:
   explicit ShownRecording(bool quiet) : quiet_(quiet) {}
@@ -60,6 +62,7 @@ class ShownRecording {
   [[nodiscard]] RecordingProgress progress() {
     return {[this](int done, int total) { show(images_, "record", "images", done, total); },
             [this](int done, int total) { show(drive_, "drive", "waypoints", done, total); },
+            [this](int done, int total) { show(networks_, "networks", "frames", done, total); },
             [this](const std::string& text) {
               if (!quiet_) std::cerr << "record: note: " << text << '\n';
             }};
@@ -70,14 +73,17 @@ class ShownRecording {
   void show(std::optional<Progress>& line, const char* what, const char* unit, int done,
             int total) {
     if (!stop_) stop_.emplace();
-    if (const int signal = stop_->taken()) throw StoppedRecording(signal);
+    if (const int signal = stop_->taken())
+      throw &line == &networks_
+          ? StoppedRecording(signal, "a network ran over the images", "its labels")
+          : StoppedRecording(signal, "the recording was made", "the recording");
     if (!line) line.emplace(what, unit, quiet_);
     line->show(done, total);
   }
 
   bool quiet_;
   std::optional<StopSignal> stop_;
-  std::optional<Progress> drive_, images_;
+  std::optional<Progress> drive_, images_, networks_;
 };
 
 /// The recording of a study, made with such a display where it is not there; says on standard error

@@ -154,6 +154,20 @@ TEST_F(NetworkFolder, ScoresAreOfPixelValues) {
   EXPECT_EQ(by_stamp.scores.at(first + 1), 1.0);
 }
 
+TEST_F(NetworkFolder, ScoresOfPixelsAreOfTheDetectionsThatHoldThem) {
+  write(1, two_crates(recording().read(0).label.size(), 56, 56));
+  write_scores("image,u,v,score\n000001.png,21,3,0.25\n000001.png,2,2,0.75\n000001.png,0,0,0\n");
+  const auto found = read().of(1);
+  const std::size_t first = recording().info().table.instances.size();
+  EXPECT_EQ(found.scores.at(first), 0.75);
+  EXPECT_EQ(found.scores.at(first + 1), 0.25) << "of one class, which a value cannot tell apart";
+  EXPECT_EQ(found.scores.at(0), 1.0);
+  EXPECT_EQ(refusal(), "accepted");
+  write_scores(fmt::format("stamp_s,u,v,score\n{},6,6,0.5\n", recording().color_stamp_s(1)));
+  EXPECT_EQ(read().of(1).scores.at(first), 0.5);
+  EXPECT_EQ(read().of(1).scores.at(first + 1), 1.0);
+}
+
 TEST_F(NetworkFolder, AStampedScoreIsOfTheNearestImage) {
   std::string list;  // 15 ms apart
   for (int frame = 0; frame < recording().frame_count(); ++frame)
@@ -255,6 +269,12 @@ TEST_F(NetworkFolder, WrongFilesAreNamed) {
        {"scores.csv:3: id 56", "twice"}},
       {"head", [&] { write_scores("000001.png,56,0.5\n"); }, {"scores.csv:1", "image,id,score"}},
       {"cells", [&] { write_scores("image,id,score\n000001.png,56\n"); }, {"scores.csv:2"}},
+      {"column",
+       [&] { write_scores("image,u,v,score\n000001.png,64,0,0.5\n"); },
+       {"scores.csv:2: '64' is no column of the image", "up to 63"}},
+      {"three cells",
+       [&] { write_scores("image,u,v,score\n000001.png,1,0.5\n"); },
+       {"scores.csv:2: expected four cells"}},
       {"no scores", [&] { write_scores(""); }, {"scores.csv: is empty"}}};
   for (const Case& one : cases) {
     SCOPED_TRACE(one.what);

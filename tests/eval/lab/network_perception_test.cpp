@@ -179,5 +179,121 @@ TEST_F(NetworkPerception, ImagesThatDoNotFitAreRefusedBeforeAnyTrial) {
   }
 }
 
+/// The tiny recording and a network that sees the crate where it is, by tests/network.
+class RunningNetwork : public NetworkPerception {
+ protected:
+  RunningNetwork() {
+    write_file(folder() / "channels.yaml",
+               "classes: [{name: crate, label: 1}, {name: wall, label: 2, detect: false}]\n");
+    kept_.keep_in(folder() / "results");
+  }
+
+  [[nodiscard]] Study running(const std::string& lines, const std::string& name = "crate",
+                              const std::string& more = "") const {
+    return study(lines, fmt::format("{{network: {{model: {}/tests/network/{}.onnx, classes: "
+                                    "channels.yaml{}}}}}\n",
+                                    MAPSCORE_SOURCE_DIR, name, more));
+  }
+  [[nodiscard]] TrialResult of_network(const Task& of) const {
+    Bench bench(kept_, table(), false, std::size_t{1} << 24);
+    const auto run = bench.start(of);
+    bench.run(*run);
+    return run->finish();
+  }
+  [[nodiscard]] fs::path inferred() const {
+    const fs::directory_iterator folders(folder() / "results/networks");
+    return folders->path();
+  }
+
+ private:
+  Recording kept_ = recording();
+};
+
+TEST_F(RunningNetwork, GivesWhatItsLabelImagesGive) {
+  for (const char* faults : {"", kFaults, "faults: {labels: {boundary_px: 2, confusion: 0.5}}\n"}) {
+    const TrialResult of_model = of_network(task(running(faults)));
+    const std::string images = fmt::format(
+        "{{images: {{folder: {0}, classes: {0}/classes.yaml, scores: {0}/scores.csv}}}}\n",
+        inferred().string());
+    const TrialResult of_images = result(task(study(faults, images)));
+    EXPECT_EQ(of_model.counts, of_images.counts) << faults;
+    EXPECT_EQ(of_model.accounting, of_images.accounting) << faults;
+    EXPECT_GT(of_model.counts[1].predicted, 0);
+    EXPECT_EQ(of_model.counts[1].labels->instances_found, recording().frame_count());
+  }
+}
+
+TEST_F(RunningNetwork, SeesNoFaultOfDepthCalibrationOrTime) {
+  (void)of_network(task(running("", "near")));
+  const fs::path first = inferred();
+  (void)of_network(task(running(kFaults, "near")));
+  EXPECT_EQ(inferred(), first);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "results/networks"), {}), 1);
+}
+
+TEST_F(RunningNetwork, IsInferredOnceForAllCells) {
+  Recording of = recording();
+  of.keep_in(folder() / "results");
+  std::vector<std::pair<int, int>> shown;
+  const Study swept = running("sweep: {faults.misregistration.magnitude_m: [0, 0.01, 0.02]}\n");
+  const auto show = [&](int done, int all) { shown.emplace_back(done, all); };
+  infer_networks(swept, of, 2, show);
+  ASSERT_EQ(shown.size(), 4u);
+  EXPECT_EQ(shown.back(), std::pair(4, 4));
+  infer_networks(swept, of, 2, show);
+  EXPECT_EQ(shown.size(), 4u);
+}
+
+TEST_F(RunningNetwork, TheKeyHoldsTheContentOfItsFiles) {
+  const std::string key = task(running("")).key;
+  fs::copy(fs::path(MAPSCORE_SOURCE_DIR) / "tests/network/crate.onnx", folder() / "same.onnx");
+  EXPECT_EQ(task(study("", "{network: {model: same.onnx, classes: channels.yaml}}\n")).key, key);
+  EXPECT_NE(task(running("", "crate_any_size")).key, key);
+  EXPECT_NE(task(running("", "crate", ", scale: 0.5")).key, key);
+  write_file(folder() / "channels.yaml", "classes: [{name: crate, label: [1, 2]}]\n");
+  EXPECT_NE(task(running("")).key, key);
+  EXPECT_THAT(task(running("")).description, Not(HasSubstr("channels.yaml")));
+}
+
+TEST_F(RunningNetwork, CeilingsAreThoseOfTheTrueLabels) {
+  const Plan of_network = plan(running(kFaults)), of_labels = plan(study(kFaults, "labels\n"));
+  const PlannedTrial network = of_network.trials[0], labels = of_labels.trials[0];
+  EXPECT_EQ(of_network.tasks[network.registration_ceiling].key,
+            of_labels.tasks[labels.registration_ceiling].key);
+  EXPECT_EQ(of_network.tasks[network.lattice_ceiling].key,
+            of_labels.tasks[labels.lattice_ceiling].key);
+}
+
+TEST_F(RunningNetwork, IsSweptBesideTheOthersAndOverItsModels) {
+  const std::string models = fmt::format("[{0}/crate.onnx, {0}/crate_any_size.onnx]",
+                                         std::string(MAPSCORE_SOURCE_DIR) + "/tests/network");
+  const Plan kinds = plan(running("sweep: {perception: [labels, simulated, network]}\n"));
+  ASSERT_EQ(kinds.trials.size(), 3u);
+  EXPECT_EQ(kinds.tasks[kinds.trials[2].task].key, task(running("")).key);
+  const Plan two = plan(running("sweep: {perception.network.model: " + models + "}\n"));
+  ASSERT_EQ(two.trials.size(), 2u);
+  EXPECT_NE(two.tasks[two.trials[0].task].key, two.tasks[two.trials[1].task].key);
+}
+
+TEST_F(RunningNetwork, WhatIsMissingOrContradictsIsRefused) {
+  const auto refusal = [&](const auto& act) -> std::string {
+    try {
+      act();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_THAT(refusal([&] { (void)study("", "network\n"); }),
+              HasSubstr("perception.network.model: is missing"));
+  EXPECT_THAT(refusal([&] { (void)study("", "{network: {model: a.onnx}}\n"); }),
+              HasSubstr("perception.network.classes: is missing"));
+  EXPECT_THAT(refusal([&] { (void)running("faults: {labels: {scores: 0.5}}\n"); }),
+              HasSubstr("faults.labels.scores: stands beside perception.network"));
+  EXPECT_THAT(refusal([&] { (void)running("", "crate", ", std: [1, 0, 1]"); }), HasSubstr("std"));
+  EXPECT_THAT(refusal([&] { (void)result(task(running(""))); }),
+              HasSubstr("no folder of results is known"));
+}
+
 }  // namespace
 }  // namespace mapscore::eval

@@ -44,7 +44,9 @@ const std::map<std::string, std::string> kReasons{
     {"perception.simulated.objects", "the content of the file is in the key (object_run_test)"},
     {"perception.images.folder", "the content is in the key (network_perception_test)"},
     {"perception.images.classes", "the content of the file is in the key (likewise)"},
-    {"perception.images.scores", "the content of the file is in the key (likewise)"}};
+    {"perception.images.scores", "the content of the file is in the key (likewise)"},
+    {"perception.network.model", "the content is in the key (network_perception_test)"},
+    {"perception.network.classes", "the content of the file is in the key (likewise)"}};
 
 bool has_reason(const std::string& path) {
   for (const auto& [known, reason] : kReasons)
@@ -85,10 +87,13 @@ const std::vector<std::string> kBases{
 /// A kind of perception; a network's needs files, whose content is in the key.
 std::string perception_at(const std::string& path) {
   const std::string kind = kind_at(path, "perception", "labels");
-  if (kind != "images") return kind;
+  if (kind != "images" && kind != "network") return kind;
   static const testing::TemporaryFolder folder;
   write_file(folder.path() / "0.png", "an image");
   write_file(folder.path() / "classes.yaml", "classes");
+  if (kind == "network")
+    return fmt::format("{{network: {{model: {0}/0.png, classes: {0}/classes.yaml}}}}",
+                       folder.path().string());
   return fmt::format("{{images: {{folder: {0}, classes: {0}/classes.yaml}}}}",
                      folder.path().string());
 }
@@ -118,7 +123,8 @@ Study study_for(const std::string& path, const std::string& base) {
           kind_at(path, "methods.NAME.segmentation", "direct"),
           kind_at(path, "methods.NAME.fusion", "study"),
           kind_at(path, "methods.NAME.refinement", "none"), kind_at(path, "fusion", "blend"),
-          perception_at(path), kind_at(path, "trajectory.drive", "wheels"), base),
+          perception_at(path), kind_at(path, "trajectory.drive", "wheels"),
+          path.starts_with("perception.network") ? kBases[1] : base),  // it scores its detections
       "study.yaml");
 }
 
@@ -182,6 +188,8 @@ const std::vector<std::string> kTexts{
     "rplidar_a2",
     "map",
     "frame",
+    "bgr",
+    "probabilities",
     "[1, 2, 3, 4, 5, 6]",
     "{crate: box}"};
 

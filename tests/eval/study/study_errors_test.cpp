@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "covariance, decay"},
         BadLine{"perception_kind", "perception: {guessed: {}}\n",
                 "6: perception.guessed: unknown kind 'guessed'; write one of labels, simulated, "
-                "images"},
+                "images, network"},
         BadLine{"perception_at_an_offset",
                 "faults: {time_offset_ms: 20}\nperception: {simulated: {}}\n",
                 "6: faults.time_offset_ms: stands beside simulated perception, which sees the "
@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "6: sweep.score.instances: score.instances cannot be swept; remove it"},
         BadLine{"sweep_kind", "sweep: {perception: [labels, pictures]}\n",
                 "6: sweep.perception[1]: unknown kind 'pictures'; write one of labels, simulated, "
-                "images"},
+                "images, network"},
         BadLine{"sweep_section", "sweep: {perception: [labels, {simulated: {}}]}\n",
                 "6: sweep.perception[1]: is a section; write the name of a kind, whose parameters "
                 "stand under the key"},
