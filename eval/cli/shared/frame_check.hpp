@@ -21,8 +21,8 @@ namespace mapscore::eval {
 /// origin.
 [[nodiscard]] std::string transform_text(const Pose& T);
 
-/// Another unit of length that the points of a map and the surfaces suggest by their bounds, and the
-/// flag that mends it; empty where none does. `scale`: metres in a unit, as the map was read.
+/// Another unit of length that the points of a map and the surfaces suggest by their bounds, and
+/// the flag that mends it; empty where none does. `scale`: metres in a unit, as the map was read.
 [[nodiscard]] std::string unit_trouble(std::span<const Eigen::Vector3d> map,
                                        const SurfaceTruth& surface, double scale);
 
