@@ -67,3 +67,18 @@ def table(records):
         mean = {key: sum(r[key] for r in of) / len(of) for key in ("epochs", "processor_s")}
         lines.append(f"| {net} | {len(of)} | {' | '.join(cells)} | {mean['epochs']:.1f} | {mean['processor_s']:.0f} |")
     return "\n".join(lines)
+
+
+PAIRS = [("rgbd", "rgb"), ("pspnet", "fcn"), ("cbam_pspnet", "pspnet")]
+
+
+def differences(records):
+    """What the papers order: differences of MIoU seed by seed, mean and 95 % interval; lines."""
+    miou = {(r["net"], r["seed"]): r["unseen"]["miou"] for r in records}
+    lines = []
+    for better, worse in PAIRS:
+        seeds = sorted(seed for net, seed in miou if net == better and (worse, seed) in miou)
+        if seeds:
+            apart = [miou[better, s] - miou[worse, s] for s in seeds]
+            lines.append(f"{better} - {worse}: {evaluate.with_interval(apart)} points of MIoU, {len(seeds)} seeds")
+    return lines

@@ -114,11 +114,12 @@ def fit(name, frames, classes, seed, recipe, say=lambda text: None):
     return unweighted(settled(net, frames, random, with_depth), weights, recipe.prior), losses
 
 
-def steps_in(name, frames, classes, seconds, batch=8):
-    """How many steps so much processor time allows: of twelve steps as in training."""
-    began, tried = None, 12
-    recipe = Recipe(steps=tried, batch=batch, full_size_from=0.3)
-    fit(name, frames, classes, 0, dataclasses.replace(recipe, steps=2))
-    began = time.process_time()
-    fit(name, frames, classes, 0, recipe)
-    return max(50, int(seconds / ((time.process_time() - began) / (tried + 8))))
+def steps_in(name, frames, classes, seconds, few=4, many=24):
+    """How many steps so much processor time allows: from what `many` take more than `few`."""
+    spent = []
+    for steps in (few, few, many):   # the first is to warm up
+        began = time.process_time()
+        fit(name, frames, classes, 0, Recipe(steps=steps))
+        spent.append(time.process_time() - began)
+    step = max((spent[2] - spent[1]) / (many - few), 1e-3)
+    return max(50, int(seconds / step))

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: MIT
 """Recordings for training: varied homes seen from around their drives, by `mapscore record`.
 
-A recording is made once and kept, under a name that holds home and seed.
+A recording is made once and kept, under a name that holds home, seed and a digest of what it was made from.
 """
 
 import concurrent.futures
+import hashlib
 import pathlib
 import shutil
 import subprocess
@@ -17,6 +18,13 @@ from views import views
 
 # Study with the drive of each home. The cottage is seen by nobody before the score.
 DRIVES = {"apartment": "demo", "home": "home", "cottage": "segmentation_cottage"}
+
+
+def digest(home):
+    """Eight digits of the scene, its drive and the scripts that vary and read it."""
+    files = [SCENES / f"{home}.xml", SCENES / f"{home}.classes.yaml", ROOT / f"configs/{DRIVES[home]}.yaml",
+             *(ROOT / f"scripts/train/{script}.py" for script in ("scenes", "views", "data"))]
+    return hashlib.sha256(b"".join(f.read_bytes() for f in files)).hexdigest()[:8]
 
 
 def waypoints_of(home):
@@ -34,7 +42,7 @@ def run(command, folder):
 
 def varied(program, home, seed, frames, folder):
     """A varied home from `frames` viewpoints. Returns the folder of the recording."""
-    made = pathlib.Path(folder) / f"{home}_{seed}_{frames}"
+    made = pathlib.Path(folder) / f"{home}_{seed}_{frames}_{digest(home)}"
     if (made / "recording.yaml").exists():
         return made
     shutil.rmtree(made, ignore_errors=True)
@@ -51,7 +59,7 @@ def varied(program, home, seed, frames, folder):
 
 def drive(program, home, folder, frames_per_s=1.4):
     """The committed drive of a home as it is, which the scores are of."""
-    made = pathlib.Path(folder) / f"{home}_drive_{frames_per_s:g}"
+    made = pathlib.Path(folder) / f"{home}_drive_{frames_per_s:g}_{digest(home)}"
     if not (made / "recording.yaml").exists():
         shutil.rmtree(made, ignore_errors=True)
         run([program, "record", ROOT / f"configs/{DRIVES[home]}.yaml", "-o", made, "-q", "-j", "1",

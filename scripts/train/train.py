@@ -27,6 +27,8 @@ TRAINED_ON = ("apartment", "home", "home")   # in turn: the home has more rooms
 UNSEEN = "cottage"
 VALIDATION_SEEDS = range(1000, 1006)
 DULL = 0.85
+HOMES, FRAMES, STEPS = 96, 20, 4000
+QUICK = (3, 12, 40)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,34 +40,53 @@ class Data:
     unseen: Frames
 
 
-def parsed(argv):
-    parser = argparse.ArgumentParser(prog="train.sh", description=__doc__)
-    add = parser.add_argument
+class Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line."""
+
+    def error(self, message):
+        self.exit(2, f"{self.prog}: {message}\n")
+
+
+def parser():
+    made = Parser(prog="train.sh", description=__doc__)
+    add = made.add_argument
     add("--net", choices=[*nets.NETS, "all"], default="all", help="which network [all]")
-    add("--seeds", type=int, default=1, help="train with so many seeds, from 0 on [1]")
+    add("--seeds", type=int, default=1, help="train with so many seeds [1]")
     add("--first_seed", type=int, default=0, help="first of the seeds [0]")
-    budget = parser.add_mutually_exclusive_group()
-    budget.add_argument("--steps", type=int, help="steps of 8 frames [4000]; equal seeds and threads, equal bytes")
-    budget.add_argument("--epochs", type=float, help="times that each frame is seen, in place of --steps")
-    budget.add_argument("--minutes", type=float, help="processor minutes a network, in place of --steps: the steps "
-                                                      "that fit are measured, and then stand in the card")
+    size = made.add_mutually_exclusive_group()
+    size.add_argument("--steps", type=int, help=f"steps of 8 frames [{STEPS}]")
+    size.add_argument("--epochs", type=float, help="times that each frame is seen, in place of --steps")
+    size.add_argument("--minutes", type=float, help="processor minutes a network, in place of --steps: the steps "
+                                                    "that fit are measured, and then stand in the card")
+    size.add_argument("--quick", action="store_true",
+                      help="a minute: 3 homes of 12 frames, 40 steps; exit code 1 unless the loss falls")
     add("--classes", default="nyu13", choices=list(class_lists()), help="list of classes.yaml [nyu13]")
-    add("--homes", type=int, default=96, help="varied homes to record [96]")
-    add("--frames", type=int, default=20, help="frames of each [20]")
+    add("--homes", type=int, help=f"varied homes to record [{HOMES}]")
+    add("--frames", type=int, help=f"frames of each [{FRAMES}]")
     add("--threads", type=int, default=2, help="of PyTorch; another number gives other last bits [2]")
     add("--program", default=str(recordings.ROOT / "build/release/mapscore"), help="mapscore [build/release]")
     add("--data", default=str(recordings.ROOT / "build/train"), help="folder of recordings, kept [build/train]")
     add("-o", "--output", default=str(recordings.ROOT / "build/weights"), help="weights and cards [build/weights]")
-    add("--quick", action="store_true", help="a minute: few homes, few steps; fails unless the loss falls")
-    args = parser.parse_args(argv)
-    for key in ("seeds", "homes", "frames", "threads"):
-        if getattr(args, key) < 1:
-            parser.error(f"--{key} is {getattr(args, key)}; give 1 or more")
-    for key in ("steps", "epochs", "minutes"):
-        if getattr(args, key) is not None and getattr(args, key) <= 0:
-            parser.error(f"--{key} is {getattr(args, key)}; give more than 0")
-    if args.quick:
-        args.homes, args.frames, args.steps, args.epochs, args.minutes = 3, 12, 40, None, None
+    return made
+
+
+def parsed(argv):
+    """Options, checked: wrong ones end in one line and exit code 2."""
+    ask = parser()
+    args = ask.parse_args(argv)
+    if args.quick and (args.homes or args.frames):
+        ask.error("--quick sets --homes and --frames; leave them out")
+    for key, low in (("seeds", 1), ("first_seed", 0), ("homes", 1), ("frames", 1), ("threads", 1), ("steps", 1)):
+        if getattr(args, key) is not None and getattr(args, key) < low:
+            ask.error(f"--{key} is {getattr(args, key)}; give {low} or more")
+    for key in ("epochs", "minutes"):
+        if getattr(args, key) is not None and not 0 < getattr(args, key) < 1e6:
+            ask.error(f"--{key} is {getattr(args, key)}; give more than 0")
+    if not pathlib.Path(args.program).is_file():
+        ask.error(f"there is no program {args.program}; build it (cmake --build --preset release) or name it with "
+                  "--program")
+    homes, frames, steps = QUICK if args.quick else (HOMES, FRAMES, STEPS)
+    args.homes, args.frames, args.steps = args.homes or homes, args.frames or frames, args.steps or steps
     return args
 
 
@@ -84,7 +105,7 @@ def steps_of(args, name, data, classes):
         return fit.steps_in(name, data.train, classes, 60 * args.minutes)
     if args.epochs:
         return max(1, round(args.epochs * len(data.train) / fit.Recipe.batch))
-    return args.steps or 4000
+    return args.steps
 
 
 def trained(args, name, seed, data, names):
@@ -126,7 +147,7 @@ def main(argv):
     records = [trained(args, name, seed, data, names)
                for seed in range(args.first_seed, args.first_seed + args.seeds)
                for name in (nets.NETS if args.net == "all" else [args.net])]
-    print(card.table(records))
+    print("\n".join([card.table(records), *card.differences(records)]))
     if args.quick and any(r["loss"][1] >= r["loss"][0] for r in records):
         raise SystemExit("the loss did not fall")
 
