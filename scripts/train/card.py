@@ -43,7 +43,7 @@ def write_card(file, record):
              f"{record['steps']} steps of 8 frames ({record['epochs']} epochs), {record['processor_s']:.0f} s of "
              f"processor time on {record['threads']} thread(s). Again, with the same bytes on the same machine:", "",
              f"    {again}", "", "## Figures", "",
-             f"Cottage, drive of configs/segmentation_cottage.yaml at 1.4 frames a second, never trained or selected on: "
+             f"Cottage, drive of configs/segmentation_cottage.yaml at 1.4 frames a second, not trained on: "
              f"{percent(record['unseen'])}. Held-out variations of the homes of the training: {percent(record['validation'])}.",
              "", "| class | IoU, cottage | accuracy, cottage |", "| --- | --- | --- |"]
     for c, iou in record["unseen"]["iou"].items():
