@@ -90,8 +90,8 @@ std::vector<Table> score_label_images(const ScoreFlags& flags, TruthSource& sour
     const auto together = lock_outputs({flags.picture});
     write_picture(flags.picture, label_errors(labels, worst(frames, score.wrong_px)));
   }
-  if (flags.tidy) return {tidy_label_table(score.pixels, source.table())};
-  std::vector<Table> tables = label_tables(score.pixels, source.table());
+  if (flags.tidy) return {tidy_label_table(score, source.table())};
+  std::vector<Table> tables = label_tables(score, source.table());
   std::vector<std::string>& caption = tables.front().caption;
   caption.insert(caption.begin(), fmt::format("{} against the label images of {}, {} frames",
                                               flags.map.file, flags.truth, frames.size()));

@@ -148,6 +148,10 @@ std::string content_of(const NetworkImages& images) {
     refuse(images.folder, "holds no label image; give one PNG for each colour image, of its name");
   for (const std::string& name : names) add(name, images.folder / name);
   add("classes", images.classes);
+  if (images.confidence) {
+    check_folder(*images.confidence);
+    for (const std::string& name : names) add("confidence/" + name, *images.confidence / name);
+  }
   if (!images.scores) return content;
   const std::string scores = read_file(*images.scores);
   const bool has_stamps = scores.find("stamp_s") != scores.npos;  // became those of the nearest
@@ -224,6 +228,26 @@ NetworkDetections NetworkLabels::of(int frame) const {
   return found;
 }
 
+cv::Mat1w NetworkLabels::read_confidence(int frame) const {
+  constexpr int kMost = 1000;
+  const fs::path file = images_.confidence.value() /
+                        fs::relative(files_.at(static_cast<std::size_t>(frame)), images_.folder);
+  if (!fs::is_regular_file(file))
+    refuse(file, "image is missing; give one of the name of each label image");
+  cv::Mat1w thousandths = decode_id_png(read_file(file), size_, file.string());
+  const std::uint16_t most = *std::ranges::max_element(thousandths);
+  if (most > kMost)
+    refuse(file, "holds {}, which is no probability in thousandths; write 0 to {}", most, kMost);
+  return thousandths;
+}
+
+std::optional<PixelVerdicts> NetworkLabels::verdicts_of(int frame) const {
+  if (!images_.confidence) return std::nullopt;
+  PixelVerdicts verdicts{read(frame), read_confidence(frame)};
+  for (std::uint16_t& value : verdicts.classes) value = class_of_value_[value];
+  return verdicts;
+}
+
 void NetworkLabels::check() const {
   std::vector<std::int64_t> pixels(known_.size());
   bool scored = false;
@@ -231,6 +255,7 @@ void NetworkLabels::check() const {
     const cv::Mat1w values = read(static_cast<int>(frame));
     for (const std::uint16_t value : values) ++pixels[value];
     scored = scored || has_some(values, scores_[frame]);
+    if (images_.confidence) static_cast<void>(read_confidence(static_cast<int>(frame)));
   }
   std::int64_t all = 0, unknown = 0, detected = 0;
   for (std::size_t value = 0; value < pixels.size(); ++value) {

@@ -20,14 +20,16 @@ namespace mapscore::eval {
 struct NetworkImages {
   std::filesystem::path folder, classes;
   ClassMasks masks = ClassMasks::components;
-  std::optional<std::filesystem::path> scores;  ///< none: every score is 1
+  std::optional<std::filesystem::path> scores = {};  ///< none: every score is 1
+  /// Folder of images of the same names: how sure the network was of each pixel, in thousandths.
+  std::optional<std::filesystem::path> confidence = {};
 
   auto operator<=>(const NetworkImages&) const = default;
 };
 
 /// Names and hashes of all that a network's detections are read from: the images of the folder with
-/// their list, if there is one, the classes and the scores. Throws Error where one is missing, or
-/// the folder holds no image.
+/// their list, if there is one, the classes, the scores and the confidence. Throws Error where one
+/// is missing, or the folder holds no image.
 [[nodiscard]] std::string content_of(const NetworkImages& images);
 
 /// Classes of the recording's `table` by pixel value, as a file names them for images that are cut
@@ -44,6 +46,12 @@ struct NetworkDetections {
   std::vector<double> scores;  ///< by instance id
 };
 
+/// What a network says of each pixel of an image.
+struct PixelVerdicts {
+  cv::Mat1w classes;      ///< of the recording, detected or not
+  cv::Mat1w thousandths;  ///< how sure it is of them, 0 to 1000
+};
+
 /// Label images of a network in place of a recording's own. Immutable, safe to share between
 /// threads; the recording must outlive it.
 class NetworkLabels {
@@ -55,6 +63,10 @@ class NetworkLabels {
   /// Of a frame. Throws Error where the image is missing, damaged, in colour or of another size.
   [[nodiscard]] NetworkDetections of(int frame) const;
 
+  /// How sure the network was of each pixel of a frame; none without `confidence`. Throws Error as
+  /// `of`, and where a value is above 1000.
+  [[nodiscard]] std::optional<PixelVerdicts> verdicts_of(int frame) const;
+
   /// Reads every image. Throws Error as `of`, where more than a hundredth of all pixels have values
   /// without a meaning, where none is of a detected class, and where there are scores, but none of
   /// a value in its image.
@@ -62,6 +74,7 @@ class NetworkLabels {
 
  private:
   [[nodiscard]] cv::Mat1w read(int frame) const;
+  [[nodiscard]] cv::Mat1w read_confidence(int frame) const;
   void take_meaning(const ClassTable& table);
 
   NetworkImages images_;

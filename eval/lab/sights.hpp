@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,12 @@ class Sights {
   /// the lattice ceiling: the exact depth image and no detections. Throws Error where a network's
   /// image cannot be read.
   [[nodiscard]] Sight of(const Frame& frame) const;
+
+  /// How sure a network was of each pixel of a frame, before any fault of labels; none where no
+  /// network says so. Throws Error likewise.
+  [[nodiscard]] std::optional<PixelVerdicts> verdicts_of(int frame) const {
+    return network_ ? network_->verdicts_of(frame) : std::nullopt;
+  }
 
  private:
   class SimulatedLabels;

@@ -63,8 +63,7 @@ void TrialRun::advance(const Frame& frame, const Sight& sight) {
     mapper_.fuse(observe_truth(frame), sight, belief, draws);
   } else {
     count(mapper_.integrate(sight, belief, draws), truths_.boxes_of(frame), counts);
-    if (score_options_.asked.labels)
-      score_detections(sight.detections(), frame.label, table_, counts);
+    if (score_options_.asked.labels) score_labels(frame, sight, counts);
     if (reads_colour(task_.config)) mapper_.add_colours(sight, frame.color, belief);
   }
   ++result_.accounting.frames;
@@ -78,8 +77,13 @@ void TrialRun::advance(const Frame& frame, const Sight& sight) {
 }
 
 void TrialRun::count_labels(const Frame& frame, const Sight& sight) {
-  if (score_options_.asked.labels)
-    score_detections(sight.detections(), frame.label, table_, result_.counts);
+  if (score_options_.asked.labels) score_labels(frame, sight, result_.counts);
+}
+
+void TrialRun::score_labels(const Frame& frame, const Sight& sight, Counts& counts) const {
+  score_detections(sight.detections(), frame.label, table_, counts);
+  if (const auto verdicts = sights_->verdicts_of(frame.index))
+    score_pixels(verdicts->classes, verdicts->thousandths, frame.label, table_, counts);
 }
 
 TrialResult TrialRun::judge(const MapSnapshot& map) {

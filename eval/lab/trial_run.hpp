@@ -76,6 +76,7 @@ class TrialRun {
   void count(const std::vector<Segment>& segments,
              const std::vector<Eigen::AlignedBox3d>& true_boxes, Counts& counts);
   /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
+  void score_labels(const Frame& frame, const Sight& sight, Counts& counts) const;
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;
   /// Adds the counts of the map as it stands, or of another.
   void score(Counts& counts);

@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 /// Raised when the files that are kept, or what they hold, change.
 constexpr int kInferredVersion = 1;
 
-constexpr const char *kClassFile = "classes.yaml", *kScoreFile = "scores.csv";
+constexpr const char *kClassFile = "classes.yaml", *kScoreFile = "scores.csv",
+                     *kConfidenceFolder = "confidence";
 
 /// OpenCV works on one core while it exists: the frames are shared out instead.
 class OneCore {
@@ -137,6 +138,7 @@ class Inference {
     const OneCore one_core;
     const int all = recording_.frame_count();
     rows_.resize(static_cast<std::size_t>(all));
+    make_folder(folder_ / kConfidenceFolder);
     Runs frames(rows_.size(), 1);
     int done = 0;
     std::vector<std::exception_ptr> errors(rows_.size());
@@ -146,7 +148,7 @@ class Inference {
       for (Runs::Run run; frames.next(run);) try {
           const auto frame = static_cast<int>(run.first);
           const Segmented segmented = segment(net, frame);
-          write_file(folder_ / image_name(frame), encode_png(segmented.label));
+          write_images(segmented, frame);
           rows_[run.first] = score_rows(segmented, classes, image_name(frame));
           const std::scoped_lock lock(mutex_);
           if (++done, progress) progress(done, all);
@@ -172,6 +174,14 @@ class Inference {
     }
     return net.segment(frame.color, depth_m,
                        (recording_.folder() / recording_.color_path(index)).string());
+  }
+
+  void write_images(const Segmented& segmented, int frame) const {
+    constexpr double kThousand = 1000;
+    cv::Mat1w thousandths;
+    segmented.probability.convertTo(thousandths, CV_16U, kThousand);  // rounded to the nearest
+    write_file(folder_ / image_name(frame), encode_png(segmented.label));
+    write_file(folder_ / kConfidenceFolder / image_name(frame), encode_png(thousandths));
   }
 
   void write_lists() const {
@@ -216,7 +226,8 @@ NetworkImages inferred_images(const NetworkModel& network, const Recording& reco
     refuse(network.model, "no folder of results is known to keep its label images in; sweep first");
   const std::string decided = decided_by(network, recording);
   const fs::path networks = results / kNetworksFolder, folder = networks / hash_of(decided);
-  NetworkImages images{folder, folder / kClassFile, ClassMasks::components, folder / kScoreFile};
+  NetworkImages images{folder, folder / kClassFile, ClassMasks::components, folder / kScoreFile,
+                       folder / kConfidenceFolder};
   if (fs::exists(folder)) return images;
   const FolderLock lock(networks);  // of several processes one infers, the others wait
   if (fs::exists(folder)) return images;

@@ -7,13 +7,11 @@
 #include "eval/recording/recording_writer.hpp"
 #include "eval/recording/stamp_list.hpp"
 #include "eval/render/baked_frames.hpp"
+#include "eval/render/own_robot.hpp"
 #include "eval/render/replay_check.hpp"
 #include "eval/results/input_files.hpp"
 #include "files/folder_lock.hpp"
 #include "files/text.hpp"
-
-#include <fstream>
-#include <iterator>
 
 #ifdef MAPSCORE_SIMULATOR
 #include "eval/render/study_drive.hpp"
@@ -29,29 +27,7 @@ namespace mapscore::eval {
 
 namespace fs = std::filesystem;
 
-std::optional<fs::path> own_robot_of(const fs::path& folder) {
-  for (const char* way : {"../share/mapscore/scenes/robot.xml", "../../scenes/robot.xml"}) {
-    fs::path file = (folder / way).lexically_normal();
-    if (fs::is_regular_file(file)) return file;
-  }
-  return std::nullopt;
-}
-
-bool names_base_footprint(const fs::path& robot) {
-  std::ifstream stream(robot, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return text.find("\"base_footprint\"") != std::string::npos ||
-         text.find("'base_footprint'") != std::string::npos;
-}
-
 namespace {
-
-/// The robot that comes with the program, found from where its file lies.
-std::optional<fs::path> own_robot() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return error ? std::nullopt : own_robot_of(program.parent_path());
-}
 
 /// A recording to which the study's networks and their labels fit.
 Recording opened(const Study& study, const fs::path& folder, const fs::path& results) {

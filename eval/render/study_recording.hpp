@@ -40,16 +40,6 @@ void record_study(const Study& study, const std::filesystem::path& folder, int j
                   const RecordingProgress& progress, const std::filesystem::path& trajectory = {},
                   bool bake = false);
 
-/// The robot that comes with the program in `folder`, for scenes that have none beside them:
-/// scenes/robot.xml of the source tree in which the program was built, or of share/mapscore where
-/// it is installed. None when it was moved away alone.
-[[nodiscard]] std::optional<std::filesystem::path> own_robot_of(
-    const std::filesystem::path& folder);
-
-/// True for a file that names the body `base_footprint`; others' scenes come with robot.xml files
-/// that are no robots of ours.
-[[nodiscard]] bool names_base_footprint(const std::filesystem::path& robot);
-
 /// A study of nothing but a scene, to record it along given poses. Where no robot.xml with a body
 /// `base_footprint` lies beside the scene and the overrides name no robot, it is the program's own.
 [[nodiscard]] Study study_of_scene(const std::filesystem::path& scene,

@@ -9,7 +9,7 @@
 #include "eval/report/failed_tasks.hpp"
 #include "eval/report/pooled_scenes.hpp"
 #include "eval/report/trial_list.hpp"
-#include "eval/results/study_store.hpp"
+#include "eval/results/scene_counts.hpp"
 #include "eval/score/lattice_check.hpp"
 #include "files/suggestion.hpp"
 #include "files/text.hpp"

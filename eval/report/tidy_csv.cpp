@@ -32,6 +32,33 @@ std::vector<Metric> counts_as_metrics(const ClassCounts& counts) {
   return metrics;
 }
 
+/// The bins of a reliability curve that hold any: how many, the share that was right, and the mean
+/// confidence.
+void append_bins(const Reliability& reliability, const std::string& name,
+                 std::vector<Metric>& metrics) {
+  for (std::size_t n = 0; n < reliability.bins.size(); ++n) {
+    const ConfidenceBin& bin = reliability.bins[n];
+    if (bin.count == 0) continue;
+    const std::string of_bin = fmt::format("{}_bin{}", name, n + 1);
+    metrics.push_back({of_bin, static_cast<double>(bin.count)});
+    metrics.push_back({of_bin + "_right", ratio(bin.right, bin.count)});
+    metrics.push_back(
+        {of_bin + "_confidence", ratio(bin.confidence_sum_nano, bin.count * kBillion)});
+  }
+}
+
+/// What is counted of a class's detections beside plain counts, where there is any: how sure they
+/// were, and, of one class, what its pixels were taken for.
+void append_label_details(const LabelCounts& labels, const ClassTable& table, bool of_class,
+                          std::vector<Metric>& metrics) {
+  for (std::size_t c = 0; of_class && c < labels.named_as.size(); ++c)
+    if (labels.named_as[c] > 0)
+      metrics.push_back(
+          {"label_taken_for:" + table.classes.at(c).name, static_cast<double>(labels.named_as[c])});
+  append_bins(labels.scores, "label_score", metrics);
+  append_bins(labels.pixels, "label_pixel", metrics);
+}
+
 /// `best`: of each of the summary's groups.
 void write_result(const ResultLine& line, std::size_t seed, const StudySummary& summary,
                   const std::vector<BestThreshold>& best, std::ostream& out) {
@@ -68,7 +95,11 @@ void write_line(const ResultLine& line, const StudySummary& summary, std::ostrea
 std::vector<Metric> tidy_metrics(const Counts& counts, const ClassTable& table,
                                  std::string_view group) {
   std::vector<Metric> metrics;
-  if (group != kMacro) metrics = counts_as_metrics(counts_of_group(counts, table, group));
+  if (group != kMacro) {
+    const ClassCounts of_group = counts_of_group(counts, table, group);
+    metrics = counts_as_metrics(of_group);
+    if (of_group.labels) append_label_details(*of_group.labels, table, group != kPooled, metrics);
+  }
   for (Metric& metric : metrics_of_group(counts, table, group))
     metrics.push_back(std::move(metric));
   return metrics;

@@ -38,10 +38,9 @@ std::string grid_bytes(const std::filesystem::path& file) {
 
 NetworkImages images_of_folder(const Study& config, const ImagePerception& settings) {
   NetworkImages images{resolve_path(config, settings.folder.value()),
-                       resolve_path(config, settings.classes.value()),
-                       settings.masks,
-                       {}};
+                       resolve_path(config, settings.classes.value()), settings.masks};
   if (settings.scores) images.scores = resolve_path(config, *settings.scores);
+  if (settings.confidence) images.confidence = resolve_path(config, *settings.confidence);
   return images;
 }
 
@@ -97,8 +96,9 @@ std::string InputFiles::perceived(const Study& config) {
               [&] { return content_of(network_model(config, *network)); });
   const auto* images = std::get_if<ImagePerception>(&config.perception);
   if (images == nullptr) return "";
-  return of(fmt::format("images {}\n{}\n{}", images->folder.value(), images->classes.value(),
-                        images->scores.value_or("")),
+  return of(fmt::format("images {}\n{}\n{}{}", images->folder.value(), images->classes.value(),
+                        images->scores.value_or(""),
+                        images->confidence ? "\n" + *images->confidence : ""),
             [&] { return content_of(images_of_folder(config, *images)); });
 }
 

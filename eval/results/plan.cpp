@@ -46,6 +46,7 @@ Study determining(Study config, InputFiles& files) {
     images->folder = perceived;
     images->classes.reset();
     images->scores.reset();
+    images->confidence.reset();
   }
   if (auto* network = std::get_if<NetworkPerception>(&config.perception)) {
     network->model = perceived;
@@ -100,6 +101,7 @@ std::string revisions(const Study& config) {
     lines += "label_scores: 2\n";  // score_mean became the mean of all scores
   if (draws_correlated(config))
     lines += "covariance_root: 2\n";  // became Cholesky's, in the order of the axes
+  if (config.score.asked.labels) lines += "labels: 2\n";  // edges, PQ, confusion, calibration
   if (std::holds_alternative<Crf>(config.methods.front().refinement))
     lines += "crf: 2\n";  // whole voxels decide its cut-off, and voxels alone keep their beliefs
   if (std::holds_alternative<PluggedSegmentation>(config.methods.front().segmentation) ||

@@ -75,6 +75,22 @@ json counts_to_json(const InstanceCounts& instances) {
   return object;
 }
 
+/// Bins one after the other: count, right, confidence_sum_nano.
+json bins_to_json(const Reliability& reliability) {
+  std::vector<std::int64_t> numbers;
+  for (const ConfidenceBin& bin : reliability.bins)
+    numbers.insert(numbers.end(), {bin.count, bin.right, bin.confidence_sum_nano});
+  return runs_to_json(numbers);
+}
+
+json counts_to_json(const LabelCounts& labels) {
+  json object = counts_to_json<LabelCounts>(labels);
+  if (!labels.named_as.empty()) object["named_as"] = runs_to_json(labels.named_as);
+  if (labels.scores != Reliability{}) object["scores"] = bins_to_json(labels.scores);
+  if (labels.pixels != Reliability{}) object["pixels"] = bins_to_json(labels.pixels);
+  return object;
+}
+
 json counts_to_json(const ClassCounts& counts) {
   json object = counts_to_json<ClassCounts>(counts);
   object["at_tolerance"] = json::array();

@@ -136,6 +136,31 @@ void take_counts(dom::object object, InstanceCounts& instances) {
   check_order(instances.steps, &InstanceStep::score);
 }
 
+/// The numbers of a key, none where it is left out.
+std::vector<std::int64_t> numbers_at(dom::object object, std::string_view key) {
+  dom::element list;
+  return object.at_key(key).get(list) == simdjson::SUCCESS ? counts_of_runs(list)
+                                                           : std::vector<std::int64_t>();
+}
+
+/// Bins one after the other: count, right, confidence_sum_nano.
+Reliability reliability_at(dom::object object, std::string_view key) {
+  Reliability reliability;
+  const std::vector<std::int64_t> numbers = numbers_at(object, key);
+  if (numbers.empty()) return reliability;
+  if (numbers.size() != 3 * reliability.bins.size()) refuse_result("bins are missing");
+  for (std::size_t n = 0; n < reliability.bins.size(); ++n)
+    reliability.bins[n] = {numbers[3 * n], numbers[3 * n + 1], numbers[3 * n + 2]};
+  return reliability;
+}
+
+void take_counts(dom::object object, LabelCounts& labels) {
+  take_counts<LabelCounts>(object, labels);
+  labels.named_as = numbers_at(object, "named_as");
+  labels.scores = reliability_at(object, "scores");
+  labels.pixels = reliability_at(object, "pixels");
+}
+
 template <class Part>
 void take_part(dom::object object, const char* name, Part& part) {
   take_counts(object[name], part);

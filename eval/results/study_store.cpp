@@ -78,21 +78,6 @@ void join_classes(const ClassTable& added, const std::string& scene, ClassTable&
   }
 }
 
-/// The zero counts of a class that was counted with the options of another.
-ClassCounts zero_like(const ClassCounts& counts) {
-  ClassCounts zero;
-  for (const ToleranceCounts& at : counts.at_tolerance) zero.at_tolerance.push_back({at.voxels});
-  zero.accuracy = DistanceTally(counts.accuracy.limits_m());
-  zero.completeness = DistanceTally(counts.completeness.limits_m());
-  const auto take = [](const auto& of, auto& part) {
-    if constexpr (requires { of.has_value(); })
-      if (of) part.emplace();
-  };
-  std::apply([&](const auto&... part) { (take(counts.*part.second, zero.*part.second), ...); },
-             ClassCounts::parts());
-  return zero;
-}
-
 /// Ids are places in the table, of which counts are kept by place.
 void refuse_other_id(const json& entry, std::size_t place) {
   if (entry.at("id") != place)
@@ -201,21 +186,6 @@ StudyRecord record_of(const Study& study,
   }
   record.recording_hash = hash_of(hashes);
   return record;
-}
-
-Counts in_table(const StudyRecord& record, const std::string& scene, Counts counts) {
-  if (record.scenes.empty()) return counts;
-  const std::vector<std::string>& names = scene_named(record, scene).classes;
-  if (names.size() != counts.size())
-    throw Error(fmt::format(
-        "scene '{}': a trial counts other classes than were stored; sweep again", scene));
-  Counts joined(record.table.classes.size(), zero_like(counts.front()));
-  for (std::size_t c = 0; c < counts.size(); ++c) {
-    const auto place = std::ranges::find(record.table.classes, names[c], &SemanticClass::name);
-    joined.at(static_cast<std::size_t>(place - record.table.classes.begin())) =
-        std::move(counts[c]);
-  }
-  return joined;
 }
 
 void write_study(ResultStore& store, const StudyRecord& record,

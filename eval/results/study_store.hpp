@@ -47,10 +47,6 @@ struct StudyRecord {
 [[nodiscard]] StudyRecord record_of(const Study& study,
                                     const std::vector<std::pair<SceneRecord, ClassTable>>& scenes);
 
-/// The counts of a scene's trial in the order of the record's classes; those that the scene does
-/// not have are zero.
-[[nodiscard]] Counts in_table(const StudyRecord& record, const std::string& scene, Counts counts);
-
 /// Writes the record, with the version of the program. `folder` is the store's; the study's own is
 /// kept relative to it, so that both can be moved together.
 void write_study(ResultStore& store, const StudyRecord& record,

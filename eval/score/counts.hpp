@@ -7,6 +7,7 @@
 #include "core/parameters.hpp"
 #include "eval/score/class_curve.hpp"
 #include "eval/score/distance_tally.hpp"
+#include "eval/score/label_counts.hpp"
 #include "eval/score/metric.hpp"
 #include "eval/score/part_counts.hpp"
 
@@ -37,7 +38,7 @@ struct AskedParts {
          "score instances too, the connected pieces of each class: PQ and AP");
     part(s.thin, "thin", "count the voxels of thin parts (chair legs) by themselves too");
     part(s.labels, "labels",
-         "score detections in the image too: accuracy and IoU of pixels, recall of instances");
+         "score detections in the image too: pixels, edges, instances, how sure they were");
   }
   bool operator==(const AskedParts&) const = default;
 };

@@ -46,13 +46,13 @@ std::vector<StampedImage> color_images(const Recording& recording) {
   return read_stamp_list(recording.folder() / "color.txt");
 }
 
-ConfusionMatrix frame_confusion(const LabelFolder& labels, int frame,
-                                const std::vector<StampedImage>& color) {
+LabelComparison frame_comparison(const LabelFolder& labels, int frame,
+                                 const std::vector<StampedImage>& color) {
   constexpr Channels kLabel{.color = false, .label = true, .depth = false, .depth_label = false};
   const cv::Mat1w truth = labels.recording.read(frame, kLabel).label;  // throws without a frame
   const fs::path file = file_of(labels, color[static_cast<std::size_t>(frame)]);
   const cv::Mat1w image = read_labels(file, labels.recording.info().calibration.color);
-  return label_confusion(truth, image, labels.table, labels.legend, file.string());
+  return compare_labels(truth, image, labels.table, labels.legend, file.string());
 }
 
 }  // namespace
@@ -64,9 +64,16 @@ LabelLegend class_id_legend(const ClassTable& table) {
   };
 }
 
-ConfusionMatrix label_confusion(const cv::Mat1w& instances, const cv::Mat1w& labels,
-                                const ClassTable& table, const LabelLegend& legend,
-                                const std::string& name) {
+LabelComparison& LabelComparison::operator+=(const LabelComparison& other) {
+  pixels += other.pixels;
+  edges.resize(std::max(edges.size(), other.edges.size()));
+  for (std::size_t c = 0; c < other.edges.size(); ++c) edges[c] += other.edges[c];
+  return *this;
+}
+
+LabelComparison compare_labels(const cv::Mat1w& instances, const cv::Mat1w& labels,
+                               const ClassTable& table, const LabelLegend& legend,
+                               const std::string& name) {
   if (instances.size() != labels.size()) {
     throw Error(
         fmt::format("{}: image is {} x {}, the truth {} x {}; label images of the size of "
@@ -74,6 +81,7 @@ ConfusionMatrix label_confusion(const cv::Mat1w& instances, const cv::Mat1w& lab
                     name, labels.cols, labels.rows, instances.cols, instances.rows));
   }
   ConfusionMatrix matrix(table.classes.size());
+  cv::Mat1w true_classes(labels.size()), labelled_classes(labels.size());
   std::unordered_map<std::uint16_t, std::optional<ClassId>> answers;  // of the legend
   const auto class_of = [&](std::uint16_t id) {
     const auto [answer, is_new] = answers.try_emplace(id);
@@ -87,10 +95,14 @@ ConfusionMatrix label_confusion(const cv::Mat1w& instances, const cv::Mat1w& lab
       while (u < labels.cols && truth[u] == truth[first] && label[u] == label[first]) ++u;
       const std::optional<ClassId> labelled = class_of(label[first]);
       if (!labelled || *labelled >= matrix.class_count()) refuse_id(name, label[first], first, v);
-      matrix.count(table.class_of(truth[first]), *labelled, u - first);
+      const ClassId true_class = table.class_of(truth[first]);
+      matrix.count(true_class, *labelled, u - first);
+      std::fill_n(true_classes[v] + first, u - first, true_class);
+      std::fill_n(labelled_classes[v] + first, u - first, *labelled);
     }
   }
-  return matrix;
+  return {matrix, count_edges(true_classes, labelled_classes, matrix.class_count(),
+                              edge_tolerance_px(labels.size()))};
 }
 
 LabelFolder with_undetected_as_background(LabelFolder labels) {
@@ -113,18 +125,20 @@ LabelFolderScore score_label_folder(const LabelFolder& labels, std::span<const i
                             labels.folder.string()));
   }
   const std::vector<StampedImage> color = color_images(labels.recording);
-  LabelFolderScore score{ConfusionMatrix(labels.table.classes.size()),
-                         std::vector<std::int64_t>(frames.size())};
+  LabelFolderScore score;
+  score.pixels = ConfusionMatrix(labels.table.classes.size());
+  score.edges.resize(labels.table.classes.size());
+  score.wrong_px.resize(frames.size());
   std::mutex pooling;
   std::vector<std::exception_ptr> errors(frames.size());
   Runs places(frames.size(), 1);
   run_jobs(jobs, [&](int) {
     for (Runs::Run place; places.next(place);) {
       try {
-        const ConfusionMatrix one = frame_confusion(labels, frames[place.first], color);
-        score.wrong_px[place.first] = one.total() - one.trace();
+        const LabelComparison one = frame_comparison(labels, frames[place.first], color);
+        score.wrong_px[place.first] = one.pixels.total() - one.pixels.trace();
         const std::scoped_lock lock(pooling);
-        score.pixels += one;
+        score += one;
       } catch (...) {  // frames before this one are all in work, so the first error is found
         errors[place.first] = std::current_exception();
         return;
@@ -141,22 +155,29 @@ cv::Mat1w read_label_image(const LabelFolder& labels, int frame) {
   return read_labels(file_of(labels, color), labels.recording.info().calibration.color);
 }
 
-std::vector<Metric> label_metrics(const ConfusionMatrix& matrix) {
+std::vector<Metric> label_metrics(const LabelComparison& score) {
+  const ConfusionMatrix& matrix = score.pixels;
   std::vector<std::vector<Metric>> present;
+  std::vector<ClassOverlap> overlaps;
   for (std::size_t c = 0; c < matrix.class_count(); ++c) {
+    overlaps.push_back({matrix.at(c, c), matrix.row_sum(c), matrix.column_sum(c)});
     if (matrix.row_sum(c) > 0)
-      present.push_back(label_class_metrics(matrix, static_cast<ClassId>(c)));
+      present.push_back(label_class_metrics(score, static_cast<ClassId>(c)));
   }
-  const auto mean = present.empty() ? std::vector<Metric>(2) : mean_over_classes(present);
+  const auto mean = present.empty() ? std::vector<Metric>(3) : mean_over_classes(present);
   return {{"pa", ratio(matrix.trace(), matrix.total())},
           {"mpa", mean[0].value},
-          {"miou", mean[1].value}};
+          {"miou", mean[1].value},
+          {"fwiou", frequency_weighted_iou(overlaps)},
+          {"boundary_f", mean[2].value}};
 }
 
-std::vector<Metric> label_class_metrics(const ConfusionMatrix& matrix, ClassId class_id) {
+std::vector<Metric> label_class_metrics(const LabelComparison& score, ClassId class_id) {
+  const ConfusionMatrix& matrix = score.pixels;
   const std::int64_t both = matrix.at(class_id, class_id), row = matrix.row_sum(class_id);
   return {{"accuracy", ratio(both, row)},
-          {"iou", ratio(both, row + matrix.column_sum(class_id) - both)}};
+          {"iou", ratio(both, row + matrix.column_sum(class_id) - both)},
+          {"boundary_f", boundary_f(score.edges.at(class_id))}};
 }
 
 }  // namespace mapscore::eval

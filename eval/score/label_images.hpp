@@ -6,6 +6,7 @@
 #include "core/classes.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/score/confusion.hpp"
+#include "eval/score/label_edges.hpp"
 #include "eval/score/metrics.hpp"
 
 #include <opencv2/core.hpp>
@@ -27,13 +28,22 @@ using LabelLegend = std::function<std::optional<ClassId>(std::uint16_t)>;
 /// Ids that are the table's class ids.
 [[nodiscard]] LabelLegend class_id_legend(const ClassTable& table);
 
-/// Counts the pixels of one labelled image: row true class, column labelled class. `instances`: the
-/// truth, an instance id per pixel, as a recording's label image; `labels`: ids that `legend` turns
-/// into classes. `name` opens the message of the Error that is thrown when the sizes differ or an
-/// id means no class of the table; it names the id and its first pixel in row-major order.
-[[nodiscard]] ConfusionMatrix label_confusion(const cv::Mat1w& instances, const cv::Mat1w& labels,
-                                              const ClassTable& table, const LabelLegend& legend,
-                                              const std::string& name);
+/// What labelled images say against the truth: integers that add over images.
+struct LabelComparison {
+  ConfusionMatrix pixels;         ///< row true class, column labelled class
+  std::vector<EdgeCounts> edges;  ///< by class
+
+  /// Pools. Throws Error when the class tables differ in size.
+  LabelComparison& operator+=(const LabelComparison& other);
+};
+
+/// Compares one labelled image with the truth. `instances`: the truth, an instance id per pixel, as
+/// a recording's label image; `labels`: ids that `legend` turns into classes. `name` opens the
+/// message of the Error that is thrown when the sizes differ or an id means no class of the table;
+/// it names the id and its first pixel in row-major order.
+[[nodiscard]] LabelComparison compare_labels(const cv::Mat1w& instances, const cv::Mat1w& labels,
+                                             const ClassTable& table, const LabelLegend& legend,
+                                             const std::string& name);
 
 /// A folder of labelled images, and how they are compared with a recording's label images.
 struct LabelFolder {
@@ -48,9 +58,8 @@ struct LabelFolder {
 /// Reads classes that the table does not detect as background, in the truth and in the labels.
 [[nodiscard]] LabelFolder with_undetected_as_background(LabelFolder labels);
 
-/// Pixels of a folder's images: row true class, column labelled class.
-struct LabelFolderScore {
-  ConfusionMatrix pixels;              ///< pooled over the frames
+/// What a folder's images say, pooled over the frames.
+struct LabelFolderScore : LabelComparison {
   std::vector<std::int64_t> wrong_px;  ///< of each frame, in the order asked for
 };
 
@@ -64,12 +73,12 @@ struct LabelFolderScore {
 /// ids unread.
 [[nodiscard]] cv::Mat1w read_label_image(const LabelFolder& labels, int frame);
 
-/// pa = trace / all; mpa and miou: the means of accuracy and IoU over the classes with pixels in
-/// the truth, background included.
-[[nodiscard]] std::vector<Metric> label_metrics(const ConfusionMatrix& matrix);
+/// pa = trace / all; mpa, miou and boundary_f: the means of accuracy, IoU and boundary F over the
+/// classes with pixels in the truth, background included; fwiou: the IoUs weighted by their pixels.
+[[nodiscard]] std::vector<Metric> label_metrics(const LabelComparison& score);
 
-/// accuracy = M_cc / row_c and iou = M_cc / (row_c + column_c - M_cc) of one class.
-[[nodiscard]] std::vector<Metric> label_class_metrics(const ConfusionMatrix& matrix,
+/// accuracy = M_cc / row_c, iou = M_cc / (row_c + column_c - M_cc) and boundary_f of one class.
+[[nodiscard]] std::vector<Metric> label_class_metrics(const LabelComparison& score,
                                                       ClassId class_id);
 
 }  // namespace mapscore::eval

@@ -22,6 +22,18 @@ std::optional<double> f1(std::int64_t true_predicted, std::int64_t predicted, st
   return p + r == 0.0 ? 0.0 : 2.0 * p * r / (p + r);
 }
 
+std::optional<double> frequency_weighted_iou(const std::vector<ClassOverlap>& classes) {
+  std::int64_t all = 0;
+  double sum = 0;
+  for (const auto& [both, truth, named] : classes) {
+    all += truth;
+    if (truth > 0)
+      sum += static_cast<double>(truth) * static_cast<double>(both) /
+             static_cast<double>(truth + named - both);
+  }
+  return all > 0 ? std::optional(sum / static_cast<double>(all)) : std::nullopt;
+}
+
 std::vector<Metric> mean_over_classes(const std::vector<std::vector<Metric>>& classes) {
   std::vector<Metric> mean = classes.front();
   for (std::size_t figure = 0; figure < mean.size(); ++figure) {

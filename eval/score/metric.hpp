@@ -34,6 +34,17 @@ struct Metric {
 [[nodiscard]] std::optional<double> f1(std::int64_t true_predicted, std::int64_t predicted,
                                        std::int64_t found, std::int64_t visible);
 
+/// Pixels of one class: in the truth, named so, and both.
+struct ClassOverlap {
+  std::int64_t both = 0, truth = 0, named = 0;
+};
+
+/// Frequency-weighted IoU: sum over the classes of truth / all * both / (truth + named - both)
+/// [Long et al., Fully convolutional networks for semantic segmentation, CVPR 2015]; nullopt
+/// without a true pixel.
+[[nodiscard]] std::optional<double> frequency_weighted_iou(
+    const std::vector<ClassOverlap>& classes);
+
 /// Each figure's mean over the classes where it is defined. All list the same figures in one order;
 /// there is at least one.
 [[nodiscard]] std::vector<Metric> mean_over_classes(

@@ -73,15 +73,27 @@ std::vector<Metric> mean_instance_metrics(const Counts& counts, const ClassTable
   return macro.empty() ? InstanceCounts{}.metrics() : macro;
 }
 
-/// Means over all classes with pixels in the truth, background included, as of label images; all
-/// undefined where there is none; nothing where detections were not scored in the image.
+/// IoUs of the classes, each by its share of the true pixels.
+std::optional<double> frequency_weighted_iou(const Counts& counts) {
+  std::vector<ClassOverlap> classes;
+  for (const ClassCounts& c : counts)
+    classes.push_back({c.labels->right_px, c.labels->true_px, c.labels->named_px});
+  return frequency_weighted_iou(classes);
+}
+
+/// Means over all classes with pixels in the truth, background included, as of label images, and
+/// label_fwiou; all undefined where there is none; nothing where detections were not scored in the
+/// image.
 std::vector<Metric> mean_label_metrics(const Counts& counts) {
   std::vector<std::vector<Metric>> present;
   for (const ClassCounts& of_class : counts) {
     if (!of_class.labels) return {};
     if (of_class.labels->true_px > 0) present.push_back(of_class.labels->metrics());
   }
-  return present.empty() ? LabelCounts{}.metrics() : mean_over_classes(present);
+  std::vector<Metric> means =
+      present.empty() ? LabelCounts{}.metrics() : mean_over_classes(present);
+  means.push_back({"label_fwiou", frequency_weighted_iou(counts)});
+  return means;
 }
 
 }  // namespace

@@ -70,37 +70,6 @@ struct ThinCounts {
   bool operator==(const ThinCounts&) const = default;
 };
 
-/// Of detections in the colour images against the true label images (detection_score.hpp): pixels
-/// and instances, which add over frames, trials and classes.
-struct LabelCounts {
-  std::int64_t true_px = 0;    ///< of the class in the truth
-  std::int64_t named_px = 0;   ///< in masks that name the class
-  std::int64_t right_px = 0;   ///< in both
-  std::int64_t instances = 0;  ///< true ones with a pixel, one a frame
-  std::int64_t detections = 0;
-  std::int64_t instances_found = 0;  ///< by a detection of their class with an IoU above 0.5
-
-  /// label_accuracy, label_iou, label_instance_recall, label_instance_precision, in this order.
-  [[nodiscard]] std::vector<Metric> metrics() const {
-    return {{"label_accuracy", ratio(right_px, true_px)},
-            {"label_iou", ratio(right_px, true_px + named_px - right_px)},
-            {"label_instance_recall", ratio(instances_found, instances)},
-            {"label_instance_precision", ratio(instances_found, detections)}};
-  }
-
-  static auto counts() {
-    return std::to_array<CountField<LabelCounts>>({
-        {"label_true_px", &LabelCounts::true_px},
-        {"label_named_px", &LabelCounts::named_px},
-        {"label_right_px", &LabelCounts::right_px},
-        {"label_instances", &LabelCounts::instances},
-        {"label_detections", &LabelCounts::detections},
-        {"label_instances_found", &LabelCounts::instances_found},
-    });
-  }
-  bool operator==(const LabelCounts&) const = default;
-};
-
 /// Least IoUs of the average precisions, percent; ap_mean is over all but the first.
 inline constexpr std::array<int, 11> kInstancePercents{25, 50, 55, 60, 65, 70, 75, 80, 85, 90, 95};
 

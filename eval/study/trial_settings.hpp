@@ -65,7 +65,7 @@ struct ImagePerception {
   static constexpr std::string_view kKind = "images";
   static constexpr std::string_view kMeaning =
       "label images of a network, one for each colour image (docs/foreign_recordings.md)";
-  std::optional<std::string> folder, classes, scores;
+  std::optional<std::string> folder, classes, scores, confidence;
   ClassMasks masks = ClassMasks::components;
 
   static void fields(auto& s, auto&& visit) {
@@ -84,6 +84,10 @@ struct ImagePerception {
           Field{"scores",
                 "CSV of scores, image,id,score or stamp_s,id,score, from the study file's "
                 "folder; default: all are 1"});
+    visit(s.confidence,
+          Field{"confidence",
+                "folder of images of the same names, from the study file's folder: how sure the "
+                "network was of each pixel, in thousandths (docs/metrics.md)"});
   }
   bool operator==(const ImagePerception&) const = default;
 };

@@ -54,11 +54,13 @@ TEST_F(NetworkInTheLoop, GivesTheRowsOfItsLabelImages) {
   const std::string folder = fs::absolute(inferred("results"));
   perceive(
       fmt::format("{{images: {{folder: {0}, classes: {0}/classes.yaml, scores: "
-                  "{0}/scores.csv}}}}",
+                  "{0}/scores.csv, confidence: {0}/confidence}}}}",
                   folder));
   expect_done(sweep("of_images", {"-q"}));
   EXPECT_EQ(tidy("of_images"), tidy("results"));
-  EXPECT_THAT(tidy("results"), HasSubstr("label_iou"));
+  for (const char* metric : {"label_iou", "label_pq", "label_fwiou", "label_boundary_f",
+                             "label_pixel_ece", "label_score_bin", "label_taken_for:crate"})
+    EXPECT_THAT(tidy("results"), HasSubstr(metric));
 }
 
 TEST_F(NetworkInTheLoop, TenDosesInferEachFrameOnceAndASecondSweepNone) {

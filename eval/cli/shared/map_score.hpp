@@ -12,6 +12,7 @@
 #include "eval/score/confusion.hpp"
 #include "eval/score/instances/instance_pieces.hpp"
 #include "eval/score/instances/instance_score.hpp"
+#include "eval/score/label_images.hpp"
 #include "eval/score/map_snapshot.hpp"
 #include "eval/score/occupancy_score.hpp"
 
@@ -92,8 +93,8 @@ struct MapScore {
                                   const std::vector<Table>& tables);
 
 /// Labelled images against the recording's: by class, and the confusion matrix.
-[[nodiscard]] std::vector<Table> label_tables(const ConfusionMatrix& matrix,
+[[nodiscard]] std::vector<Table> label_tables(const LabelComparison& score,
                                               const ClassTable& table);
-[[nodiscard]] Table tidy_label_table(const ConfusionMatrix& matrix, const ClassTable& table);
+[[nodiscard]] Table tidy_label_table(const LabelComparison& score, const ClassTable& table);
 
 }  // namespace mapscore::eval

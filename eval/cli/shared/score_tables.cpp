@@ -233,27 +233,28 @@ Table tables_beside(const std::vector<std::string>& names, const std::vector<Tab
   return all;
 }
 
-std::vector<Table> label_tables(const ConfusionMatrix& matrix, const ClassTable& table) {
+std::vector<Table> label_tables(const LabelComparison& score, const ClassTable& table) {
+  const ConfusionMatrix& matrix = score.pixels;
   Table by_class;
-  for (const Metric& metric : label_metrics(matrix))
+  for (const Metric& metric : label_metrics(score))
     by_class.caption.push_back(metric.name + " " + number(metric.value));
-  by_class.columns = {"class", "accuracy", "IoU", "pixels", "labelled"};
+  by_class.columns = {"class", "accuracy", "IoU", "boundary F", "pixels", "labelled"};
   for (const SemanticClass& c : table.classes) {
     if (matrix.row_sum(c.id) == 0 && matrix.column_sum(c.id) == 0) continue;
-    by_class.rows.push_back(
-        figures(c.name, label_class_metrics(matrix, c.id), {{"accuracy", ""}, {"iou", ""}}));
+    by_class.rows.push_back(figures(c.name, label_class_metrics(score, c.id),
+                                    {{"accuracy", ""}, {"iou", ""}, {"boundary_f", ""}}));
     by_class.rows.back().push_back(std::to_string(matrix.row_sum(c.id)));
     by_class.rows.back().push_back(std::to_string(matrix.column_sum(c.id)));
   }
   return {by_class, confusion_table(matrix, table, "confusion of pixels")};
 }
 
-Table tidy_label_table(const ConfusionMatrix& matrix, const ClassTable& table) {
+Table tidy_label_table(const LabelComparison& score, const ClassTable& table) {
   Table tidy{{}, {"class", "metric", "value"}, {}};
-  add_tidy(tidy, "all", label_metrics(matrix));
+  add_tidy(tidy, "all", label_metrics(score));
   for (const SemanticClass& c : table.classes)
-    add_tidy(tidy, c.name, label_class_metrics(matrix, c.id));
-  add_tidy(tidy, matrix, table);
+    add_tidy(tidy, c.name, label_class_metrics(score, c.id));
+  add_tidy(tidy, score.pixels, table);
   return tidy;
 }
 

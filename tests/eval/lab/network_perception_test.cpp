@@ -104,7 +104,8 @@ TEST_F(NetworkPerception, ScoresReachTheMap) {
   const char* scored = "{images: {folder: labels, classes: classes.yaml, scores: scores.csv}}\n";
   const TrialResult halved = result(task(study("", scored)));
   EXPECT_NE(halved.counts[1].curve, plain.counts[1].curve);
-  EXPECT_EQ(halved.counts[1].labels, plain.counts[1].labels);
+  EXPECT_EQ(value_of(plain.counts[1].labels->metrics(), "label_score_ece"), 0.0);
+  EXPECT_EQ(value_of(halved.counts[1].labels->metrics(), "label_score_ece"), 0.5);
   EXPECT_THROW((void)study("faults: {labels: {scores: 0.5}}\n", scored), Error);
 }
 
@@ -213,7 +214,8 @@ TEST_F(RunningNetwork, GivesWhatItsLabelImagesGive) {
   for (const char* faults : {"", kFaults, "faults: {labels: {boundary_px: 2, confusion: 0.5}}\n"}) {
     const TrialResult of_model = of_network(task(running(faults)));
     const std::string images = fmt::format(
-        "{{images: {{folder: {0}, classes: {0}/classes.yaml, scores: {0}/scores.csv}}}}\n",
+        "{{images: {{folder: {0}, classes: {0}/classes.yaml, scores: {0}/scores.csv, "
+        "confidence: {0}/confidence}}}}\n",
         inferred().string());
     const TrialResult of_images = result(task(study(faults, images)));
     EXPECT_EQ(of_model.counts, of_images.counts) << faults;
@@ -290,7 +292,6 @@ TEST_F(RunningNetwork, WhatIsMissingOrContradictsIsRefused) {
               HasSubstr("perception.network.classes: is missing"));
   EXPECT_THAT(refusal([&] { (void)running("faults: {labels: {scores: 0.5}}\n"); }),
               HasSubstr("faults.labels.scores: stands beside perception.network"));
-  EXPECT_THAT(refusal([&] { (void)running("", "crate", ", std: [1, 0, 1]"); }), HasSubstr("std"));
   EXPECT_THAT(refusal([&] { (void)result(task(running(""))); }),
               HasSubstr("no folder of results is known"));
 }

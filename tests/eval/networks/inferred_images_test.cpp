@@ -71,6 +71,10 @@ TEST_F(InferredImages, AreThoseOfTheRecordingWhereTheNetworkIsRight) {
     ASSERT_EQ(found.scores.size(), of.info().table.instances.size() + 1);
     const double e = std::exp(2.55), background = std::exp(1.0);
     EXPECT_NEAR(found.scores.back(), e / (e + background + 1.0), 1e-6);
+    const auto verdicts = labels.verdicts_of(frame);
+    const cv::Mat1b sure = verdicts->thousandths == 775;  // 0.774996
+    EXPECT_EQ(cv::countNonZero(crate & ~sure), 0);
+    EXPECT_EQ(cv::countNonZero(crate & (verdicts->classes != 1)), 0);
   }
 }
 
@@ -104,7 +108,7 @@ TEST_F(InferredImages, AreInferredOnceAndTheSameForAnyNumberOfJobs) {
   (void)inferred(network("crate"), 3, "others");
   EXPECT_EQ(frames_, 8);
   EXPECT_EQ(files("others"), files_of_one);
-  EXPECT_EQ(files_of_one.size(), 4u + 4u) << "images, list, scores, classes and origin";
+  EXPECT_EQ(files_of_one.size(), 2 * 4u + 4u) << "images, list, scores, classes and origin";
 }
 
 TEST_F(InferredImages, OfAnotherFileOrSettingAreOthers) {

@@ -3,6 +3,7 @@
 
 #include "eval/render/study_recording.hpp"
 
+#include "eval/render/own_robot.hpp"
 #include "tests/support/tiny_recording.hpp"
 
 #include <gtest/gtest.h>

@@ -45,6 +45,7 @@ const std::map<std::string, std::string> kReasons{
     {"perception.images.folder", "the content is in the key (network_perception_test)"},
     {"perception.images.classes", "the content of the file is in the key (likewise)"},
     {"perception.images.scores", "the content of the file is in the key (likewise)"},
+    {"perception.images.confidence", "the content of the files is in the key (likewise)"},
     {"perception.network.model", "the content is in the key (network_perception_test)"},
     {"perception.network.classes", "the content of the file is in the key (likewise)"}};
 

@@ -43,6 +43,19 @@ TEST_F(Store, GivesBackWhatWasAdded) {
   EXPECT_FALSE(store.find("other"));
 }
 
+TEST_F(Store, GivesBackLabelsWhereTheyWereScored) {
+  TrialResult result = result_of(10);
+  for (ClassCounts& c : result.counts) {
+    c.labels = LabelCounts{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, {0, 0, 0, 5, 0}};
+    c.labels->scores.add(0.25, true, 3);
+    c.labels->pixels.add(1.0, false, 7);
+  }
+  result.counts.back().labels = LabelCounts{};
+  ResultStore store = ResultStore::open(file("a.sqlite"));
+  store.add("with", "", result);
+  EXPECT_EQ(store.find("with")->counts, result.counts);
+}
+
 TEST_F(Store, GivesBackInstancesWhereTheyWereScored) {
   TrialResult result = result_of(10);
   for (ClassCounts& c : result.counts) {

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/results/study_store.hpp"
-
+#include "eval/results/scene_counts.hpp"
 #include "tests/eval/lab/tiny_experiment.hpp"
 #include "tests/support/expect_error.hpp"
 
@@ -74,14 +73,16 @@ TEST(StudyStore, ScenesHaveTheClassesOfAllByTheirNames) {
   EXPECT_EQ(record.table.classes[3].name, "lamp");
   EXPECT_EQ(record.hashes().of("hall"), "h2");
   EXPECT_EQ(record.recording_hash, written.recording_hash);
-  Counts of_hall = zero_counts(3, {.tolerances = {1}, .asked = {.thin = true}});
-  of_hall[1].predicted = 5;  // chair
-  of_hall[2].predicted = 7;  // lamp
+  Counts of_hall = zero_counts(3, {.tolerances = {1}, .asked = {.thin = true, .labels = true}});
+  of_hall[2].labels->named_as = {3, 4, 5};  // lamps taken for background, chairs and lamps
+  of_hall[1].predicted = 5;                 // chair
+  of_hall[2].predicted = 7;                 // lamp
   const Counts joined = in_table(record, "hall", of_hall);
   ASSERT_EQ(joined.size(), 4u);
   EXPECT_EQ(joined[1], of_hall[0]) << "the hall has no cup";
   EXPECT_EQ(joined[2].predicted, 5);
   EXPECT_EQ(joined[3].predicted, 7);
+  EXPECT_EQ(joined[3].labels->named_as, (std::vector<std::int64_t>{3, 0, 4, 5}));
   expect_error("scene 'attic'", [&] { (void)in_table(record, "attic", of_hall); });
   write_study(store, {study_of(""), table_of({"cup"}), "hash", "tiny"}, folder.path());
   EXPECT_TRUE(read_study(store, folder.path()).scenes.empty());

@@ -9,6 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 namespace mapscore::eval {
 namespace {
 
@@ -40,10 +43,29 @@ TEST(DetectionScore, CountsOneImageByHand) {
       {1, 1, 1.0, {0, 0, 1, 0}, (cv::Mat1b(1, 2) << 255, 255), {}},
       {2, 3, 1.0, {1, 1, 2, 2}, (cv::Mat1b(2, 2) << 255, 255, 255, 255), {}}};
   const Counts counts = scored(detections, truth, table);
-  EXPECT_EQ(*counts[1].labels, (LabelCounts{5, 2, 2, 2, 1, 1}));  // 2 / 3 is above 1 / 2
-  EXPECT_EQ(*counts[2].labels, (LabelCounts{3, 4, 2, 1, 1, 0}));  // 2 / 5 is not
-  EXPECT_EQ(*counts[0].labels, (LabelCounts{4, 6, 3, 0, 0, 0}));  // walls and 9 are background
-  EXPECT_EQ(*counts[3].labels, LabelCounts{});
+  const auto plain = [&](std::size_t c) {
+    const LabelCounts& of = *counts[c].labels;
+    return std::array{of.true_px,   of.named_px,   of.right_px,
+                      of.instances, of.detections, of.instances_found};
+  };
+  using Plain = std::array<std::int64_t, 6>;
+  EXPECT_EQ(plain(1), (Plain{5, 2, 2, 2, 1, 1}));  // 2 / 3 is above 1 / 2
+  EXPECT_EQ(plain(2), (Plain{3, 4, 2, 1, 1, 0}));  // 2 / 5 is not
+  EXPECT_EQ(plain(0), (Plain{4, 6, 3, 0, 0, 0}));  // walls and 9 are background
+  EXPECT_EQ(plain(3), Plain{});
+  EXPECT_EQ(counts[1].labels->iou_sum_nano, 666'666'667);
+  EXPECT_EQ(counts[1].labels->named_as, (std::vector<std::int64_t>{2, 2, 1, 0}));
+  EXPECT_EQ(counts[2].labels->named_as, (std::vector<std::int64_t>{1, 0, 2, 0}));
+  EXPECT_EQ(counts[0].labels->named_as, (std::vector<std::int64_t>{3, 0, 1, 0}));
+  EXPECT_EQ(counts[1].labels->scores.error(), 0.0) << "sure of 1, and found";
+  EXPECT_EQ(counts[2].labels->scores.error(), 1.0);
+  // PQ of cups: 2/3 over one found, one missed and none wrong; SQ 2/3, RQ 1 / 1.5.
+  const std::vector<Metric> cups = counts[1].labels->metrics();
+  EXPECT_NEAR(*value_of(cups, "label_pq"), 2 / 3.0 / 1.5, 1e-9);
+  EXPECT_NEAR(*value_of(cups, "label_sq"), 2 / 3.0, 1e-9);
+  EXPECT_NEAR(*value_of(cups, "label_rq"), 1 / 1.5, 1e-12);
+  EXPECT_EQ(value_of(counts[2].labels->metrics(), "label_pq"), 0.0);
+  EXPECT_EQ(value_of(counts[2].labels->metrics(), "label_sq"), std::nullopt);
   const std::vector<Metric> pooled = metrics_of(pool_detected(counts, table));
   EXPECT_EQ(value_of(pooled, "label_accuracy"), (2 + 2 + 3) / 12.0);
   EXPECT_EQ(value_of(pooled, "label_instance_recall"), 1 / 3.0);
@@ -80,15 +102,99 @@ TEST(DetectionScore, WithAllClassesDetectedItIsThatOfLabelImages) {
   by_class.instances = {Instance{}};
   for (const ClassId c : {1, 2, 3}) by_class.instances.push_back({c, "class", c});
   const Counts counts = scored(detections_of(labels, by_class), truth, table);
-  const ConfusionMatrix matrix =
-      label_confusion(truth, labels, table, class_id_legend(table), "image");
-  const std::vector<Metric> plain = label_metrics(matrix);
+  const LabelComparison comparison =
+      compare_labels(truth, labels, table, class_id_legend(table), "image");
+  const std::vector<Metric> plain = label_metrics(comparison);
+  for (std::size_t row = 0; row < counts.size(); ++row) {
+    for (std::size_t column = 0; column < counts.size(); ++column)
+      EXPECT_EQ(counts[row].labels->named_as.at(column), comparison.pixels.at(row, column));
+    const LabelCounts& of = *counts[row].labels;
+    EXPECT_EQ(comparison.edges[row],
+              (EdgeCounts{of.true_edge_px, of.found_edge_px, of.named_edge_px, of.right_edge_px}));
+  }
   EXPECT_EQ(value_of(metrics_of(pool_detected(counts, table)), "label_accuracy"),
             value_of(plain, "pa"));
   Counts seen = counts;
   seen[1].visible = 1;  // without a visible voxel there are no means
   EXPECT_EQ(value_of(macro_metrics(seen, table), "label_accuracy"), value_of(plain, "mpa"));
   EXPECT_EQ(value_of(macro_metrics(seen, table), "label_iou"), value_of(plain, "miou"));
+  EXPECT_EQ(value_of(macro_metrics(seen, table), "label_fwiou"), value_of(plain, "fwiou"));
+  EXPECT_EQ(value_of(macro_metrics(seen, table), "label_boundary_f"),
+            value_of(plain, "boundary_f"));
+}
+
+/// Panoptic quality of one class [Kirillov et al., equation 1], pixel by pixel, pair by pair.
+double plain_quality(const cv::Mat1w& truth, const cv::Mat1w& labels, const ClassTable& truths,
+                     const ClassTable& detected, ClassId id) {
+  double found = 0, sum = 0, instances = 0, detections = 0;
+  const auto is_there = [](const cv::Mat1w& image, InstanceId one) {
+    return std::ranges::find(image, one) != image.end();
+  };
+  for (const Instance& detection : detected.instances) {
+    if (detection.class_id != id || !is_there(labels, detection.id)) continue;
+    ++detections;
+    for (const Instance& instance : truths.instances) {
+      if (instance.class_id != id) continue;
+      double both = 0, either = 0;
+      for (int v = 0; v < truth.rows; ++v)
+        for (int u = 0; u < truth.cols; ++u) {
+          const bool a = truth(v, u) == instance.id, b = labels(v, u) == detection.id;
+          both += a && b ? 1 : 0;
+          either += a || b ? 1 : 0;
+        }
+      if (both / either <= 0.5) continue;
+      ++found;
+      sum += both / either;
+    }
+  }
+  for (const Instance& instance : truths.instances)
+    if (instance.class_id == id && is_there(truth, instance.id)) ++instances;
+  return sum / (found + (detections - found) / 2 + (instances - found) / 2);
+}
+
+TEST(DetectionScore, PanopticQualityIsThatOfAPlainCount) {
+  const ClassTable table = cups_and_chair();
+  ClassTable found = table;
+  for (const ClassId c : {2, 1})
+    found.instances.push_back({static_cast<InstanceId>(found.instances.size()), "one", c});
+  RandomStream stream(5, "test", {0});
+  int partly = 0;
+  for (int n = 0; n < 20; ++n) {
+    cv::Mat1w truth = cv::Mat1w::zeros(12, 16), labels = cv::Mat1w::zeros(12, 16);
+    for (int block = 1; block < 7; ++block) {
+      const cv::Rect place(static_cast<int>(stream.uniform() * 11),
+                           static_cast<int>(stream.uniform() * 8), 5, 4);
+      if (block < 5) truth(place).setTo(block);
+      labels(stream.uniform() < 0.7 ? place : place - cv::Point(place.x / 2, 0)).setTo(block);
+    }
+    const Counts counts = scored(detections_of(labels, found), truth, table);
+    for (const ClassId id : {ClassId{1}, ClassId{2}}) {
+      const auto quality = value_of(counts[id].labels->metrics(), "label_pq");
+      const double plain = plain_quality(truth, labels, table, found, id);
+      EXPECT_NEAR(quality.value(), plain, 1e-8);
+      partly += plain > 0 && plain < 1 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(partly, 10);
+}
+
+TEST(DetectionScore, PixelsAreCountedByTheClassThatIsNamed) {
+  const ClassTable table = cups_and_chair();
+  const cv::Mat1w truth = (cv::Mat1w(1, 6) << 1, 2, 3, 3, 4, 0);
+  const cv::Mat1w named = (cv::Mat1w(1, 6) << 1, 2, 2, 2, 3, 1);
+  const cv::Mat1w sure = (cv::Mat1w(1, 6) << 900, 500, 700, 700, 1000, 300);
+  Counts counts = zero_counts(table.classes.size(), {.tolerances = {}, .asked = {.labels = true}});
+  score_pixels(named, sure, truth, table, counts);
+  Reliability cup, chair, background;
+  cup.add(0.9, true);
+  cup.add(0.3, false);
+  chair.add(0.5, false);
+  chair.add(0.7, true, 2);
+  background.add(1.0, true);  // a wall named a wall: neither is detected
+  EXPECT_EQ(counts[1].labels->pixels, cup);
+  EXPECT_EQ(counts[2].labels->pixels, chair);
+  EXPECT_EQ(counts[0].labels->pixels, background);
+  EXPECT_NEAR(*value_of(counts[2].labels->metrics(), "label_pixel_ece"), (0.5 + 0.6) / 3, 1e-9);
 }
 
 }  // namespace

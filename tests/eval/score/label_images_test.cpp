@@ -41,8 +41,9 @@ TEST(LabelImages, CountsOneImageByHand) {
                            9, 1, 2, 3);                     // 9 is in no table: background
   const cv::Mat1w labels = (cv::Mat1w(2, 4) << 0, 1, 1, 1,  //
                             2, 1, 0, 1);
-  const ConfusionMatrix matrix =
-      label_confusion(truth, labels, table, class_id_legend(table), "image");
+  const LabelComparison comparison =
+      compare_labels(truth, labels, table, class_id_legend(table), "image");
+  const ConfusionMatrix& matrix = comparison.pixels;
   EXPECT_EQ(matrix.columns(), 3u);
   EXPECT_EQ(matrix.at(0, 0), 1);
   EXPECT_EQ(matrix.at(0, 2), 1);
@@ -51,25 +52,30 @@ TEST(LabelImages, CountsOneImageByHand) {
   EXPECT_EQ(matrix.at(2, 1), 2);
   EXPECT_EQ(matrix.total(), 8);
   // Accuracy 1/2, 3/4, 0/2; IoU 1/3, 3/6, 0/3.
-  EXPECT_EQ(label_class_metrics(matrix, 1),
-            (std::vector<Metric>{{"accuracy", 0.75}, {"iou", 0.5}}));
-  const std::vector<Metric> metrics = label_metrics(matrix);
+  EXPECT_EQ(label_class_metrics(comparison, 1),
+            (std::vector<Metric>{{"accuracy", 0.75}, {"iou", 0.5}, {"boundary_f", 1.0}}));
+  const std::vector<Metric> metrics = label_metrics(comparison);
   EXPECT_EQ(value_of(metrics, "pa"), 0.5);
   EXPECT_DOUBLE_EQ(*value_of(metrics, "mpa"), (0.5 + 0.75 + 0.0) / 3);
   EXPECT_DOUBLE_EQ(*value_of(metrics, "miou"), (1.0 / 3 + 0.5 + 0.0) / 3);
+  EXPECT_DOUBLE_EQ(*value_of(metrics, "fwiou"), (2 * 1.0 / 3 + 4 * 0.5 + 2 * 0.0) / 8);
 }
 
 TEST(LabelImages, AClassWithoutPixelsInTheTruthIsInNoMean) {
   const ClassTable table = crates_and_wall();
   const cv::Mat1w truth = (cv::Mat1w(1, 2) << 1, 1), labels = (cv::Mat1w(1, 2) << 1, 2);
-  const ConfusionMatrix matrix =
-      label_confusion(truth, labels, table, class_id_legend(table), "image");
-  EXPECT_EQ(label_metrics(matrix), (std::vector<Metric>{{"pa", 0.5}, {"mpa", 0.5}, {"miou", 0.5}}));
-  EXPECT_EQ(label_class_metrics(matrix, 2)[0].value, std::nullopt);
-  EXPECT_EQ(label_class_metrics(matrix, 2)[1].value, 0.0);
-  EXPECT_EQ(
-      label_metrics(ConfusionMatrix(3)),
-      (std::vector<Metric>{{"pa", std::nullopt}, {"mpa", std::nullopt}, {"miou", std::nullopt}}));
+  const LabelComparison comparison =
+      compare_labels(truth, labels, table, class_id_legend(table), "image");
+  const auto values = [](const std::vector<Metric>& metrics) {
+    std::vector<std::optional<double>> of;
+    for (const Metric& metric : metrics) of.push_back(metric.value);
+    return of;
+  };
+  using Values = std::vector<std::optional<double>>;
+  EXPECT_EQ(values(label_metrics(comparison)), (Values{0.5, 0.5, 0.5, 0.5, 0.0}));
+  EXPECT_EQ(label_class_metrics(comparison, 2)[0].value, std::nullopt);
+  EXPECT_EQ(label_class_metrics(comparison, 2)[1].value, 0.0);
+  EXPECT_EQ(values(label_metrics({ConfusionMatrix(3), std::vector<EdgeCounts>(3)})), Values(5));
 }
 
 TEST(LabelImages, AgreesWithCountingPixelByPixel) {
@@ -84,8 +90,9 @@ TEST(LabelImages, AgreesWithCountingPixelByPixel) {
       labels(v, u) = repeat ? labels(v, u - 1) : static_cast<std::uint16_t>(3 * random.uniform());
       ++expected[static_cast<std::size_t>(3 * table.class_of(truth(v, u)) + labels(v, u))];
     }
-  const ConfusionMatrix matrix =
-      label_confusion(truth, labels, table, class_id_legend(table), "image");
+  const LabelComparison comparison =
+      compare_labels(truth, labels, table, class_id_legend(table), "image");
+  const ConfusionMatrix& matrix = comparison.pixels;
   for (std::size_t n = 0; n < 9; ++n) EXPECT_EQ(matrix.at(n / 3, n % 3), expected[n]);
 }
 
@@ -99,12 +106,12 @@ TEST(LabelImages, ALegendGivesIdsTheirClass) {
   };
   const cv::Mat1w truth = (cv::Mat1w(1, 3) << 1, 0, 3);
   const cv::Mat1w labels = (cv::Mat1w(1, 3) << 700, 255, 700);
-  const ConfusionMatrix matrix = label_confusion(truth, labels, table, legend, "image");
+  const ConfusionMatrix matrix = compare_labels(truth, labels, table, legend, "image").pixels;
   EXPECT_EQ(matrix.trace(), 2);
   EXPECT_EQ(matrix.at(2, 1), 1);
   for (const int unknown : {4, 6}) {
     const cv::Mat1w bad = (cv::Mat1w(1, 3) << 700, 255, unknown);
-    EXPECT_THAT([&] { (void)label_confusion(truth, bad, table, legend, "image"); },
+    EXPECT_THAT([&] { (void)compare_labels(truth, bad, table, legend, "image"); },
                 ThrowsMessage<Error>(
                     AllOf(HasSubstr("image: id " + std::to_string(unknown) + " at column 2, row 0"),
                           Not(HasSubstr("\n")))));
@@ -151,9 +158,9 @@ TEST_F(LabelFolderTest, TheTruthAgainstItselfIsPerfectWhateverTheBits) {
   cv::Mat narrow;
   perfect(1).convertTo(narrow, CV_8U);
   ASSERT_TRUE(cv::imwrite(file(1).string(), narrow));
-  const ConfusionMatrix matrix = score();
-  EXPECT_EQ(matrix.total(), 4 * 64 * 48);
-  for (const Metric& metric : label_metrics(matrix)) EXPECT_EQ(metric.value, 1.0) << metric.name;
+  const LabelFolderScore all = score_label_folder(folder(), std::vector<int>{0, 1, 2, 3}, 2);
+  EXPECT_EQ(all.pixels.total(), 4 * 64 * 48);
+  for (const Metric& metric : label_metrics(all)) EXPECT_EQ(metric.value, 1.0) << metric.name;
 }
 
 TEST_F(LabelFolderTest, PoolsTheSelectedFramesOnAnyNumberOfThreads) {
