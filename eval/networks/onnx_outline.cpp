@@ -4,8 +4,10 @@
 #include "eval/networks/onnx_outline.hpp"
 
 #include "files/refusal.hpp"
+#include "files/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -52,10 +54,8 @@ class ProtoFields {
     damaged();
   }
 
- private:
-  [[noreturn]] void damaged() const {
-    refuse(file_, "is no ONNX file, or is cut short; export the network again");
-  }
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+
   std::uint64_t varint() {
     std::uint64_t value = 0;
     for (int shift = 0; shift < 64; shift += 7) {
@@ -64,6 +64,11 @@ class ProtoFields {
       if (byte < 0x80) return value;
     }
     damaged();
+  }
+
+ private:
+  [[noreturn]] void damaged() const {
+    refuse(file_, "is no ONNX file, or is cut short; export the network again");
   }
   std::string_view take(std::uint64_t count) {
     if (count > rest_.size()) damaged();
@@ -122,6 +127,12 @@ bool all_words(std::string_view bytes, const auto& good) {
 /// TensorProto's types of numbers with a fraction.
 constexpr std::uint64_t kFloat = 1, kHalf = 10, kDouble = 11;
 
+/// Bytes of a number of a type in raw data; 0 of types that OpenCV reads no weights of.
+std::size_t bytes_of(std::uint64_t type) {
+  constexpr std::array<std::size_t, 14> kBytes{0, 4, 1, 1, 2, 2, 4, 8, 0, 1, 2, 8, 4, 8};
+  return type < kBytes.size() ? kBytes[type] : 0;
+}
+
 bool all_finite(std::string_view raw, std::uint64_t type) {
   const auto finite = [](auto number) { return std::isfinite(number); };
   if (type == kFloat) return all_words<float>(raw, finite);
@@ -130,42 +141,105 @@ bool all_finite(std::string_view raw, std::uint64_t type) {
   return type != kHalf || all_words<std::uint16_t>(raw, has_small_exponent);
 }
 
+/// A repeated whole number: one varint a field, or several packed.
+void add_varints(const ProtoField& field, const fs::path& file, std::vector<std::uint64_t>& list) {
+  if (field.wire == Wire::varint) {
+    list.push_back(field.value);
+  } else {
+    ProtoFields packed(field.bytes, file);
+    while (!packed.at_end()) list.push_back(packed.varint());
+  }
+}
+
+/// Fewer than any network has; also where sides make up more than memory could hold.
+constexpr std::uint64_t kMostNumbers = std::uint64_t{1} << 32;
+
+std::uint64_t product_of(const std::vector<std::uint64_t>& sides, const fs::path& file) {
+  std::uint64_t product = 1;
+  for (const std::uint64_t side : sides) {
+    if (side > kMostNumbers || product * side > kMostNumbers)
+      refuse(file, "has weights of more than {} numbers; export the network again", kMostNumbers);
+    product *= side;
+  }
+  return product;
+}
+
 struct Weights {
   std::string name;
   bool finite = true;
 };
 
-/// TensorProto: 2 type, 4 floats, 8 name, 9 raw bytes, 10 doubles.
+/// TensorProto: 1 sides, 2 type, 4 floats, 5 and 7 whole numbers, 8 name, 9 raw bytes, 10 doubles,
+/// 13 and 14 another file. Throws Error where it holds another count of numbers than its sides say,
+/// beyond which OpenCV would read.
 Weights weights_of(std::string_view tensor, const fs::path& file) {
   Weights weights;
-  std::uint64_t type = 0;
+  std::uint64_t type = 0, numbers = 0;
+  std::vector<std::uint64_t> sides, whole;
+  bool elsewhere = false;
   for_each_field(tensor, file, [&](const ProtoField& field) {
+    if (field.number == 1) add_varints(field, file, sides);
     if (field.number == 2) type = field.value;
     if (field.number == 8) weights.name = field.bytes;
+    if (field.number == 13 || (field.number == 14 && field.value != 0)) elsewhere = true;
   });
+  if (elsewhere)
+    refuse(file, "its weights '{}' lie in another file; export them into one", shown(weights.name));
   for_each_field(tensor, file, [&](const ProtoField& field) {
+    if (field.number == 5 || field.number == 7) add_varints(field, file, whole);
     const std::uint64_t of_field = field.number == 4    ? kFloat
                                    : field.number == 10 ? kDouble
                                    : field.number == 9  ? type
                                                         : 0;
-    if (of_field != 0 && !all_finite(field.bytes, of_field)) weights.finite = false;
+    if (bytes_of(of_field) == 0) return;
+    numbers += field.bytes.size() / bytes_of(of_field);
+    if (!all_finite(field.bytes, of_field)) weights.finite = false;
   });
+  numbers += whole.size();
+  if (const std::uint64_t said = product_of(sides, file); said != numbers)
+    refuse(file,
+           "its weights '{}' are {} numbers, and their sides say {}; export the network again",
+           shown(weights.name), numbers, said);
   return weights;
 }
 
-/// GraphProto: 5 weights, 11 inputs, 12 outputs.
+/// NodeProto: 1 inputs, 2 outputs, 5 attributes; of these 5 a tensor, held to its sides as weights
+/// are. Throws Error where an input is none of the tensors `given` before it, in whose place OpenCV
+/// would read nothing; adds the outputs.
+void check_node(std::string_view node, const fs::path& file, std::set<std::string>& given) {
+  std::vector<std::string> outputs;
+  for_each_field(node, file, [&](const ProtoField& field) {
+    const std::string name(field.bytes);
+    if (field.number == 1 && !name.empty() && !given.contains(name))
+      refuse(file,
+             "an operator reads '{}', which nothing before it gives; export the network again",
+             shown(name));
+    if (field.number == 2) outputs.push_back(name);
+    if (field.number != 5) return;
+    for_each_field(field.bytes, file, [&](const ProtoField& attribute) {
+      if (attribute.number == 5) static_cast<void>(weights_of(attribute.bytes, file));
+    });
+  });
+  given.insert(outputs.begin(), outputs.end());
+}
+
+/// GraphProto: 1 nodes, 5 weights, 11 inputs, 12 outputs.
 void read_graph(std::string_view graph, const fs::path& file, OnnxOutline& outline) {
-  std::set<std::string> weights;
+  std::set<std::string> given;
   for_each_field(graph, file, [&](const ProtoField& field) {
     if (field.number == 11) outline.inputs.push_back(tensor_of(field.bytes, file));
     if (field.number == 12) outline.outputs.push_back(tensor_of(field.bytes, file));
     if (field.number != 5) return;
     const Weights one = weights_of(field.bytes, file);
     if (!one.finite && outline.not_finite.empty()) outline.not_finite = one.name;
-    weights.insert(one.name);
+    given.insert(one.name);
   });
   std::erase_if(outline.inputs,
-                [&](const OnnxTensor& input) { return weights.contains(input.name); });
+                [&](const OnnxTensor& input) { return given.contains(input.name); });
+  for (const OnnxTensor& input : outline.inputs) given.insert(input.name);
+  for_each_field(graph, file, [&](const ProtoField& field) {
+    if (field.number == 1) check_node(field.bytes, file, given);
+  });
 }
 
 /// OperatorSetIdProto: 1 domain, 2 version; the version of ONNX itself, else 0.

@@ -27,7 +27,8 @@ struct OnnxOutline {
 
 /// Reads the fields of ModelProto (onnx.proto3) that the outline holds, and skips the others.
 /// Inputs that are weights too are left out. `file` opens the message of the Error thrown where the
-/// bytes are cut or are no such file.
+/// bytes are cut or are no such file, weights hold more or fewer numbers than their sides say, or
+/// an operator reads what nothing gives.
 [[nodiscard]] OnnxOutline read_onnx_outline(std::string_view bytes,
                                             const std::filesystem::path& file);
 

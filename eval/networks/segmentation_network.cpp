@@ -5,6 +5,7 @@
 
 #include "eval/networks/onnx_outline.hpp"
 #include "files/file_bytes.hpp"
+#include "files/png.hpp"
 #include "files/refusal.hpp"
 #include "files/text.hpp"
 
@@ -123,9 +124,9 @@ void SegmentationNetwork::check_outline(std::string_view bytes) {
   const std::vector<std::int64_t>& shape = outline.inputs.front().shape;
   const std::string wanted =
       fmt::format("1 x 3 x {0} x {1}, or 1 x 4 x {0} x {1} with depth", size_.height, size_.width);
-  constexpr std::int64_t kMostSide = 1 << 14;
   if (shape.size() != 4 || (shape[0] != 1 && shape[0] != -1) || (shape[1] != 3 && shape[1] != 4) ||
-      shape[2] > kMostSide || shape[3] > kMostSide)
+      shape[2] > kMostImageSide_px || shape[3] > kMostImageSide_px ||
+      shape[2] * shape[3] > kMostImagePixels)
     refuse(file, "takes an input of {}, and the images give {}; export it for one image of these",
            shape_text(shape), wanted);
   const auto side = [](std::int64_t of_model, int of_image) {
