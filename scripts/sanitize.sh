@@ -38,7 +38,7 @@ if [ "${1:-}" = --threads ]; then
     build/tsan/$program --gtest_brief=1 --gtest_filter="$filter" "$@"
   done
 else
-  programs=(files_test recording_test foreign_test map_files_test)
+  programs=(files_test recording_test foreign_test map_files_test networks_test)
   build asan OFF "${programs[@]}"
   # A file must not ask for more than this many MB at once.
   export ASAN_OPTIONS=max_allocation_size_mb=4096:detect_stack_use_after_return=1

@@ -53,10 +53,10 @@ def listed(folder, name):
             if line and not line.startswith("#")]
 
 
-def read(folder):
+def read(folder, keep=True):
     """Arrays of a recording: color (N, H, W, 3), depth (N, H, W), label (N, H, W) and the names of its classes.
 
-    Kept in the recording's folder as frames.npz.
+    Kept in the recording's folder as frames.npz, unless told not to.
     """
     folder = pathlib.Path(folder)
     kept = folder / "frames.npz"
@@ -78,7 +78,8 @@ def read(folder):
         ids = cv2.imread(str(folder / "label" / pathlib.Path(c).name), cv2.IMREAD_UNCHANGED)
         label.append(class_of[cv2.resize(ids, (WIDTH, HEIGHT), interpolation=cv2.INTER_NEAREST)])
     arrays = {"color": np.stack(color), "depth": np.stack(depth), "label": np.stack(label)}
-    np.savez(kept, **arrays)
+    if keep:
+        np.savez(kept, **arrays)
     return arrays["color"], arrays["depth"], arrays["label"], names
 
 
