@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Draws what networks see: a row a frame, with colours, true classes and the labels of each network.
 
-    scripts/train/picture.py RECORDING --weights results/weights/fcn_nyu13_0.onnx ... --frames 3,17 -o networks.png
+    /usr/bin/python3 scripts/train/picture.py RECORDING --weights results/weights/fcn_nyu13_0.onnx ... --frames 3,17 -o networks.png
 """
 
 import argparse
