@@ -115,7 +115,7 @@ cv::Mat1w classes_at_pixels(const cv::Mat1w& label, const std::vector<ClassId>& 
 
 LabelClasses read_label_classes(const std::filesystem::path& file, ClassMasks masks) {
   const YamlValue root = load_yaml(file);
-  root.only({"classes", "instances", "folds"});  // the last is a note for people
+  root.only({"classes", "instances"});
   LabelClasses classes;
   classes.has_instances = root.has("instances");
   const std::size_t most = kMostLabel / values_of_label(classes.has_instances, masks);
