@@ -3,6 +3,7 @@
 """What is written beside a network: its classes, its card, and the table of several."""
 
 import evaluate
+from recordings import DRIVES
 
 LIMITS = """\
 ## Limits
@@ -32,27 +33,29 @@ def write_classes(file, names, fold):
 def write_card(file, record):
     """Data, training, figures and limits of one network."""
     name = file.stem
-    again = (f"scripts/train/train.sh --net {record['net']} --first_seed {record['seed']} --classes {record['classes']} "
-             f"--homes {record['homes']} --steps {record['steps']} --threads {record['threads']}")
+    seen, unseen = record["trained_on"], record["scored_on"]
+    shares = "; a third, two thirds" if len(seen) == 2 else ""
+    again = (f"scripts/train/train.sh --net {record['net']} --first_seed {record['seed']} --unseen {unseen} "
+             f"--classes {record['classes']} --homes {record['homes']} --steps {record['steps']} --threads {record['threads']}")
     lines = [f"# {name}", "",
              f"`{record['net']}` of docs/networks.md, {record['parameters']} parameters, {record['bytes']} bytes, classes "
              f"`{record['classes']}`, seed {record['seed']}.", "", "## Data and training", "",
-             f"{record['frames']} frames of {record['homes']} variations of scenes/apartment.xml and scenes/home.xml "
-             f"(seeds 0 to {record['homes'] - 1}; a third, two thirds), seen from around the drives of "
-             "configs/demo.yaml and configs/home.yaml. "
+             f"{record['frames']} frames of {record['homes']} variations of "
+             f"{' and '.join(f'scenes/{home}.xml' for home in seen)} (seeds 0 to {record['homes'] - 1}{shares}), seen from "
+             f"around the drives of {' and '.join(f'configs/{DRIVES[home]}.yaml' for home in seen)}. "
              f"{record['steps']} steps of 8 frames ({record['epochs']} epochs), {record['processor_s']:.0f} s of "
              f"processor time on {record['threads']} thread(s). Again, with the same bytes on the same machine:", "",
              f"    {again}", "", "## Figures", "",
-             f"Cottage, drive of configs/segmentation_cottage.yaml at 1.4 frames a second, not trained on: "
+             f"The {unseen}, drive of configs/{DRIVES[unseen]}.yaml at 1.4 frames a second, not trained on: "
              f"{percent(record['unseen'])}. Held-out variations of the homes of the training: {percent(record['validation'])}.",
-             "", "| class | IoU, cottage | accuracy, cottage |", "| --- | --- | --- |"]
+             "", f"| class | IoU, {unseen} | accuracy, {unseen} |", "| --- | --- | --- |"]
     for c, iou in record["unseen"]["iou"].items():
         lines.append(f"| {c} | {100 * iou:.1f} | {100 * record['unseen']['accuracy'][c]:.1f} |")
     file.write_text("\n".join(lines) + "\n\n" + LIMITS)
 
 
 def row(record):
-    return (f"{record['net']} seed {record['seed']}: cottage {percent(record['unseen'])}; held-out "
+    return (f"{record['net']} seed {record['seed']}: {record['scored_on']} {percent(record['unseen'])}; held-out "
             f"{percent(record['validation'])}; {record['steps']} steps, {record['processor_s']:.0f} s")
 
 

@@ -6,8 +6,10 @@ Called by train.sh, which says what is missing.
 """
 
 import argparse
+import concurrent.futures
 import dataclasses
 import json
+import multiprocessing
 import pathlib
 import sys
 import time
@@ -23,8 +25,8 @@ import nets
 import recordings
 from data import Frames, class_lists
 
-TRAINED_ON = ("apartment", "home", "home")   # in turn: the home has more rooms
-UNSEEN = "cottage"
+# By the home of the scores: whose variations are trained on, in turn (the home has more rooms than the apartment).
+TRAINED_ON = {"cottage": ("apartment", "home", "home"), "home": ("cottage",)}
 VALIDATION_SEEDS = range(1000, 1006)
 DULL = 0.85
 HOMES, FRAMES, STEPS = 96, 20, 4000
@@ -60,13 +62,16 @@ def parser():
                                                     "that fit are measured, and then stand in the card")
     size.add_argument("--quick", action="store_true",
                       help="a minute: 3 homes of 12 frames, 40 steps; exit code 1 unless the loss falls")
+    add("--unseen", default="cottage", choices=list(TRAINED_ON),
+        help="home of the scores; cottage: trained on apartment and home; home: trained on the cottage [cottage]")
     add("--classes", default="nyu13", choices=list(class_lists()), help="list of classes.yaml [nyu13]")
     add("--homes", type=int, help=f"varied homes to record [{HOMES}]")
     add("--frames", type=int, help=f"frames of each [{FRAMES}]")
     add("--threads", type=int, default=2, help="of PyTorch; another number gives other last bits [2]")
+    add("--jobs", type=int, default=1, help="networks trained at once, each on --threads [1]")
     add("--program", default=str(recordings.ROOT / "build/release/mapscore"), help="mapscore [build/release]")
     add("--data", default=str(recordings.ROOT / "build/train"), help="folder of recordings, kept [build/train]")
-    add("-o", "--output", default=str(recordings.ROOT / "build/weights"), help="weights and cards [build/weights]")
+    add("-o", "--output", help="weights and cards [build/weights/UNSEEN]")
     return made
 
 
@@ -76,7 +81,7 @@ def parsed(argv):
     args = ask.parse_args(argv)
     if args.quick and (args.homes or args.frames):
         ask.error("--quick sets --homes and --frames; leave them out")
-    for key, low in (("seeds", 1), ("first_seed", 0), ("homes", 1), ("frames", 1), ("threads", 1), ("steps", 1)):
+    for key, low in (("seeds", 1), ("first_seed", 0), ("homes", 1), ("frames", 1), ("threads", 1), ("jobs", 1), ("steps", 1)):
         if getattr(args, key) is not None and getattr(args, key) < low:
             ask.error(f"--{key} is {getattr(args, key)}; give {low} or more")
     for key in ("epochs", "minutes"):
@@ -85,6 +90,7 @@ def parsed(argv):
     if not pathlib.Path(args.program).is_file():
         ask.error(f"there is no program {args.program}; build it (cmake --build --preset release) or name it with "
                   "--program")
+    args.output = args.output or str(recordings.ROOT / "build/weights" / args.unseen)
     homes, frames, steps = QUICK if args.quick else (HOMES, FRAMES, STEPS)
     args.homes, args.frames, args.steps = args.homes or homes, args.frames or frames, args.steps or steps
     return args
@@ -92,11 +98,11 @@ def parsed(argv):
 
 def gathered(args, fold):
     """Records what is not there yet, and reads it."""
-    folder = pathlib.Path(args.data)
-    homes = [(TRAINED_ON[seed % 3], seed) for seed in range(args.homes)]
-    held_out = [(TRAINED_ON[seed % 3], seed) for seed in VALIDATION_SEEDS][:1 if args.quick else None]
-    made = recordings.varied_all(args.program, homes + held_out, args.frames, folder, args.threads)
-    unseen = recordings.drive(args.program, UNSEEN, folder, 0.2 if args.quick else 1.4)
+    folder, trained_on = pathlib.Path(args.data), TRAINED_ON[args.unseen]
+    homes = [(trained_on[seed % len(trained_on)], seed) for seed in range(args.homes)]
+    held_out = [(trained_on[seed % len(trained_on)], seed) for seed in VALIDATION_SEEDS][:1 if args.quick else None]
+    made = recordings.varied_all(args.program, homes + held_out, args.frames, folder, args.jobs * args.threads)
+    unseen = recordings.drive(args.program, args.unseen, folder, 0.2 if args.quick else 1.4)
     return Data(Frames(made[:len(homes)], fold, DULL), Frames(made[len(homes):], fold), Frames([unseen], fold))
 
 
@@ -108,17 +114,23 @@ def steps_of(args, name, data, classes):
     return args.steps
 
 
-def trained(args, name, seed, data, names):
-    """One network: weights, card and record. Returns the record."""
+def weights_file(args, name, seed):
+    return pathlib.Path(args.output) / f"{name}_{args.classes}_{seed}.onnx"
+
+
+def train(args, name, seed, data, names):
+    """One network: weights, card and record."""
     classes, channels = len(names), nets.channels_of(name)
     recipe = fit.Recipe(steps=steps_of(args, name, data, classes))
     began = time.process_time(), time.monotonic()
     net, losses = fit.fit(name, data.train, classes, seed, recipe, lambda text: print(text, flush=True))
     seconds = time.process_time() - began[0], time.monotonic() - began[1]
-    file = pathlib.Path(args.output) / f"{name}_{args.classes}_{seed}.onnx"
+    file = weights_file(args, name, seed)
     deployed = export.export(net, channels, file, evaluate.images_of(data.unseen, slice(0, 1), channels))
     record = {"net": name, "seed": seed, "classes": args.classes, "threads": args.threads,
-              "homes": args.homes, "frames": len(data.train), "parameters": sum(p.numel() for p in deployed.parameters()),
+              "trained_on": list(dict.fromkeys(TRAINED_ON[args.unseen])), "scored_on": args.unseen,
+              "homes": args.homes, "frames": len(data.train),
+              "parameters": sum(p.numel() for p in deployed.parameters()),
               "bytes": file.stat().st_size, "steps": recipe.steps,
               "epochs": round(recipe.steps * recipe.batch / len(data.train), 2),
               "processor_s": round(seconds[0], 1), "wall_s": round(seconds[1], 1),
@@ -130,7 +142,16 @@ def trained(args, name, seed, data, names):
     card.write_classes(file.with_suffix(".classes.yaml"), names, class_lists()[args.classes])
     card.write_card(file.with_suffix(".md"), record)
     print(card.row(record), flush=True)
-    return record
+
+
+def trained(args, name, seed, data, names):
+    """The record of a network that a process of its own trained; the frames are shared, not copied."""
+    process = multiprocessing.get_context("fork").Process(target=train, args=(args, name, seed, data, names))
+    process.start()
+    process.join()
+    if process.exitcode:
+        raise SystemExit(f"train.sh: {name} seed {seed}: failed; see above")
+    return json.loads(weights_file(args, name, seed).with_suffix(".json").read_text())
 
 
 def main(argv):
@@ -143,10 +164,11 @@ def main(argv):
     pathlib.Path(args.output).mkdir(parents=True, exist_ok=True)
     data = gathered(args, fold)
     print(f"{len(data.train)} frames of {args.homes} varied homes, {len(data.validation)} of held-out ones, "
-          f"{len(data.unseen)} of {UNSEEN}", flush=True)
-    records = [trained(args, name, seed, data, names)
-               for seed in range(args.first_seed, args.first_seed + args.seeds)
-               for name in (nets.NETS if args.net == "all" else [args.net])]
+          f"{len(data.unseen)} of {args.unseen}", flush=True)
+    wanted = [(name, seed) for seed in range(args.first_seed, args.first_seed + args.seeds)
+              for name in (nets.NETS if args.net == "all" else [args.net])]
+    with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
+        records = list(pool.map(lambda n: trained(args, *n, data, names), wanted))
     print("\n".join([card.table(records), *card.differences(records)]))
     if args.quick and any(r["loss"][1] >= r["loss"][0] for r in records):
         raise SystemExit("the loss did not fall")
