@@ -81,7 +81,8 @@ def parsed(argv):
     args = ask.parse_args(argv)
     if args.quick and (args.homes or args.frames):
         ask.error("--quick sets --homes and --frames; leave them out")
-    for key, low in (("seeds", 1), ("first_seed", 0), ("homes", 1), ("frames", 1), ("threads", 1), ("jobs", 1), ("steps", 1)):
+    for key, low in (("seeds", 1), ("first_seed", 0), ("homes", 1), ("frames", 1), ("threads", 1), ("jobs", 1),
+                     ("steps", 1)):
         if getattr(args, key) is not None and getattr(args, key) < low:
             ask.error(f"--{key} is {getattr(args, key)}; give {low} or more")
     for key in ("epochs", "minutes"):
