@@ -45,9 +45,11 @@ struct Sampler {
 
   /// Samples of the detected classes in the map frame.
   void append(const Frame& frame, const Pose& T_map_depth, SampleCollector& points) const {
+    const Eigen::Matrix3d R = T_map_depth.linear();
+    const Eigen::Vector3d t = T_map_depth.translation();
     for_each_detected_sample(frame, calibration, table,
                              [&](ClassId class_id, const Eigen::Vector3d& p_depth) {
-                               points.add(class_id, T_map_depth * p_depth);
+                               points.add(class_id, R * p_depth + t);
                              });
   }
 };

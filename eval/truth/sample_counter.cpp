@@ -12,8 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace mapscore::eval {
@@ -48,6 +48,22 @@ void pack_row(const std::uint16_t* depth, const double* ray_x, double ray_y, std
     const auto outside = static_cast<std::uint64_t>((raw < low) | (raw > high));
     packed[u] = voxel | (std::uint64_t{0} - outside);
   }
+}
+
+/// Where the runs of one voxel and one instance begin in a row, and after them its end. Without
+/// branches, which would be guessed wrong at the end of each run. `starts` has room for one more
+/// than the row.
+std::span<const std::uint32_t> runs_of(std::span<const std::uint64_t> packed,
+                                       const std::uint16_t* label,
+                                       std::vector<std::uint32_t>& starts) {
+  std::size_t runs = 0;
+  starts[runs++] = 0;
+  for (std::size_t u = 1; u < packed.size(); ++u) {
+    starts[runs] = static_cast<std::uint32_t>(u);
+    runs += (packed[u] != packed[u - 1]) | (label[u] != label[u - 1]);
+  }
+  starts[runs] = static_cast<std::uint32_t>(packed.size());
+  return std::span(starts).first(runs + 1);
 }
 
 void check(const Frame& frame, const Calibration& calibration, const Pose& T_map_depth,
@@ -95,18 +111,19 @@ void SampleCounter::add(const Frame& frame, const Calibration& true_calibration,
   const VoxelPacker packer(T_map_depth, edge_m_);
   std::vector<std::uint64_t> keys(static_cast<std::size_t>(frame.depth.cols));
   std::vector<std::size_t> places(keys.size(), 0);
+  std::vector<std::uint32_t> starts(keys.size() + 1);
   for (int v = 0; v < frame.depth.rows; ++v) {
     const std::uint16_t* label = frame.depth_label[v];
     pack_row(frame.depth[v], rays.x().data(), rays.y()[static_cast<std::size_t>(v)], keys.size(),
              packer, range, keys.data());
     // Neighbours mostly share voxel and instance: the table is asked once a run, and first at the
     // place that it gave for the pixel above.
-    for (std::size_t u = 0; u < keys.size();) {
-      const std::size_t first = u++;
-      while (u < keys.size() && keys[u] == keys[first] && label[u] == label[first]) ++u;
+    const std::span runs = runs_of(keys, label, starts);
+    for (std::size_t n = 0; n + 1 < runs.size(); ++n) {
+      const std::size_t first = runs[n];
       if (keys[first] == VoxelPacker::kNone) continue;
       const ClassId class_id = table.class_of(label[first]);
-      const auto samples = static_cast<std::uint32_t>(u - first);
+      const std::uint32_t samples = runs[n + 1] - runs[n];
       Slot& above = slots_[places[first]];
       if (above.samples > 0 && above.key == keys[first] && above.class_id == class_id)
         above.samples += samples;
@@ -136,7 +153,8 @@ std::vector<SampleCount> SampleCounter::counts() const {
   for (const Slot& slot : slots_) {
     if (slot.samples > 0) counts.push_back({unpack(slot.key), slot.class_id, slot.samples});
   }
-  std::ranges::sort(counts, {}, [](const SampleCount& c) { return std::tie(c.key, c.class_id); });
+  std::ranges::sort(counts, {},
+                    [](const SampleCount& c) { return std::pair(pack(c.key), c.class_id); });
   return counts;
 }
 
@@ -155,7 +173,9 @@ std::size_t SampleCounter::count(std::uint64_t key, ClassId class_id, std::uint3
 std::size_t SampleCounter::position(std::uint64_t key, ClassId class_id) const {
   const std::size_t mask = slots_.size() - 1;
   // A packed key leaves no room for the class, so the hash takes it in by a product of its own.
-  std::size_t at = mix_bits(key ^ (class_id * 0x9e3779b97f4a7c15ULL)) & mask;
+  // Four voxels above each other stand together: a camera sees them one after the other.
+  const std::uint64_t column = mix_bits((key >> 2) ^ (class_id * 0x9e3779b97f4a7c15ULL));
+  std::size_t at = (column << 2 | (key & 3)) & mask;
   while (slots_[at].samples != 0 && (slots_[at].key != key || slots_[at].class_id != class_id)) {
     at = (at + 1) & mask;
   }

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <bit>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace mapscore::eval {
@@ -34,7 +33,8 @@ VisibleVoxel owned(std::span<const SampleCount> counts) {
 
 VisibleTruth::VisibleTruth(std::vector<VisibleVoxel> voxels, double edge_m)
     : voxels_(std::move(voxels)), slots_(std::bit_ceil(2 * voxels_.size() + 2)), edge_m_(edge_m) {
-  std::ranges::sort(voxels_, {}, [](const VisibleVoxel& v) { return std::tie(v.owner, v.key); });
+  std::ranges::sort(voxels_, {},
+                    [](const VisibleVoxel& v) { return std::pair(v.owner, pack(v.key)); });
   for (std::size_t row = 0; row < voxels_.size(); ++row) {
     const std::uint64_t key = pack(voxels_[row].key);
     slots_[position(key)] = {key, static_cast<std::uint32_t>(row)};

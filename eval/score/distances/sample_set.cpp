@@ -6,11 +6,13 @@
 #include "core/parallel.hpp"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 namespace mapscore::eval {
 namespace {
+
+/// Less than half an edge by more than rounding moves a point within 2^20 voxels of the origin.
+constexpr double kSurelyInside = 0.5 - 1e-6;
 
 /// Appends by moving when there is nothing to append to.
 template <class T>
@@ -27,12 +29,22 @@ void move_behind(std::vector<T>&& from, std::vector<T>& to) {
 
 void SampleCollector::add(ClassId class_id, const Eigen::Vector3d& p_map) {
   ClassSamples& samples = classes_[class_id];
-  const VoxelKey key = voxel_of(p_map, edge_m_);
-  if (samples.groups.empty() || samples.groups.back().key != key) {
-    samples.groups.push_back({key, samples.offsets.size(), 0});
+  const auto offset_from = [&](const VoxelKey& key) -> Eigen::Vector3d {
+    return p_map - centre_of(key, edge_m_);
+  };
+  if (!samples.groups.empty()) {  // neighbours mostly share a voxel, which takes no division to see
+    const Eigen::Vector3d offset = offset_from(samples.groups.back().key);
+    if ((offset.array().abs() < kSurelyInside * edge_m_).all()) {
+      ++samples.groups.back().count;
+      samples.offsets.emplace_back(offset.cast<float>());
+      return;
+    }
   }
+  const VoxelKey key = voxel_of(p_map, edge_m_);
+  if (samples.groups.empty() || samples.groups.back().key != key)
+    samples.groups.push_back({key, samples.offsets.size(), 0});
   ++samples.groups.back().count;
-  samples.offsets.push_back((p_map - centre_of(key, edge_m_)).cast<float>());
+  samples.offsets.emplace_back(offset_from(key).cast<float>());
 }
 
 void SampleCollector::append(SampleCollector&& later) {
@@ -56,7 +68,8 @@ SampleSet SampleCollector::take(int jobs) {
 
 SampleCollector::ClassSamples SampleCollector::grouped(ClassSamples&& runs) {
   using Group = SampleSet::Group;
-  std::ranges::sort(runs.groups, {}, [](const Group& g) { return std::tie(g.key, g.first); });
+  std::ranges::sort(runs.groups, {},
+                    [](const Group& g) { return std::pair(pack(g.key), g.first); });
   ClassSamples samples;
   samples.offsets.reserve(runs.offsets.size());
   for (const Group& run : runs.groups) {
