@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -27,6 +29,20 @@ std::pair<std::string, std::string> name_and_unit(std::string_view title) {
 /// Of a key in metres that a figure shows in millimetres; else 1.
 double scale_of(std::string_view key, std::string_view unit) {
   return unit == "mm" && key.ends_with("_m") ? 1000.0 : 1.0;
+}
+
+/// Values as a figure names them: a file by its name without folder and extension, where that tells
+/// all files of `among` apart.
+std::vector<std::string> short_names(const std::vector<std::string>& values,
+                                     const std::vector<std::string>& among) {
+  const auto stem = [](const std::string& value) {
+    return value.find('/') == value.npos ? value : std::filesystem::path(value).stem().string();
+  };
+  std::set<std::string> files(among.begin(), among.end()), stems;
+  for (const std::string& file : files) stems.insert(stem(file));
+  std::vector<std::string> names = values;
+  if (stems.size() == files.size()) std::ranges::transform(names, names.begin(), stem);
+  return names;
 }
 
 }  // namespace
@@ -71,7 +87,9 @@ FigureAxis figure_axis(const Field& field, const std::vector<std::string>& value
 }
 
 FigureAxis figure_axis(const Study& study, const SweepAxis& axis) {
-  return figure_axis(field_of(study, axis.path), axis.values);
+  const auto swept = std::ranges::find(study.sweep, axis.path, &SweepAxis::path);
+  return figure_axis(field_of(study, axis.path),
+                     short_names(axis.values, (swept == study.sweep.end() ? axis : *swept).values));
 }
 
 }  // namespace mapscore::eval

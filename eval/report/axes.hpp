@@ -35,7 +35,8 @@ struct FigureAxis {
 
 /// The axis of these values of a field, as a study file writes them.
 [[nodiscard]] FigureAxis figure_axis(const Field& field, const std::vector<std::string>& values);
-/// The same for a swept leaf of a study.
+/// The same for a swept leaf of a study; a file is named without folder and extension where that
+/// tells all that are swept apart.
 [[nodiscard]] FigureAxis figure_axis(const Study& study, const SweepAxis& axis);
 
 }  // namespace mapscore::eval

@@ -143,14 +143,22 @@ Table score_table(const StudySummary& summary, const std::string& group, Reader 
   table.caption = caption_of(summary, group);
   std::vector<std::pair<std::string, std::string>> metrics{
       {"precision", "precision"}, {"recall", "recall"}, {"F1", "f1"}, {"IoU", "iou"}};
+  const auto has_value = [&](const std::string& metric) {
+    return std::ranges::any_of(summary.trials, [&](const ResultLine& line) {
+      return estimate(line, summary.table, group, metric).pooled.has_value();
+    });
+  };
   for (const auto& [title, name] :
        std::vector<std::pair<std::string, std::string>>{{"F1 tol. 1", "f1_t1"},
                                                         {"F at 2 cm", "f_2cm"},
                                                         {"PQ", "pq"},
                                                         {"2D IoU", "label_iou"},
                                                         {"2D accuracy", "label_accuracy"},
-                                                        {"2D recall", "label_instance_recall"}})
-    if (summary.has_metric(name)) metrics.emplace_back(title, name);
+                                                        {"2D recall", "label_instance_recall"},
+                                                        {"2D PQ", "label_pq"},
+                                                        {"2D boundary F", "label_boundary_f"},
+                                                        {"2D ECE", "label_pixel_ece"}})
+    if (summary.has_metric(name) && has_value(name)) metrics.emplace_back(title, name);
   metrics.insert(metrics.end(),
                  {{"AP", "ap"}, {"F1 best", kBestF1}, {"threshold", kBestThreshold}});
 

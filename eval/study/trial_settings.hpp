@@ -104,9 +104,10 @@ struct NetworkPerception {
   NetworkOutput output = NetworkOutput::logits;
 
   static void fields(auto& s, auto&& visit) {
-    visit(s.model, Field{"model",
-                         "ONNX file of the network: an image in, of 3 channels or, with depth, 4; "
-                         "classes by pixel out; from the study file's folder"});
+    visit(s.model, Field{.key = "model",
+                         .meaning = "ONNX file of the network: an image in, of 3 channels or, with "
+                                    "depth, 4; classes by pixel out; from the study file's folder",
+                         .figure = "network"});
     visit(s.classes, Field{"classes",
                            "file that names the recording's classes of the output's channels, from "
                            "the study file's folder"});

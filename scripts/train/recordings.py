@@ -63,7 +63,8 @@ def drive(program, home, folder, frames_per_s=1.4):
     if not (made / "recording.yaml").exists():
         shutil.rmtree(made, ignore_errors=True)
         run([program, "record", ROOT / f"configs/{DRIVES[home]}.yaml", "-o", made, "-q", "-j", "1",
-             "--set", f"trajectory.frames_per_s={frames_per_s}", "--set", "trajectory.drive=poses"], made)
+             "--set", f"trajectory.frames_per_s={frames_per_s}", "--set", "trajectory.drive=poses",
+             "--set", "sweep={}"], made)
     return made
 
 

@@ -6,10 +6,9 @@ Called by train.sh, which says what is missing.
 """
 
 import argparse
-import concurrent.futures
 import dataclasses
 import json
-import multiprocessing
+import multiprocessing.connection
 import pathlib
 import sys
 import time
@@ -145,14 +144,21 @@ def train(args, name, seed, data, names):
     print(card.row(record), flush=True)
 
 
-def trained(args, name, seed, data, names):
-    """The record of a network that a process of its own trained; the frames are shared, not copied."""
-    process = multiprocessing.get_context("fork").Process(target=train, args=(args, name, seed, data, names))
-    process.start()
-    process.join()
-    if process.exitcode:
-        raise SystemExit(f"train.sh: {name} seed {seed}: failed; see above")
-    return json.loads(weights_file(args, name, seed).with_suffix(".json").read_text())
+def train_all(args, wanted, data, names):
+    """Networks (name, seed), each in a process of its own, `jobs` at once; the frames are shared, not copied."""
+    fork, waiting, running = multiprocessing.get_context("fork"), list(wanted), {}
+    while waiting or running:
+        while waiting and len(running) < args.jobs:
+            name, seed = waiting.pop(0)
+            process = fork.Process(target=train, args=(args, name, seed, data, names), name=f"{name} seed {seed}",
+                                   daemon=True)
+            process.start()
+            running[process.sentinel] = process
+        for ended in multiprocessing.connection.wait(list(running)):
+            process = running.pop(ended)
+            process.join()
+            if process.exitcode:
+                raise SystemExit(f"train.sh: {process.name}: failed; see above")
 
 
 def main(argv):
@@ -168,8 +174,8 @@ def main(argv):
           f"{len(data.unseen)} of {args.unseen}", flush=True)
     wanted = [(name, seed) for seed in range(args.first_seed, args.first_seed + args.seeds)
               for name in (nets.NETS if args.net == "all" else [args.net])]
-    with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
-        records = list(pool.map(lambda n: trained(args, *n, data, names), wanted))
+    train_all(args, wanted, data, names)
+    records = [json.loads(weights_file(args, *n).with_suffix(".json").read_text()) for n in wanted]
     print("\n".join([card.table(records), *card.differences(records)]))
     if args.quick and any(r["loss"][1] >= r["loss"][0] for r in records):
         raise SystemExit("the loss did not fall")

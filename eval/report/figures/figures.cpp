@@ -45,6 +45,7 @@ std::vector<fs::path> draw_figures(const StudySummary& summary, const fs::path& 
   if (auto by_class = class_figure(summary, layout)) sheets.push_back(std::move(*by_class));
   sheets.push_back(precision_recall_figure(summary, layout));
   sheets.push_back(reliability_figure(summary, layout));
+  if (auto pixels = pixel_reliability_figure(summary, layout)) sheets.push_back(std::move(*pixels));
   std::vector<fs::path> pictures;
   for (const FigureSheet& sheet : sheets)
     for (fs::path& file : draw(sheet, folder)) pictures.push_back(std::move(file));

@@ -71,4 +71,9 @@ namespace mapscore::eval {
 [[nodiscard]] FigureSheet reliability_figure(const StudySummary& summary,
                                              const StudyLayout& layout);
 
+/// pixel_reliability: the same of a network's pixels, background too, a line for what is swept from
+/// the third axis on; nothing where no network says how sure it is.
+[[nodiscard]] std::optional<FigureSheet> pixel_reliability_figure(const StudySummary& summary,
+                                                                  const StudyLayout& layout);
+
 }  // namespace mapscore::eval
