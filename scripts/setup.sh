@@ -6,7 +6,8 @@
 # unpacked below build/deps. Does nothing when all is there. Needs root only to install packages.
 #
 #   scripts/setup.sh           what building, the demo and the tests need
-#   scripts/setup.sh --ci      and clang-format, for the format check, and what trains networks
+#   scripts/setup.sh --train   and what trains networks
+#   scripts/setup.sh --ci      and that, and clang-format, for the format check
 
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -19,7 +20,8 @@ packages=(
   gnuplot-nox fonts-dejavu-core
   python3 python3-pip python3-numpy python3-scipy python3-yaml python3-pil sqlite3
 )
-[ "${1:-}" = --ci ] && packages+=(clang-format python3-torch python3-onnx python3-opencv)
+case "${1:-}" in --train | --ci) packages+=(python3-torch python3-onnx python3-opencv) ;; esac
+case "${1:-}" in --ci) packages+=(clang-format) ;; esac
 
 mujoco_version=4.0.1
 mujoco_folder=build/deps/mujoco-$mujoco_version
