@@ -31,17 +31,41 @@ double scale_of(std::string_view key, std::string_view unit) {
   return unit == "mm" && key.ends_with("_m") ? 1000.0 : 1.0;
 }
 
-/// Values as a figure names them: a file by its name without folder and extension, where that tells
-/// all files of `among` apart.
+/// The name of a file without folder and extension; other texts as they are.
+std::string stem_of(const std::string& value) {
+  return value.find('/') == value.npos ? value : std::filesystem::path(value).stem().string();
+}
+
+/// How many characters from the last "_" on all names end in that are not their whole.
+std::size_t common_ending(const std::set<std::string>& names) {
+  const std::string& first = *names.begin();
+  const std::size_t from = first.rfind('_');
+  const auto ends_so = [&](const std::string& name) {
+    return name.ends_with(first.substr(from)) && name.size() > first.size() - from;
+  };
+  return from != first.npos && std::ranges::all_of(names, ends_so) ? first.size() - from : 0;
+}
+
+/// Values as a figure names them: a file by its name without folder, extension and what all names
+/// end in, where that tells all files of `among` apart.
 std::vector<std::string> short_names(const std::vector<std::string>& values,
                                      const std::vector<std::string>& among) {
-  const auto stem = [](const std::string& value) {
-    return value.find('/') == value.npos ? value : std::filesystem::path(value).stem().string();
-  };
-  std::set<std::string> files(among.begin(), among.end()), stems;
-  for (const std::string& file : files) stems.insert(stem(file));
-  std::vector<std::string> names = values;
-  if (stems.size() == files.size()) std::ranges::transform(names, names.begin(), stem);
+  const std::set<std::string> files(among.begin(), among.end());
+  std::set<std::string> stems;
+  for (const std::string& file : files) stems.insert(stem_of(file));
+  if (stems.size() < files.size() || stems == files) return values;
+  std::size_t dropped = 0;
+  for (std::size_t more = 1; stems.size() > 1 && (more = common_ending(stems)) > 0;) {
+    std::set<std::string> shorter;
+    for (const std::string& stem : stems) shorter.insert(stem.substr(0, stem.size() - more));
+    stems = std::move(shorter);
+    dropped += more;
+  }
+  std::vector<std::string> names;
+  for (const std::string& value : values) {
+    names.push_back(stem_of(value));
+    names.back().resize(names.back().size() - dropped);
+  }
   return names;
 }
 

@@ -59,6 +59,7 @@ LineDigest::LineDigest(ResultLine& line, const ClassTable& table,
   const ClassCounts all = pool_detected(line.pooled, table);
   add_counts(pooled_, all);
   pooled_.curve = all.curve;
+  pooled_.labels = all.labels;
 }
 
 LineDigest::Group LineDigest::formed(const std::string& name, const std::vector<Metric>& pooled,

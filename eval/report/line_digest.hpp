@@ -32,7 +32,7 @@ class LineDigest {
                                                  const std::string& metric) const;
   /// As metrics_of_group of the line's pooled counts; nothing for another group.
   [[nodiscard]] std::optional<std::vector<Metric>> pooled_metrics(std::string_view group) const;
-  /// Of the detected classes together, over all seeds; plain counts and curve alone.
+  /// Of the detected classes together, over all seeds; plain counts, curve and labels alone.
   [[nodiscard]] const ClassCounts& pooled() const { return pooled_; }
 
  private:

@@ -339,9 +339,13 @@ TEST(FigureAxis, FilesGoByTheirNamesWhereTheseTellThemApart) {
   const std::string path = "perception.network.model";
   Study study;
   study.perception = NetworkPerception{};
-  study.sweep = {{path, {"../a/fcn.onnx", "../a/rgb_d.onnx"}}};
+  study.sweep = {{path, {"../a/fcn_13_0.onnx", "../a/rgb_d_13_0.onnx"}}};
   EXPECT_THAT(figure_axis(study, study.sweep[0]).values, ElementsAre("fcn", "rgb d"));
-  EXPECT_THAT(figure_axis(study, {path, {"../a/fcn.onnx"}}).values, ElementsAre("fcn"));
+  EXPECT_THAT(figure_axis(study, {path, {"../a/fcn_13_0.onnx"}}).values, ElementsAre("fcn"));
+  EXPECT_THAT(figure_axis(Study(study), {"faults.labels.preset", {"x_0", "y_0"}}).values,
+              ElementsAre("x 0", "y 0"));
+  study.sweep = {{path, {"a/fcn_0.onnx"}}};
+  EXPECT_THAT(figure_axis(study, study.sweep[0]).values, ElementsAre("fcn 0"));
   study.sweep = {{path, {"a/fcn.onnx", "b/fcn.onnx"}}};
   EXPECT_THAT(figure_axis(study, {path, {"b/fcn.onnx"}}).values, ElementsAre("b/fcn.onnx"));
 }
