@@ -280,7 +280,9 @@ void add_score(CLI::App& program) {
       "  mapscore score map.ot --truth /data/apartment --picture errors.png --view 4 1 2 5 3 0.8\n"
       "  mapscore score cloud.pcd --transform '1 0 0 0 0 0.7071068 0.7071068' --truth /data/home\n"
       "  mapscore score cloud.ply --align --truth /data/home\n"
-      "  mapscore score predicted_labels/ --truth /data/apartment --frames 0:50");
+      "  mapscore score predicted_labels/ --truth /data/apartment --frames 0:50\n"
+      "  mapscore score results/x/networks/HASH --legend results/x/networks/HASH/classes.yaml "
+      "--truth /data/home");
 }
 
 }  // namespace mapscore::eval

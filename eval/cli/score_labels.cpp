@@ -3,9 +3,12 @@
 
 #include "core/error.hpp"
 #include "eval/cli/score_flags.hpp"
+#include "eval/foreign/label_classes.hpp"
+#include "eval/foreign/network_labels.hpp"
 #include "eval/report/pictures/caption.hpp"
 #include "eval/report/pictures/label_errors.hpp"
 #include "eval/score/label_images.hpp"
+#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 
@@ -18,11 +21,23 @@
 namespace mapscore::eval {
 namespace {
 
+/// What a class file says of labels; others but 0 have no meaning.
+LabelLegend legend_of_classes(const std::filesystem::path& file, const ClassTable& table) {
+  const LabelClasses classes = read_label_classes(file, ClassMasks::components);
+  return [listed = classes.class_of_value(ClassMasks::components),
+          meaning = classes_of_values(classes, file, ClassMasks::components, table)](
+             std::uint16_t id) -> std::optional<ClassId> {
+    if (id != 0 && listed[id] == kBackground) return std::nullopt;
+    return meaning[id];
+  };
+}
+
 LabelLegend legend_of(const ScoreFlags& flags, const ClassTable& table) {
   const LabelLegend own = class_id_legend(table);
-  if (flags.map.legend.empty()) return own;
-  return [own, legend = read_legend(flags.map.legend, table)](
-             std::uint16_t id) -> std::optional<ClassId> {
+  const std::string& file = flags.map.legend;
+  if (file.empty()) return own;
+  if (load_yaml(file).has("classes")) return legend_of_classes(file, table);
+  return [own, legend = read_legend(file, table)](std::uint16_t id) -> std::optional<ClassId> {
     const auto found = legend.ids.find(id);
     return found == legend.ids.end() ? own(id) : std::optional(found->second);
   };

@@ -63,6 +63,22 @@ TEST_F(NetworkInTheLoop, GivesTheRowsOfItsLabelImages) {
     EXPECT_THAT(tidy("results"), HasSubstr(metric));
 }
 
+TEST_F(NetworkInTheLoop, ScoreReadsItsFolderByItsClassFile) {
+  expect_done(sweep("results", {"-q"}));
+  const std::string folder = inferred("results");
+  const auto score = [&] {
+    return mapscore({"score", folder, "--truth", path("tiny"), "--detect", "crate", "--tidy",
+                     "--legend", folder + "/classes.yaml"});
+  };
+  const Outcome scored = score();
+  expect_done(scored);
+  const std::string rows = tidy("results"), key = ",crate,label_iou,";
+  const std::size_t at = rows.find(key) + key.size();
+  EXPECT_THAT(scored.out, HasSubstr("crate,iou," + rows.substr(at, rows.find('\n', at) - at)));
+  write_text(folder + "/classes.yaml", "classes: [{name: crate, label: 9}]\n");
+  expect_refused(score(), {"no class", "1"});
+}
+
 TEST_F(NetworkInTheLoop, TenDosesInferEachFrameOnceAndASecondSweepNone) {
   const std::string doses =
       "sweep={faults.misregistration.magnitude_m: [0, 1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3, 7e-3, "
