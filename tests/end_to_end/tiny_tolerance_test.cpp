@@ -38,6 +38,11 @@ TEST_F(TinyTolerance, SearchesEachMethodAndRepeatsForNothing) {
     EXPECT_TRUE(std::filesystem::exists(folder() / "figures" / file)) << file;
 }
 
+TEST_F(TinyTolerance, PrintFlagsWithoutAFigureAreRefused) {
+  expect_refused(mapscore({"tolerance", study(), "-o", results(), "--grey"}),
+                 {"--grey", "--figure"});
+}
+
 TEST_F(TinyTolerance, MakesTheTrialsOfTheStudyAndNoCeilings) {
   expect_done(mapscore({"tolerance", study(), "-o", results(), "-q"}));
   const Outcome info = mapscore({"info", results()});

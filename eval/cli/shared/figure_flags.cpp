@@ -13,17 +13,18 @@
 namespace mapscore::eval {
 
 void FigureFlags::add_to(CLI::App& verb) {
-  verb.add_option("--width_mm", style_.width_mm,
-                  "Width of every figure in print, 60 to 400 [as its panels need]")
-      ->group("Figures");
-  verb.add_option("--font", font_, fmt::format("Font of the figures [{}]", style_.font))
-      ->group("Figures");
-  auto* no_caption =
-      verb.add_flag("--no_caption", no_caption_, "Nothing below the legend")->group("Figures");
+  CLI::Option* flags[] = {
+      verb.add_option("--width_mm", style_.width_mm,
+                      "Width of every figure in print, 60 to 400 [as its panels need]"),
+      verb.add_option("--font", font_, fmt::format("Font of the figures [{}]", style_.font)),
+      verb.add_flag("--no_caption", no_caption_, "Nothing below the legend"),
+      verb.add_flag("--grey", style_.grey, "No colours; line styles, marks and patterns instead")};
+  for (CLI::Option* flag : flags) {
+    flag->group("Figures");
+    if (auto* figure = verb.get_option_no_throw("--figure")) flag->needs(figure);
+  }
   if (auto* interim = verb.get_option_no_throw("--interim"))
-    no_caption->excludes(interim);  // which the caption tells
-  verb.add_flag("--grey", style_.grey, "No colours; line styles, marks and patterns instead")
-      ->group("Figures");
+    verb.get_option("--no_caption")->excludes(interim);  // which the caption tells
 }
 
 FigureStyle FigureFlags::style() const {
