@@ -174,6 +174,7 @@ ChosenTrial trial_of_store(const RunFlags& flags) {
   auto stored = store.find(task.key);
   auto [of_scene, recording] =
       scene_of(record, file.parent_path(), scene_of(record.study, listed.spec.cell));
+  check_inputs(record, of_scene.study);
   listed.spec.cell.doses = doses_of_scene(record.study, listed.spec.cell.doses);
   record = std::move(of_scene);
   return {

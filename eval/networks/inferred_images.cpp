@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr int kInferredVersion = 1;
 
 constexpr const char *kClassFile = "classes.yaml", *kScoreFile = "scores.csv",
-                     *kConfidenceFolder = "confidence";
+                     *kConfidenceFolder = "confidence", *kDescription = "network.txt";
 
 /// OpenCV works on one core while it exists: the frames are shared out instead.
 class OneCore {
@@ -209,6 +209,32 @@ std::string decided_by(const NetworkModel& network, const Recording& recording) 
                      CV_VERSION);
 }
 
+/// Where the label images of a network and a recording are kept.
+NetworkImages kept_images(const NetworkModel& network, const Recording& recording,
+                          const fs::path& results) {
+  const fs::path folder = results / kNetworksFolder / hash_of(decided_by(network, recording));
+  return {folder, folder / kClassFile, ClassMasks::components, folder / kScoreFile,
+          folder / kConfidenceFolder};
+}
+
+/// Names the network, what decided its images, and a hash of all that are kept.
+std::string description_of(const NetworkModel& network, const Recording& recording,
+                           const NetworkImages& images) {
+  return fmt::format("{}\n{}images {}\n", shown(network.model.filename()),
+                     decided_by(network, recording), hash_of(content_of(images)));
+}
+
+bool are_whole(const NetworkModel& network, const Recording& recording,
+               const NetworkImages& images) {
+  try {
+    const std::string text = read_file(images.folder / kDescription);
+    return text.substr(text.find('\n')) ==
+           description_of(network, recording, images).substr(text.find('\n'));
+  } catch (const std::exception&) {  // a file is missing or unreadable
+    return false;
+  }
+}
+
 }  // namespace
 
 void check_network(const NetworkModel& network, const Recording& recording) {
@@ -224,20 +250,27 @@ NetworkImages inferred_images(const NetworkModel& network, const Recording& reco
                               const std::function<void(int, int)>& progress) {
   if (results.empty())
     refuse(network.model, "no folder of results is known to keep its label images in; sweep first");
-  const std::string decided = decided_by(network, recording);
-  const fs::path networks = results / kNetworksFolder, folder = networks / hash_of(decided);
-  NetworkImages images{folder, folder / kClassFile, ClassMasks::components, folder / kScoreFile,
-                       folder / kConfidenceFolder};
-  if (fs::exists(folder)) return images;
-  const FolderLock lock(networks);  // of several processes one infers, the others wait
-  if (fs::exists(folder)) return images;
+  const NetworkImages images = kept_images(network, recording, results);
+  if (fs::exists(images.folder)) return images;
+  const FolderLock lock(results / kNetworksFolder);  // of several one infers, the others wait
+  if (fs::exists(images.folder)) return images;
   check_network(network, recording);
-  WholeFolder whole(folder);
-  Inference(network, recording, whole.partial()).run(jobs, progress);
-  write_file(whole.partial() / "network.txt",
-             fmt::format("{}\n{}", shown(network.model.filename()), decided));
+  WholeFolder whole(images.folder);
+  const fs::path& partial = whole.partial();
+  Inference(network, recording, partial).run(jobs, progress);
+  const NetworkImages written{partial, partial / kClassFile, ClassMasks::components,
+                              partial / kScoreFile, partial / kConfidenceFolder};
+  write_file(partial / kDescription, description_of(network, recording, written));
   whole.finish();
   return images;
+}
+
+void remove_damaged_images(const NetworkModel& network, const Recording& recording,
+                           const fs::path& results) {
+  const NetworkImages images = kept_images(network, recording, results);
+  if (!fs::exists(images.folder) || are_whole(network, recording, images)) return;
+  const FolderLock lock(results / kNetworksFolder);
+  if (!are_whole(network, recording, images)) fs::remove_all(images.folder);
 }
 
 }  // namespace mapscore::eval

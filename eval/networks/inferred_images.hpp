@@ -31,4 +31,9 @@ void check_network(const NetworkModel& network, const Recording& recording);
                                             const std::filesystem::path& results, int jobs = 1,
                                             const std::function<void(int, int)>& progress = {});
 
+/// Removes what inferred_images keeps of this network and recording where it is not as it was
+/// written, so that it is inferred anew.
+void remove_damaged_images(const NetworkModel& network, const Recording& recording,
+                           const std::filesystem::path& results);
+
 }  // namespace mapscore::eval

@@ -34,6 +34,13 @@ std::string reason_of(const cv::Exception& error) {
     return fmt::format("it has no operator {}",
                        shown(text.substr(name, text.find('"', name) - name)));
   }
+  constexpr std::string_view kNode = "Node [";  // of ONNX: "Node [Clip@ai.onnx]:(name) parse error"
+  if (const std::size_t node = text.find(kNode);
+      node != text.npos && text.find("parse error", node) != text.npos) {
+    const std::size_t name = node + kNode.size();
+    return fmt::format("it does not read operator {} in this form",
+                       shown(text.substr(name, text.find_first_of("@]", name) - name)));
+  }
   std::string line;
   for (const char letter : text) line += letter == '\n' || letter == '>' ? ' ' : letter;
   const std::size_t first = line.find_first_not_of(' ');
@@ -87,16 +94,22 @@ Segmented greatest(const cv::Mat& values, NetworkOutput kind) {
   return found;
 }
 
-/// Whether all channels lie in 0..1 and add up to 1 at every pixel.
+constexpr double kUnitSlack = 1e-3;
+
+/// Whether all channels lie in 0..1 at every pixel.
+bool are_in_unit(const cv::Mat& output) {
+  for (int channel = 0; channel < output.size[1]; ++channel)
+    if (!cv::checkRange(plane(output, channel), true, nullptr, -kUnitSlack, 1.0 + kUnitSlack))
+      return false;
+  return true;
+}
+
+/// Whether they add up to 1, too.
 bool are_probabilities(const cv::Mat& output) {
-  constexpr double kSlack = 1e-3;
   cv::Mat1f sum = cv::Mat1f::zeros(output.size[2], output.size[3]);
-  for (int channel = 0; channel < output.size[1]; ++channel) {
-    const cv::Mat1f values = plane(output, channel);
-    if (!cv::checkRange(values, true, nullptr, -kSlack, 1.0 + kSlack)) return false;
-    sum += values;
-  }
-  return cv::checkRange(sum, true, nullptr, 1.0 - kSlack, 1.0 + kSlack);
+  for (int channel = 0; channel < output.size[1]; ++channel) sum += plane(output, channel);
+  return are_in_unit(output) &&
+         cv::checkRange(sum, true, nullptr, 1.0 - kUnitSlack, 1.0 + kUnitSlack);
 }
 
 }  // namespace
@@ -221,6 +234,13 @@ cv::Mat SegmentationNetwork::input_of(const cv::Mat3b& color, const cv::Mat1f& d
 void SegmentationNetwork::check_kind(const cv::Mat& output, const std::string& name) const {
   const bool said = network_.output == NetworkOutput::probabilities;
   if (said == are_probabilities(output)) return;
+  if (said && are_in_unit(output))
+    refuse(
+        network_.model,
+        "its output for {} lies in 0..1 and does not add up to 1, as of a sigmoid for each class; "
+        "end it with a softmax, or export what goes into the sigmoid and write "
+        "perception.network.output: logits",
+        name);
   refuse(network_.model,
          "its output for {} is {} probabilities that add up to 1; write "
          "perception.network.output: {}",

@@ -46,8 +46,8 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
     caption.emplace_back("PQ: of instances; a predicted one is a connected piece of one class");
   if (study.score.asked.labels)
     caption.emplace_back(
-        "2D: of detections in the image; IoU and accuracy of pixels (pooled: of background too), "
-        "recall of instances");
+        "2D: of detections in the image; IoU, accuracy, boundary F and ECE of pixels (pooled and "
+        "macro: of background too), recall and PQ of instances");
   return caption;
 }
 

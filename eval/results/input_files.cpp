@@ -15,7 +15,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 #include <variant>
 
 namespace mapscore::eval {
@@ -52,6 +54,15 @@ NetworkModel network_model(const Study& config, const NetworkPerception& setting
           .mean = settings.mean,
           .std = settings.std,
           .output = settings.output};
+}
+
+/// The class file of a configuration's network or label images, and how these are cut.
+std::optional<std::pair<std::filesystem::path, ClassMasks>> class_file(const Study& config) {
+  if (const auto* images = std::get_if<ImagePerception>(&config.perception))
+    return std::pair(resolve_path(config, images->classes.value()), images->masks);
+  if (const auto* network = std::get_if<NetworkPerception>(&config.perception))
+    return std::pair(resolve_path(config, network->classes.value()), ClassMasks::components);
+  return std::nullopt;
 }
 
 /// Calls act(config) for the study, or for each cell of a sweep over what names files.
@@ -144,12 +155,13 @@ std::optional<NetworkImages> network_images(const Study& config, const Recording
   return inferred_images(network_model(config, *network), recording, recording.results());
 }
 
-void check_input_files(const Study& study) {
+InputFiles::Hashes check_input_files(const Study& study) {
   InputFiles files;
   for_each_input(study, [&](const Study& config) {
     static_cast<void>(files.poses(config));
     static_cast<void>(files.perceived(config));
   });
+  return files.hashes();
 }
 
 void check_network_labels(const Study& study, const Recording& recording) {
@@ -164,12 +176,36 @@ void check_network_labels(const Study& study, const Recording& recording) {
   for (const NetworkModel& network : networks_of(study)) check_network(network, recording);
 }
 
+std::string note_on_labels(const Study& study, const Recording& recording) {
+  std::map<std::filesystem::path, std::string> unnamed;  // by class file
+  for_each_input(study, [&](const Study& config) {
+    const auto file = class_file(config);
+    if (!file) return;
+    const auto [path, masks] = *file;
+    const ClassTable table = detected_table(config, recording.info().table);
+    const std::vector<ClassId> named =
+        classes_of_values(read_label_classes(path, masks), path, masks, table);
+    std::string& names = unnamed[path];
+    names.clear();
+    for (const SemanticClass& c : table.classes)
+      if (c.detect && c.id != kBackground && std::ranges::find(named, c.id) == named.end())
+        names += (names.empty() ? "" : ", ") + c.name;
+  });
+  std::string note;
+  for (const auto& [path, names] : unnamed)
+    if (!names.empty())
+      note += fmt::format("{}{} has no label for {}: with it, these detected classes are never found",
+                          note.empty() ? "" : "; ", shown(path), names);
+  return note;
+}
+
 void infer_networks(const Study& study, const Recording& recording, int jobs,
                     const std::function<void(int, int)>& progress) {
   const std::vector<NetworkModel> networks = networks_of(study);
   int before = 0;
   const int all = static_cast<int>(networks.size()) * recording.frame_count();
   for (const NetworkModel& network : networks) {
+    remove_damaged_images(network, recording, recording.results());
     static_cast<void>(
         inferred_images(network, recording, recording.results(), jobs, [&](int done, int) {
           if (progress) progress(before + done, all);

@@ -60,18 +60,22 @@ class InputFiles {
 [[nodiscard]] std::optional<NetworkImages> network_images(const Study& config,
                                                           const Recording& recording);
 
-/// Reads the files that poses and detections of a study come from, at every point of its grid.
-/// Throws Error naming the file when one is refused.
-void check_input_files(const Study& study);
+/// Reads the files that poses and detections of a study come from, at every point of its grid, and
+/// returns their hashes. Throws Error naming the file when one is refused.
+InputFiles::Hashes check_input_files(const Study& study);
 
 /// Reads the label images of the networks of a study, at every point of its grid, as those of a
 /// recording, and loads the networks that are to run. Throws Error as NetworkLabels::check and
 /// check_network.
 void check_network_labels(const Study& study, const Recording& recording);
 
+/// What the user may want to know: detected classes of the recording that no label of a network's
+/// class file names, so that they are never found with it; empty where all are named.
+[[nodiscard]] std::string note_on_labels(const Study& study, const Recording& recording);
+
 /// Runs the networks of a study, at every point of its grid, over a recording, where nobody did
-/// before, on `jobs` threads; `progress(done, all)` counts the frames of all. Throws Error as
-/// inferred_images.
+/// before, or where what they gave is not as it was written, on `jobs` threads; `progress(done,
+/// all)` counts the frames of all. Throws Error as inferred_images.
 void infer_networks(const Study& study, const Recording& recording, int jobs,
                     const std::function<void(int, int)>& progress);
 

@@ -223,6 +223,16 @@ StudyRecord read_study(const ResultStore& store, const std::filesystem::path& fo
               error.what() + "); sweep again into another folder");
 }
 
+void check_inputs(const StudyRecord& record, const Study& study) {
+  if (!record.inputs) return;
+  for (const auto& [name, hash] : check_input_files(study)) {
+    const auto swept = record.inputs->find(name);
+    if (swept != record.inputs->end() && swept->second != hash)
+      throw Error(fmt::format("{}: is not as it was when it was swept; sweep again",
+                              shown(name.substr(0, name.find('\n')))));
+  }
+}
+
 Recording recording_of(const StudyRecord& record, const std::filesystem::path& folder,
                        const std::string& scene) {
   const bool only = record.scenes.empty();

@@ -54,6 +54,10 @@ void write_study(ResultStore& store, const StudyRecord& record,
 /// Throws Error when the store holds none.
 [[nodiscard]] StudyRecord read_study(const ResultStore& store, const std::filesystem::path& folder);
 
+/// Throws Error where a file that poses or detections of `study` come from is not as it was when
+/// the hashes of `record` were taken; `study` is the record's, or that of one of its scenes.
+void check_inputs(const StudyRecord& record, const Study& study);
+
 /// The recording that the record's trials were made on; `folder` is the store's. Throws Error when
 /// it is not there, or is another one now, or there is none of the scene.
 [[nodiscard]] Recording recording_of(const StudyRecord& record, const std::filesystem::path& folder,

@@ -35,9 +35,9 @@ def waypoints_of(home):
 def run(command, folder):
     """Runs `mapscore record`; a failure ends in what it said."""
     done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
+    if done.returncode or not (folder / "recording.yaml").exists():
         shutil.rmtree(folder, ignore_errors=True)
-        raise SystemExit(f"{' '.join(map(str, command))}\n{done.stderr.strip()}")
+        raise SystemExit(f"{' '.join(map(str, command))}\n{done.stderr.strip() or 'made no recording'}")
 
 
 def varied(program, home, seed, frames, folder):

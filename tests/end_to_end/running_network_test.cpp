@@ -157,6 +157,50 @@ TEST_F(NetworkInTheLoop, ResultsAreReadAfterTheyAreMoved) {
   expect_done(mapscore({"figures", path("there/results")}));
 }
 
+TEST_F(NetworkInTheLoop, DamagedImagesAreInferredAnew) {
+  expect_done(sweep("whole", {"-q", "--set", "seeds=3"}));
+  const auto expect_mended = [&](const char* file, const std::string& bytes) {
+    fs::remove_all(results());
+    expect_done(sweep("results", {"-q"}));
+    write_text(inferred("results") / file, bytes);
+    const Outcome again = sweep("results", {"--set", "seeds=3"});
+    expect_done(again);
+    EXPECT_THAT(again.err, HasSubstr("networks 4/4 frames")) << file;
+    EXPECT_EQ(tidy("results"), tidy("whole"));
+    EXPECT_EQ(contents_of(results() + "/networks"), contents_of(path("whole/networks")));
+  };
+  const fs::path of_whole = inferred("whole");
+  expect_mended("000002.png", bytes_of(of_whole / "000003.png"));
+  expect_mended("confidence/000001.png", "");
+  expect_mended("scores.csv", "image,u,v,score\n");
+  expect_mended("network.txt", "");
+}
+
+TEST_F(NetworkInTheLoop, AModelThatChangedIsNotTakenForTheOneThatWasSwept) {
+  write_text(path("mine.onnx"), bytes_of(model("crate")));
+  perceive("{network: {model: mine.onnx, classes: classes.yaml}}");
+  expect_done(sweep("results", {"-q"}));
+  const std::string trials = mapscore({"trials", results(), "--format", "csv"}).out;
+  const std::string key = trials.substr(trials.find('\n') + 1, 12);
+  expect_done(mapscore({"run", results(), "--trial", key, "-q"}));
+  write_text(path("mine.onnx"), bytes_of(model("crate_half_size")));
+  expect_refused(mapscore({"run", results(), "--trial", key, "-q"}),
+                 {"network mine.onnx", "not as it was", "sweep again"});
+  const Outcome figures = mapscore({"figures", results()});
+  EXPECT_EQ(figures.exit_code, 2);
+  EXPECT_THAT(figures.err, HasSubstr("network mine.onnx"));
+  expect_done(sweep("results", {"-q"}));
+  expect_done(mapscore({"figures", results()}));
+}
+
+TEST_F(NetworkInTheLoop, DetectedClassesWithoutALabelAreNamed) {
+  write_text(path("classes.yaml"),
+             "classes: [{name: wall, label: 1}, {name: crate, label: 2, detect: false}]\n");
+  const Outcome swept = sweep("results", {});
+  expect_done(swept);
+  EXPECT_THAT(swept.err, HasSubstr("classes.yaml has no label for crate"));
+}
+
 TEST_F(NetworkInTheLoop, WhatDoesNotFitEndsTheSweepInOneLine) {
   const auto refused = [&](const std::string& file, const std::vector<std::string>& parts) {
     expect_refused(sweep("results", {"-q", "--set", "perception.network.model=" + file}), parts);
@@ -168,6 +212,7 @@ TEST_F(NetworkInTheLoop, WhatDoesNotFitEndsTheSweepInOneLine) {
   refused(model("nan_weights"), {"'kernel'", "not finite"});
   refused(model("overflowing"), {"000000.png", "not of finite numbers"});
   refused(model("unknown_operator"), {"no operator Det"});
+  refused(model("relu6"), {"does not read operator Clip in this form"});
   refused(model("crate_softmax"), {"perception.network.output: probabilities"});
   write_text(path("cut.onnx"), bytes_of(model("crate")).substr(0, 150));
   refused("cut.onnx", {"cut.onnx", "cut short"});

@@ -52,6 +52,10 @@ convolution("crate_any_size", CRATE, BACKGROUND, [1, 3, "height", "width"])
 convolution("near", with_column([[0, 0, 0]] * 3, [-8, -1, 1]), [2, 2, -2], [1, 4, 48, 64])
 softmax = helper.make_node("Softmax", ["scores"], ["logits"], axis=1)
 convolution("crate_softmax", CRATE, BACKGROUND, tiny, [softmax], opset=13)
+convolution("crate_sigmoid", CRATE, BACKGROUND, tiny, [helper.make_node("Sigmoid", ["scores"], ["logits"])])
+bounds = [helper.make_node("Constant", [], [name], value=numpy_helper.from_array(np.float32(value)))
+          for name, value in (("low", 0), ("high", 6))]
+save("relu6", [*bounds, helper.make_node("Clip", ["image", "low", "high"], ["logits"])], tiny, tiny)
 
 convolution("wide", CRATE, BACKGROUND, [1, 3, 48, 96])
 convolution("five_channels", with_column(with_column(CRATE, [0] * 3), [0] * 3), BACKGROUND, [1, 5, 48, 64])

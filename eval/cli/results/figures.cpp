@@ -72,6 +72,7 @@ void draw_scene(const StudyRecord& all, const std::string& scene, const std::str
   }
   const auto [record, recording] = scene_of(all, store, scene);
   const Study& study = record.study;
+  check_inputs(all, study);
   const ClassTable& table = record.table;
   const Recording& drawn = recording;
   fs::create_directories(folder);

@@ -66,7 +66,8 @@ Recording shown_recording(const char* verb, const Study& study,
   ShownRecording display(quiet);
   Recording recording = recording_of(study, results, jobs, display.progress());
   for (const std::string& note :
-       {note_on_baked(recording.info()), note_on_scene(study, recording.info())})
+       {note_on_baked(recording.info()), note_on_scene(study, recording.info()),
+        note_on_labels(study, recording)})
     if (!note.empty()) std::cerr << verb << ": " << note << '\n';
   return recording;
 }

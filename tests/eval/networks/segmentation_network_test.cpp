@@ -149,6 +149,17 @@ TEST(SegmentationNetworkOfAFile, OfHalfTheSizeSeesASmallerImageAndItsLogitsAreWi
   });
 }
 
+TEST(SegmentationNetworkOfAFile, ASigmoidForEachClassIsNamed) {
+  SegmentationNetwork sigmoid({.model = tiny_network("crate_sigmoid"),
+                               .classes = {},
+                               .output = NetworkOutput::probabilities},
+                              kTiny);
+  EXPECT_THAT(
+      refusal_of([&] { (void)sigmoid.segment(random_colours(7), {}, "image 7"); }),
+      HasSubstr("crate_sigmoid.onnx: its output for image 7 lies in 0..1 and does not add up "
+                "to 1, as of a sigmoid for each class; end it with a softmax"));
+}
+
 TEST(SegmentationNetworkOfAFile, ProbabilitiesAreTakenAsTheyAre) {
   const cv::Mat3b image = random_colours(6);
   SegmentationNetwork logits({tiny_network("crate"), {}}, kTiny);
