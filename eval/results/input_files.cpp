@@ -194,8 +194,9 @@ std::string note_on_labels(const Study& study, const Recording& recording) {
   std::string note;
   for (const auto& [path, names] : unnamed)
     if (!names.empty())
-      note += fmt::format("{}{} has no label for {}: with it, these detected classes are never found",
-                          note.empty() ? "" : "; ", shown(path), names);
+      note +=
+          fmt::format("{}{} has no label for {}: with it, these detected classes are never found",
+                      note.empty() ? "" : "; ", shown(path), names);
   return note;
 }
 
