@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 the mapscore authors
 # SPDX-License-Identifier: MIT
 #
-# Installs what mapscore stands on: Debian packages that are missing, and MuJoCo's pinned release, which is
-# unpacked below build/deps. Does nothing when all is there. Needs root only to install packages.
+# Installs what mapscore stands on: Debian packages that are missing, and the pinned releases of MuJoCo and
+# small_gicp, which are unpacked below build/deps. Does nothing when all is there. Needs root only to install
+# packages.
 #
 #   scripts/setup.sh           what building, the demo and the tests need
 #   scripts/setup.sh --train   and what trains networks
@@ -16,7 +17,7 @@ packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev libopencv-dev liboctomap-dev libnanoflann-dev libyaml-cpp-dev libcli11-dev
   libfmt-dev libsqlite3-dev nlohmann-json3-dev libsimdjson-dev libxxhash-dev libdeflate-dev liblzf-dev
-  libosmesa6-dev libboost-dev libgtest-dev libgmock-dev libbenchmark-dev
+  libosmesa6-dev libboost-dev libceres-dev libgtest-dev libgmock-dev libbenchmark-dev
   gnuplot-nox fonts-dejavu-core
   python3 python3-pip python3-numpy python3-scipy python3-yaml python3-pil sqlite3
 )
@@ -29,6 +30,9 @@ declare -A mujoco_sha256=(
   [x86_64]=be28c0c7587347ef996b4de0487264e9da296282082b092bae211a9163e9aed6
   [aarch64]=52d934614a56f7d75dcfc2bd8bb72f058b465ecc19a0583a56df242f9505bdb6
 )
+small_gicp_version=1.0.1
+small_gicp_folder=build/deps/small_gicp-$small_gicp_version
+small_gicp_sha256=e0b1a03a87da154b53b489cce7079b5be02ba17723f89c4161f8311b564ca0b1
 
 say() { printf 'setup: %s\n' "$*" >&2; }
 
@@ -105,5 +109,28 @@ PYTHON
   mv "$mujoco_folder.partial" "$mujoco_folder"
 }
 
+# The source distribution carries the C++ headers, which is all that is used of it.
+install_small_gicp() {
+  [ -f "$small_gicp_folder/include/small_gicp/registration/registration.hpp" ] && return
+  say "fetching small_gicp $small_gicp_version into $small_gicp_folder"
+  sdist_folder=$(mktemp -d)
+  trap 'rm -rf "$sdist_folder" "$small_gicp_folder.partial"' EXIT
+  if ! python3 -m pip download --quiet --disable-pip-version-check --no-deps --no-binary=small_gicp \
+    -d "$sdist_folder" "small_gicp==$small_gicp_version"; then
+    say "small_gicp could not be fetched; or unpack its headers into $small_gicp_folder/include yourself"
+    exit 2
+  fi
+  if ! echo "$small_gicp_sha256 $(ls "$sdist_folder"/small_gicp-*.tar.gz)" | sha256sum --check --quiet; then
+    say "the small_gicp archive is not the one this project was tested with; nothing was installed"
+    exit 2
+  fi
+  rm -rf "$small_gicp_folder.partial"
+  mkdir -p "$small_gicp_folder.partial"
+  tar -xzf "$sdist_folder"/small_gicp-*.tar.gz -C "$small_gicp_folder.partial" --strip-components=1 \
+    "small_gicp-$small_gicp_version/include" "small_gicp-$small_gicp_version/LICENSE"
+  mv "$small_gicp_folder.partial" "$small_gicp_folder"
+}
+
 install_packages
 install_mujoco
+install_small_gicp

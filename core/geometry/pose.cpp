@@ -40,6 +40,21 @@ Pose exp_pose(const Vector6& xi) {
   return pose;
 }
 
+Vector6 log_pose(const Pose& pose) {
+  const Eigen::AngleAxisd turn(pose.linear());
+  const Eigen::Vector3d omega = turn.angle() * turn.axis();
+  Vector6 xi;
+  xi << left_jacobian(omega).inverse() * pose.translation(), omega;
+  return xi;
+}
+
+Covariance6 adjoint(const Pose& T) {
+  Covariance6 ad = Covariance6::Zero();
+  ad.topLeftCorner<3, 3>() = ad.bottomRightCorner<3, 3>() = T.linear();
+  ad.topRightCorner<3, 3>() = skew(T.translation()) * T.linear();
+  return ad;
+}
+
 Pose planar_pose(double x_m, double y_m, double yaw_rad) {
   Pose pose = Pose::Identity();
   pose.linear() = exp_rotation(yaw_rad * Eigen::Vector3d::UnitZ());

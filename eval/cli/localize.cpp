@@ -134,8 +134,9 @@ void add_localize(CLI::App& program) {
   verb->add_option("RECORDING", flags->recording, "Folder with odometry.txt and scan/scans.bin")
       ->required();
   verb->add_option("-o,--output", flags->output, "Folder for the results")->required();
-  verb->add_option("--source", flags->source, "particle_filter or odometry")
-      ->check(CLI::IsMember({"particle_filter", "odometry"}))
+  verb->add_option("--source", flags->source,
+                   "particle_filter, odometry, visual_odometry or visual_slam")
+      ->check(CLI::IsMember({"particle_filter", "odometry", "visual_odometry", "visual_slam"}))
       ->capture_default_str();
   verb->add_option("--model", flags->model, "Of a scan: likelihood_field or beam")
       ->check(CLI::IsMember({"likelihood_field", "beam"}))

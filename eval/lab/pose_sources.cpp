@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "eval/lab/map_frame.hpp"
+#include "eval/lab/sights.hpp"
 #include "eval/localization/localization_run.hpp"
 #include "eval/recording/grid_file.hpp"
 #include "eval/truth/floor_grid.hpp"
@@ -34,7 +35,7 @@ void check_logs(const Recording& recording, PoseSource source) {
   throw Error(fmt::format(
       "localization.source: {} needs odometry.txt{}, which {} does not hold; record it with "
       "trajectory.drive: {{wheels: {{}}}}",
-      needs_scans ? "particle_filter" : "odometry", needs_scans ? " and scan/scans.bin" : "",
+      names_of(source)[static_cast<std::size_t>(source)], needs_scans ? " and scan/scans.bin" : "",
       recording.folder().string()));
 }
 
@@ -78,6 +79,10 @@ std::string poses_key(const Task& task) {
   deciding.faults.lidar = task.config.faults.lidar;
   deciding.faults.pose = task.config.faults.pose;
   deciding.faults.time_offset_ms = task.config.faults.time_offset_ms;
+  if (is_visual(task.config.localization.source)) {
+    deciding.faults.depth = task.config.faults.depth;
+    deciding.faults.mount = task.config.faults.mount;
+  }
   return fmt::format("{}\n{}", trial_seed(task), to_key_yaml(deciding));
 }
 
@@ -103,12 +108,27 @@ OccupancyGrid grid_of(const Recording& recording, const Study& config) {
                      .start_m = start.translation().head<2>()});
 }
 
+VisualTrajectory visual_trajectory(const Recording& recording, const Task& task,
+                                   const std::function<void(int, int)>& progress) {
+  const LocalizationSettings& settings = task.config.localization;
+  if (settings.visual.visual.wheels) check_logs(recording, settings.source);
+  const Pose start = recording.T_world_base_of_depth(0);
+  const Pose level =
+      Eigen::Translation3d(0.0, 0.0, start.translation().z()) * spatial(planar(start));
+  return run_visual(recording,
+                    {visual_of(settings), settings.visual.visual,
+                     believed_calibration(recording.info().calibration, task),
+                     task.config.faults.depth.dose(), trial_seed(task)},
+                    level, progress);
+}
+
 BelievedTrajectory believed_trajectory(const Recording& recording, const Task& task,
                                        const OccupancyGrid* grid,
                                        const std::function<void(int, int)>& progress) {
   const LocalizationSettings& settings = task.config.localization;
   if (settings.source == PoseSource::trajectory)
     return read_believed(resolve_path(task.config, settings.trajectory.value()));
+  if (is_visual(settings.source)) return visual_trajectory(recording, task, progress).believed;
   check_logs(recording, settings.source);
   const std::vector<OdometryPose> odometry = recording.read_odometry();
   const Pose start = start_of(recording, odometry);

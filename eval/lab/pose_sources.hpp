@@ -7,6 +7,7 @@
 #include "core/placement/pose_belief.hpp"
 #include "eval/lab/shared_cache.hpp"
 #include "eval/localization/believed_trajectory.hpp"
+#include "eval/localization/visual_run.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/results/plan.hpp"
 
@@ -46,10 +47,16 @@ class PoseSources {
   SharedCache<std::string, std::shared_ptr<const OccupancyGrid>> grids_{kHeld};
 };
 
+/// Visual odometry of a task over a whole recording, in the scene's world, from the true pose at
+/// its start. Throws Error as PoseSources.
+[[nodiscard]] VisualTrajectory visual_trajectory(
+    const Recording& recording, const Task& task,
+    const std::function<void(int, int)>& progress = {});
+
 /// What the robot believes along a whole recording, in the scene's world, as a task's source says:
-/// odometry, particle filter or a file. `grid`: grid_of the task's configuration where it is at
-/// hand, else the filter has it made. `progress(turns done, all)` of the filter. Throws Error as
-/// PoseSources.
+/// odometry, particle filter, depth images or a file. `grid`: grid_of the task's configuration
+/// where it is at hand, else the filter has it made. `progress(turns or images done, all)` of
+/// filter and visual odometry. Throws Error as PoseSources.
 [[nodiscard]] BelievedTrajectory believed_trajectory(
     const Recording& recording, const Task& task, const OccupancyGrid* grid = nullptr,
     const std::function<void(int, int)>& progress = {});

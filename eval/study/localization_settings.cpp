@@ -30,6 +30,20 @@ ParticleFilterSettings resolved_filter(const LocalizationSettings& settings) {
   return filter;
 }
 
+/// Every key that visual odometry looks at.
+VisualOdometrySettings resolved_visual(const LocalizationSettings& settings) {
+  VisualOdometrySettings visual;
+  visual.visual = settings.visual.visual;
+  visual.sampling = Overrides<DepthSampling>::everything(settings.visual.sampling.values);
+  visual.map = Overrides<PlaneMapParams>::everything(settings.visual.map.values);
+  visual.key = Overrides<KeyFrameRule>::everything(settings.visual.key.values);
+  if (settings.source == PoseSource::visual_slam)
+    visual.loops = Overrides<LoopClosure>::everything(settings.visual.loops.values);
+  else
+    visual.visual.corrected = false;
+  return visual;
+}
+
 }  // namespace
 
 double grid_resolution_m(const LocalizationSettings& settings) {
@@ -50,6 +64,16 @@ FilterSettings filter_of(const LocalizationSettings& settings,
   filter.start = settings.filter.spread.values;
   filter.lidar_noise = lidar.dose();
   return filter;
+}
+
+VisualOdometryParams visual_of(const LocalizationSettings& settings) {
+  VisualOdometryParams params{settings.visual.sampling.values,
+                              settings.visual.map.values,
+                              settings.visual.key.values,
+                              settings.odometry_noise.values,
+                              {}};
+  if (settings.source == PoseSource::visual_slam) params.loops = settings.visual.loops.values;
+  return params;
 }
 
 Dosed<sim::LidarNoise> canonical_lidar(const Dosed<sim::LidarNoise>& settings) {
@@ -76,8 +100,10 @@ void resolve_localization(LocalizationSettings& localization, FaultSettings& fau
     localization.trajectory = content;
     return;
   }
+  if (is_visual(source)) localization.visual = resolved_visual(given);
+  if (is_visual(source) && !given.visual.visual.wheels) return;
   localization.odometry_noise = Overrides<OdometryNoise>::everything(given.odometry_noise.values);
-  if (source == PoseSource::odometry) return;
+  if (source != PoseSource::particle_filter) return;
   localization.filter = resolved_filter(given);
   if (given.grid)
     localization.grid = content;

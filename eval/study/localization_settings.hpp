@@ -9,6 +9,7 @@
 #include "core/localization/scan_likelihood.hpp"
 #include "core/parameters.hpp"
 #include "eval/localization/localization_run.hpp"
+#include "eval/localization/visual_run.hpp"
 #include "sim/faults/lidar_noise.hpp"
 
 #include <array>
@@ -24,7 +25,9 @@ enum class PoseSource {
   truth,            ///< the true pose, whatever faults.pose says
   odometry,         ///< dead reckoning by the wheels, from the true pose at the start
   particle_filter,  ///< odometry and lidar on a grid of the home
-  trajectory        ///< a file
+  trajectory,       ///< a file
+  visual_odometry,  ///< depth images, matched with those before, and the wheels
+  visual_slam       ///< the same with loop closure
 };
 
 /// How the particle filter starts: about the true pose, or anywhere on the grid.
@@ -32,8 +35,8 @@ enum class FilterStart { tracking, global };
 
 enum class ScanModelKind { likelihood_field, beam };
 constexpr auto names_of(PoseSource) {
-  return std::to_array<std::string_view>(
-      {"gaussian", "truth", "odometry", "particle_filter", "trajectory"});
+  return std::to_array<std::string_view>({"gaussian", "truth", "odometry", "particle_filter",
+                                          "trajectory", "visual_odometry", "visual_slam"});
 }
 constexpr auto names_of(FilterStart) {
   return std::to_array<std::string_view>({"tracking", "global"});
@@ -63,6 +66,29 @@ struct ParticleFilterSettings {
   bool operator==(const ParticleFilterSettings&) const = default;
 };
 
+/// Visual odometry and SLAM of a study; what is not given is as the core has it.
+struct VisualOdometrySettings {
+  VisualSettings visual;
+  Overrides<DepthSampling> sampling;
+  Overrides<PlaneMapParams> map;
+  Overrides<KeyFrameRule> key;
+  Overrides<LoopClosure> loops;
+
+  static void fields(auto& s, auto&& visit) {
+    VisualSettings::fields(s.visual, visit);
+    Overrides<DepthSampling>::fields(s.sampling, visit);
+    Overrides<PlaneMapParams>::fields(s.map, visit);
+    Overrides<KeyFrameRule>::fields(s.key, visit);
+    Overrides<LoopClosure>::fields(s.loops, visit);
+  }
+  bool operator==(const VisualOdometrySettings&) const = default;
+};
+
+/// Whether the poses come from depth images.
+[[nodiscard]] constexpr bool is_visual(PoseSource source) {
+  return source == PoseSource::visual_odometry || source == PoseSource::visual_slam;
+}
+
 /// Where the robot of a study believes it is.
 struct LocalizationSettings {
   PoseSource source = PoseSource::gaussian;
@@ -71,6 +97,7 @@ struct LocalizationSettings {
   std::optional<double> grid_resolution_m;
   Overrides<OdometryNoise> odometry_noise;
   ParticleFilterSettings filter;
+  VisualOdometrySettings visual;
 
   static void fields(auto& s, auto&& visit) {
     visit(s.source, later({"source",
@@ -90,6 +117,7 @@ struct LocalizationSettings {
           later({"odometry_noise",
                  "of the odometry, as sources odometry and particle_filter believe it"}));
     visit(s.filter, later({"filter", "the particle filter"}));
+    visit(s.visual, later({"visual", "odometry and SLAM by depth images (docs/odometry.md)"}));
   }
   bool operator==(const LocalizationSettings&) const = default;
 };
@@ -100,6 +128,9 @@ struct LocalizationSettings {
 /// The filter of a study, with the lidar's noise.
 [[nodiscard]] FilterSettings filter_of(const LocalizationSettings& settings,
                                        const Dosed<sim::LidarNoise>& lidar);
+
+/// The visual odometry of a study, with loop closure for source visual_slam.
+[[nodiscard]] VisualOdometryParams visual_of(const LocalizationSettings& settings);
 
 /// The noise of the lidar with every key, or none where there is no noise: equal exactly where the
 /// scans are.

@@ -121,7 +121,8 @@ void check_localization(const Study& study, const Blame& blame) {
   if (localization.source == PoseSource::trajectory && !localization.trajectory)
     blame("localization.trajectory", "is missing; write trajectory: FILE, or another source");
   const bool needs_logs = localization.source == PoseSource::odometry ||
-                          localization.source == PoseSource::particle_filter;
+                          localization.source == PoseSource::particle_filter ||
+                          (is_visual(localization.source) && localization.visual.visual.wheels);
   if (needs_logs && !study.recording && !on_wheels(study))
     blame("localization.source",
           "needs the odometry of a drive on wheels; write trajectory: {drive: {wheels: {}}}");

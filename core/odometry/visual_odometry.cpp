@@ -1,0 +1,311 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/odometry/visual_odometry.hpp"
+
+#include "core/error.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace mapscore {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+/// Key frames whose planes the local map keeps, and of how many near ones it is made anew.
+constexpr std::size_t kHorizon = 60, kRebuilt = 60;
+/// A scan after less than both since the last one that counted is matched, but leaves the filter as
+/// it is: from nearly the same place it holds the same errors of the map, which would count twice.
+constexpr double kMatchWay = 0.05, kMatchTurn = 5.0 * kDegree;
+/// Fewer points than these say nothing.
+constexpr std::size_t kLeastPoints = 100;
+/// A frame is tracked when this share of what the last key frame should have seen of it lies on
+/// planes; where less than kLittle should have, nothing can be said.
+constexpr double kLeastSupport = 0.3, kLittle = 0.3;
+/// A scan that moves the prior by more than this (squared, over its covariance) contradicts it, and
+/// the factor that the prior's covariance grows by then.
+constexpr double kContradiction = 50.0, kDistrust = 100.0;
+/// Inliers that such a scan must have to be believed, or how many more than with the prior.
+constexpr double kSurelySeen = 0.8, kSlipGain = 0.15;
+/// Frames lost in a row after which a new map begins.
+constexpr int kMostLost = 5;
+/// The map's drift grows with a key frame by its covariance, times the share of it that is new
+/// (this at least), times a factor that was chosen so that the errors of a drive in `home` fit.
+constexpr double kLeastNew = 0.05, kDriftOfNew = 0.05;
+
+Covariance6 diagonal(double xy_m, double z_m, double tilt_rad, double yaw_rad) {
+  Vector6 sigmas;
+  sigmas << xy_m, xy_m, z_m, tilt_rad, tilt_rad, yaw_rad;
+  return sigmas.cwiseAbs2().asDiagonal();
+}
+
+/// What the wheels do not say: the base's spring and tilt, and rounding of the encoders.
+Covariance6 wheel_jitter() {
+  return diagonal(0.001, 0.005, 0.5 * kDegree, 0.1 * kDegree);
+}
+/// Of a key frame's place against the map it is put into.
+Covariance6 key_frame_floor() {
+  return diagonal(0.0003, 0.0003, 0.01 * kDegree, 0.01 * kDegree);
+}
+/// Of a pose in the map, however often it is matched: the map's own errors are the same each time.
+Covariance6 map_bias() {
+  return diagonal(0.002, 0.002, 0.05 * kDegree, 0.04 * kDegree);
+}
+/// How far a robot that is lost may be from where it believes to be.
+Covariance6 lost_jump() {
+  return diagonal(0.5, 0.05, 2.0 * kDegree, 30.0 * kDegree);
+}
+/// A robot that goes on as it went may have sped up by 0.5 m/s^2 and 85 degrees/s^2.
+Covariance6 acceleration(double dt_s) {
+  const double half = 0.5 * dt_s * dt_s;
+  return diagonal(0.5 * half + 0.001, 0.002 + 0.05 * half, 0.2 * kDegree + 5.0 * kDegree * half,
+                  85.0 * kDegree * half + 0.1 * kDegree);
+}
+
+/// On the floor z = 0 the base stands level, but for rugs and springs: the prior given z, roll and
+/// pitch of 0 with these standard deviations (a Kalman update).
+PosePrior on_floor(const PosePrior& prior) {
+  constexpr std::array kAxes{2, 3, 4};
+  const Covariance6 noise = diagonal(1.0, 0.01, 1.0 * kDegree, 1.0);
+  const Eigen::Vector3d up = prior.mean.linear().row(2);
+  const Eigen::Vector3d off(-prior.mean.translation().z(), -up.y(), up.x());
+  const Eigen::Matrix<double, 6, 3> cross = prior.covariance(Eigen::all, kAxes);
+  const Eigen::Matrix3d sum = prior.covariance(kAxes, kAxes) + noise(kAxes, kAxes);
+  const Eigen::Matrix<double, 6, 3> gain = cross * sum.inverse();
+  const Covariance6 left = prior.covariance - gain * cross.transpose();
+  return {prior.mean * exp_pose(gain * off), 0.5 * (left + left.transpose())};
+}
+
+/// A covariance in the base's axes after a motion.
+Covariance6 moved(const Covariance6& covariance, const Pose& T_before_after) {
+  const Covariance6 ad = adjoint(T_before_after.inverse());
+  return ad * covariance * ad.transpose();
+}
+
+double squared_sigmas(const PosePrior& prior, const Pose& T_map_base) {
+  const Vector6 xi = log_pose(prior.mean.inverse() * T_map_base);
+  return xi.dot(prior.covariance.ldlt().solve(xi));
+}
+
+}  // namespace
+
+VisualOdometry::VisualOdometry(const VisualOdometryParams& params, const Calibration& believed,
+                               const Pose& T_map_base_start)
+    : params_(params),
+      believed_(believed),
+      state_{T_map_base_start},
+      local_map_(params.map, kHorizon) {
+  check(believed);
+  check_ranges(params.sampling);
+  check_ranges(params.key);
+  if (params.loops) check_ranges(*params.loops);
+}
+
+VisualOdometry::Expected VisualOdometry::expect(const OdometryFrame& frame) const {
+  Pose T_last_base = Pose::Identity();
+  Covariance6 noise = Covariance6::Zero();
+  const double dt_s = frame.stamp_s - last_->stamp_s;
+  const bool wheels = frame.T_odom_base && last_->T_odom_base;
+  if (wheels) {
+    T_last_base = last_->T_odom_base->inverse() * *frame.T_odom_base;
+    const OdometryMotion motion =
+        motion_parts(planar(T_last_base), params_.wheel_noise.least_way_m);
+    noise =
+        spatial_covariance(motion_covariance(motion, motion_sigmas(motion, params_.wheel_noise))) +
+        wheel_jitter();
+  } else {
+    if (last_step_s_ > 0.0)
+      T_last_base = exp_pose(log_pose(T_before_last_base_) * (dt_s / last_step_s_));
+    noise = acceleration(dt_s);
+  }
+  PosePrior prior{state_.T_map_base * T_last_base, moved(state_.relative, T_last_base) + noise};
+  if (wheels) prior = on_floor(prior);
+  return {prior, T_last_base};
+}
+
+Tracking VisualOdometry::track(const DepthScan& scan, const OdometryFrame& frame,
+                               const Expected& expected, OdometryStep& step) {
+  if (scan.size() < kLeastPoints) return Tracking::blind;
+  const Pose T_key_base = keys_.back().T_map_base.inverse() * expected.prior.mean;
+  const double seen_before = overlap(frame.depth, believed_, T_key_base);
+  ScanMatch match = local_map_.match(scan, expected.prior);
+  Tracking tracking = Tracking::tracked;
+  if (squared_sigmas(expected.prior, match.T_map_base) > kContradiction) {
+    PosePrior loose = expected.prior;
+    loose.covariance *= kDistrust;
+    const ScanMatch again = local_map_.match(scan, loose);
+    if (again.inlier_share >= std::min(kSurelySeen, match.inlier_share + kSlipGain)) {
+      match = again;
+      tracking = Tracking::slipped;
+    } else {
+      return Tracking::unsure;
+    }
+  }
+  step.known_share = match.known_share;
+  step.inlier_share = match.inlier_share;
+  const double support = match.known_share * match.inlier_share;
+  if (support < kLeastSupport * seen_before) {
+    if (seen_before >= kLittle) return Tracking::lost;
+    tracking = Tracking::beside;
+  }
+  state_.T_map_base = match.T_map_base;
+  state_.relative = match.covariance;
+  return tracking;
+}
+
+OdometryStep VisualOdometry::add(const OdometryFrame& frame) {
+  if (!(frame.stamp_s > last_stamp_s_))
+    throw Error("odometry: a stamp is not later than the one before; give frames in their order");
+  last_stamp_s_ = frame.stamp_s;
+  OdometryStep step{.stamp_s = frame.stamp_s};
+  DepthScan scan = scan_of(frame.depth, believed_, params_.sampling);
+  if (keys_.empty()) {
+    if (scan.size() < kLeastPoints)
+      step.tracking = Tracking::blind;
+    else
+      keep(std::move(scan), frame, step);
+  } else {
+    const Expected expected = expect(frame);
+    const State before = state_;
+    const Pose T_map_last = state_.T_map_base;
+    state_ = {expected.prior.mean, expected.prior.covariance,
+              moved(before.drift, expected.T_last_base)};
+    step.tracking = track(scan, frame, expected, step);
+    if (hardly_moved(frame) && step.tracking == Tracking::tracked) {
+      const State here = std::exchange(state_, before);
+      return placed(step, here);
+    }
+    way_m_ += (T_map_last.inverse() * state_.T_map_base).translation().norm();
+    T_before_last_base_ = T_map_last.inverse() * state_.T_map_base;
+    last_step_s_ = frame.stamp_s - last_->stamp_s;
+    const bool lost = step.tracking == Tracking::lost;
+    if (lost && ++lost_for_ == 1) state_.relative += lost_jump();
+    if (lost && relocate(scan, frame)) {
+      step.tracking = Tracking::relocated;
+      step.key_frame = step.closed_loop = true;
+    } else if (lost && lost_for_ > kMostLost) {
+      local_map_ = LocalMap(params_.map, kHorizon);
+      step.tracking = Tracking::restarted;
+    }
+    if (step.tracking != Tracking::lost && step.tracking != Tracking::blind) lost_for_ = 0;
+    const bool places = step.tracking == Tracking::tracked || step.tracking == Tracking::slipped ||
+                        step.tracking == Tracking::beside;
+    const Pose T_key_base = keys_.back().T_map_base.inverse() * state_.T_map_base;
+    if (step.tracking == Tracking::restarted ||
+        (places && is_key_frame(params_.key, frame.depth, believed_, T_key_base)))
+      keep(std::move(scan), frame, step);
+  }
+  last_ = {frame.stamp_s, {}, frame.T_odom_base};
+  return placed(step, state_);
+}
+
+bool VisualOdometry::hardly_moved(const OdometryFrame& frame) const {
+  if (keys_.empty() || lost_for_ > 0 || !frame.T_odom_base || !last_->T_odom_base) return false;
+  const Pose T_last_base = last_->T_odom_base->inverse() * *frame.T_odom_base;
+  return T_last_base.translation().norm() < kMatchWay &&
+         Eigen::AngleAxisd(T_last_base.linear()).angle() < kMatchTurn;
+}
+
+OdometryStep VisualOdometry::placed(OdometryStep step, const State& state) {
+  step.T_map_base = state.T_map_base;
+  step.covariance = state.relative + state.drift + map_bias();
+  if (keys_.empty())
+    placed_.push_back({step.stamp_s, 0, state.T_map_base});
+  else
+    placed_.push_back(
+        {step.stamp_s, keys_.size() - 1, keys_.back().T_map_base.inverse() * state.T_map_base});
+  return step;
+}
+
+void VisualOdometry::keep(DepthScan scan, const OdometryFrame& frame, OdometryStep& step) {
+  step.key_frame = true;
+  KeyFrame key{frame.stamp_s, state_.T_map_base, way_m_, std::move(scan),
+               params_.loops ? small_depth_of(frame.depth, believed_.range_max_m) : cv::Mat1f()};
+  if (!keys_.empty()) {
+    const bool fresh = step.tracking == Tracking::restarted;
+    const double share = fresh ? 1.0 : kDriftOfNew * std::max(kLeastNew, 1.0 - step.known_share);
+    const Covariance6 growth = share * state_.relative + key_frame_floor();
+    state_.drift += growth;
+    if (fresh) state_.relative = Covariance6::Zero();
+    edges_.push_back({keys_.size() - 1, keys_.size(),
+                      keys_.back().T_map_base.inverse() * key.T_map_base, growth, false});
+  }
+  local_map_.insert(key.scan, key.T_map_base);
+  keys_.push_back(std::move(key));
+  if (params_.loops && way_m_ - loop_closed_at_m_ >= 1.0) step.closed_loop = close_loop(false);
+}
+
+bool VisualOdometry::close_loop(bool anywhere) {
+  const KeyFrame& current = keys_.back();
+  const double reach_m =
+      3.0 * std::sqrt((state_.drift + state_.relative).topLeftCorner<2, 2>().trace());
+  for (const std::size_t n : loop_candidates(keys_, current, *params_.loops, reach_m, anywhere)) {
+    if (n + 1 == keys_.size()) continue;
+    const PosePrior prior =
+        anywhere
+            ? PosePrior{keys_[n].T_map_base, lost_jump()}
+            : PosePrior{current.T_map_base, state_.drift + state_.relative + key_frame_floor()};
+    const auto match = verified_loop(keys_, n, current, prior, params_.map, *params_.loops);
+    if (!match) continue;
+    const Covariance6 weak = lost_jump().inverse();
+    edges_.push_back({n, keys_.size() - 1, keys_[n].T_map_base.inverse() * match->T_map_base,
+                      (match->information + weak).inverse() + key_frame_floor(), true});
+    keys_.back().T_map_base = match->T_map_base;
+    spread();
+    return true;
+  }
+  return false;
+}
+
+bool VisualOdometry::relocate(const DepthScan& scan, const OdometryFrame& frame) {
+  if (!params_.loops) return false;
+  keys_.push_back({frame.stamp_s, state_.T_map_base, way_m_, scan,
+                   small_depth_of(frame.depth, believed_.range_max_m)});
+  edges_.push_back({keys_.size() - 2, keys_.size() - 1,
+                    keys_[keys_.size() - 2].T_map_base.inverse() * state_.T_map_base,
+                    state_.relative + key_frame_floor(), false});
+  if (close_loop(true)) return true;
+  keys_.pop_back();
+  edges_.pop_back();
+  return false;
+}
+
+void VisualOdometry::spread() {
+  std::vector<Pose> nodes;
+  for (const KeyFrame& key : keys_) nodes.push_back(key.T_map_base);
+  const OptimisedPoses optimal = optimised(std::move(nodes), edges_);
+  for (std::size_t n = 0; n < keys_.size(); ++n) keys_[n].T_map_base = optimal.nodes[n];
+  state_.T_map_base = keys_.back().T_map_base;
+  state_.drift = optimal.last_covariance;
+  state_.relative = key_frame_floor();
+  loop_closed_at_m_ = way_m_;
+  ++loops_;
+  rebuild();
+}
+
+void VisualOdometry::rebuild() {
+  std::vector<std::pair<double, std::size_t>> by_distance;
+  for (std::size_t n = 0; n < keys_.size(); ++n)
+    by_distance.emplace_back(
+        (keys_[n].T_map_base.translation() - state_.T_map_base.translation()).norm(), n);
+  std::ranges::sort(by_distance);
+  by_distance.resize(std::min(by_distance.size(), kRebuilt));
+  std::ranges::sort(by_distance, {}, &std::pair<double, std::size_t>::second);
+  local_map_ = LocalMap(params_.map, kHorizon);
+  for (const auto& [distance, n] : by_distance)
+    local_map_.insert(keys_[n].scan, keys_[n].T_map_base);
+}
+
+std::vector<CorrectedPose> VisualOdometry::corrected() const {
+  std::vector<CorrectedPose> poses;
+  for (const Placed& placed : placed_)
+    poses.push_back({placed.stamp_s, keys_.empty()
+                                         ? placed.T_key_base
+                                         : keys_[placed.key].T_map_base * placed.T_key_base});
+  return poses;
+}
+
+}  // namespace mapscore

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/camera.hpp"
+#include "core/localization/odometry_motion.hpp"
+#include "core/odometry/depth_scan.hpp"
+#include "core/odometry/key_frames.hpp"
+#include "core/odometry/local_map.hpp"
+#include "core/odometry/loop_closure.hpp"
+#include "core/odometry/pose_graph.hpp"
+#include "core/parameters.hpp"
+
+#include <opencv2/core.hpp>
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace mapscore {
+
+/// Visual odometry of a wheeled robot's depth camera.
+struct VisualOdometryParams {
+  DepthSampling sampling;
+  PlaneMapParams map;
+  KeyFrameRule key;
+  OdometryNoise wheel_noise;         ///< of the wheels' increments, where they are given
+  std::optional<LoopClosure> loops;  ///< with them it is visual SLAM
+};
+
+/// One depth image, in the order of stamps.
+struct OdometryFrame {
+  double stamp_s = 0.0;
+  cv::Mat1w depth;                  ///< planar z in units of 1 / kDepthUnitsPerMetre; 0: none
+  std::optional<Pose> T_odom_base;  ///< of the wheels' encoders; without them the robot is expected
+                                    ///< to go on as it went
+};
+
+/// How a frame's pose came about.
+enum class Tracking {
+  started,    ///< the first frame with depth, at the pose that was given
+  tracked,    ///< by the scan and the motion prior together
+  slipped,    ///< the scan contradicts the prior, which then counts for little
+  unsure,     ///< the scan contradicts the prior and fits no better elsewhere: by the prior alone
+  beside,     ///< most of what the frame shows is new, as expected: scan and prior
+  blind,      ///< hardly any depth: by the prior alone, whose uncertainty adds up
+  lost,       ///< what should be seen is not there: by the prior alone, with a jump in uncertainty
+  restarted,  ///< lost for some frames: a new map begins, at the uncertain pose
+  relocated   ///< found again, by a key frame that looks alike
+};
+constexpr auto names_of(Tracking) {
+  return std::to_array<std::string_view>({"started", "tracked", "slipped", "unsure", "beside",
+                                          "blind", "lost", "restarted", "relocated"});
+}
+
+/// What odometry says of a frame.
+struct OdometryStep {
+  double stamp_s = 0.0;
+  Pose T_map_base = Pose::Identity();
+  /// Of the error xi, T_true = T_map_base Exp(xi): x y z roll pitch yaw in the axes of
+  /// base_footprint.
+  Covariance6 covariance = Covariance6::Zero();
+  Tracking tracking = Tracking::started;
+  double known_share = 0.0, inlier_share = 0.0;  ///< see ScanMatch
+  bool key_frame = false;
+  bool closed_loop = false;
+};
+
+/// Where a frame lies in the final estimate, after all loops.
+struct CorrectedPose {
+  double stamp_s = 0.0;
+  Pose T_map_base = Pose::Identity();
+};
+
+/// Visual odometry and, with loop closure, visual SLAM: each depth image is matched with the planes
+/// of the last key frames, the motion prior (the wheels, or a constant velocity) in the sum of
+/// information; key frames alone enter the map, since many clouds of a standing robot would break
+/// it. Loops are proposed by pose and likeness, verified by matching, and spread over the key
+/// frames by a pose graph (docs/odometry.md). Used by one thread at a time; same input, same bytes.
+class VisualOdometry {
+ public:
+  /// `T_map_base_start`: pose at the first frame. Throws Error when a parameter is out of range.
+  VisualOdometry(const VisualOdometryParams& params, const Calibration& believed,
+                 const Pose& T_map_base_start);
+
+  /// Throws Error when the image is not of the camera's size, or the stamp is not later than the
+  /// last one.
+  OdometryStep add(const OdometryFrame& frame);
+
+  [[nodiscard]] const std::vector<KeyFrame>& key_frames() const { return keys_; }
+  [[nodiscard]] std::size_t loops() const { return loops_; }
+  /// All frames so far, moved with their key frames by the loops that were closed since.
+  [[nodiscard]] std::vector<CorrectedPose> corrected() const;
+
+ private:
+  struct Placed {
+    double stamp_s = 0.0;
+    std::size_t key = 0;
+    Pose T_key_base = Pose::Identity();
+  };
+  struct State {
+    Pose T_map_base = Pose::Identity();
+    Covariance6 relative = Covariance6::Zero();  ///< of the pose in the local map
+    Covariance6 drift = Covariance6::Zero();     ///< of the local map itself, in the base's axes
+  };
+  struct Expected {
+    PosePrior prior;
+    Pose T_last_base;  ///< motion since the last frame that counted
+  };
+
+  [[nodiscard]] Expected expect(const OdometryFrame& frame) const;
+  [[nodiscard]] bool hardly_moved(const OdometryFrame& frame) const;
+  OdometryStep placed(OdometryStep step, const State& state);
+  [[nodiscard]] Tracking track(const DepthScan& scan, const OdometryFrame& frame,
+                               const Expected& expected, OdometryStep& step);
+  void keep(DepthScan scan, const OdometryFrame& frame, OdometryStep& step);
+  bool close_loop(bool anywhere);
+  bool relocate(const DepthScan& scan, const OdometryFrame& frame);
+  void spread();
+  void rebuild();
+
+  VisualOdometryParams params_;
+  Calibration believed_;
+  State state_;  ///< at the last frame that counted
+  LocalMap local_map_;
+  std::optional<OdometryFrame> last_;           ///< that frame, without its image
+  Pose T_before_last_base_ = Pose::Identity();  ///< motion of the last step
+  double last_step_s_ = 0.0, last_stamp_s_ = -std::numeric_limits<double>::infinity();
+  int lost_for_ = 0;
+  double way_m_ = 0.0, loop_closed_at_m_ = 0.0;
+  std::vector<KeyFrame> keys_;
+  std::vector<PoseEdge> edges_;
+  std::vector<Placed> placed_;
+  std::size_t loops_ = 0;
+};
+
+}  // namespace mapscore
