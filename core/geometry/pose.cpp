@@ -3,6 +3,7 @@
 
 #include "core/geometry/pose.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace mapscore {
@@ -38,6 +39,12 @@ Pose exp_pose(const Vector6& xi) {
   pose.linear() = exp_rotation(omega);
   pose.translation() = left_jacobian(omega) * xi.head<3>();
   return pose;
+}
+
+Vector6 log_pose(const Pose& pose) {
+  const Eigen::AngleAxisd rotation(pose.linear());
+  const Eigen::Vector3d omega = rotation.angle() * rotation.axis();
+  return (Vector6() << left_jacobian(omega).inverse() * pose.translation(), omega).finished();
 }
 
 Pose planar_pose(double x_m, double y_m, double yaw_rad) {

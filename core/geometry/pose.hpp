@@ -21,6 +21,9 @@ using Covariance6 = Eigen::Matrix<double, 6, 6>;
 /// identity.
 [[nodiscard]] Pose exp_pose(const Vector6& xi);
 
+/// Logarithm of SE(3), the inverse of exp_pose for rotations below pi; order x y z roll pitch yaw.
+[[nodiscard]] Vector6 log_pose(const Pose& pose);
+
 /// Pose of a planar robot: position x, y on z = 0, heading yaw (radians).
 [[nodiscard]] Pose planar_pose(double x_m, double y_m, double yaw_rad);
 
