@@ -7,7 +7,8 @@
 #
 #   scripts/setup.sh           what building, the demo and the tests need
 #   scripts/setup.sh --train   and what trains networks
-#   scripts/setup.sh --ci      and that, and clang-format, for the format check
+#   scripts/setup.sh --ci      and that, clang-format for the format check, and evo, which tests hold ATE and RPE
+#                              against, unpacked below build/deps
 
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -29,6 +30,10 @@ declare -A mujoco_sha256=(
   [x86_64]=be28c0c7587347ef996b4de0487264e9da296282082b092bae211a9163e9aed6
   [aarch64]=52d934614a56f7d75dcfc2bd8bb72f058b465ecc19a0583a56df242f9505bdb6
 )
+
+evo_version=1.38.1
+evo_folder=build/deps/evo-$evo_version
+evo_sha256=6f9ebbedec38de74c481a62b04d24c2320568878a9a8cf92cc3f627ef515ac9e
 
 say() { printf 'setup: %s\n' "$*" >&2; }
 
@@ -105,5 +110,27 @@ PYTHON
   mv "$mujoco_folder.partial" "$mujoco_folder"
 }
 
+# GPL-3, so a tool beside the tests and no part of mapscore. Its core needs numpy and scipy alone.
+install_evo() {
+  [ -f "$evo_folder/evo/core/metrics.py" ] && return
+  say "fetching evo $evo_version into $evo_folder"
+  wheel_folder=$(mktemp -d)
+  trap 'rm -rf "$wheel_folder" "$evo_folder.partial"' EXIT
+  if ! python3 -m pip download --quiet --disable-pip-version-check --no-deps --only-binary=:all: \
+    -d "$wheel_folder" "evo==$evo_version"; then
+    say "evo could not be fetched; check the network"
+    exit 2
+  fi
+  if ! echo "$evo_sha256 $(ls "$wheel_folder"/*.whl)" | sha256sum --check --quiet; then
+    say "the evo wheel is not the one this project was tested with; nothing was installed"
+    exit 2
+  fi
+  rm -rf "$evo_folder.partial"
+  mkdir -p "$evo_folder.partial"
+  python3 -m zipfile -e "$wheel_folder"/*.whl "$evo_folder.partial"
+  mv "$evo_folder.partial" "$evo_folder"
+}
+
 install_packages
 install_mujoco
+case "${1:-}" in --ci) install_evo ;; esac

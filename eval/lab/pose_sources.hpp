@@ -46,6 +46,10 @@ class PoseSources {
   SharedCache<std::string, std::shared_ptr<const OccupancyGrid>> grids_{kHeld};
 };
 
+/// The true poses T_world_base at the stamps of a task's beliefs, by frame.
+[[nodiscard]] std::vector<Pose> true_poses(const Recording& recording, const Task& task,
+                                           const std::vector<int>& depth_of);
+
 /// What the robot believes along a whole recording, in the scene's world, as a task's source says:
 /// odometry, particle filter or a file. `grid`: grid_of the task's configuration where it is at
 /// hand, else the filter has it made. `progress(turns done, all)` of the filter. Throws Error as

@@ -103,6 +103,9 @@ class CurveFigure {
   /// `column`: of StudyLayout::columns().
   void add(const CurveScore& score, std::size_t column, Panel panel) {
     panel.settings = x_settings(sheet_, layout_.x(), layout_.bars() ? 0.7 : 0.5);
+    const bool common = score.own_axis.empty();
+    if (!common) panel.settings.push_back(score.own_axis);
+    has_ceilings_ = has_ceilings_ && common;
     std::set<std::string> drawn_ceilings;
     std::vector<std::string> ceilings, spreads, lines;
     const std::string& head = layout_.columns()[column];
@@ -119,9 +122,11 @@ class CurveFigure {
       const CurveMarks marks = layout_.bars()    ? as_bars(curve, of)
                                : layout_.named() ? as_points(curve, of, offset, place)
                                                  : as_line(curve, of);
-      if (layout_.named() || drawn_ceilings.insert("registration" + registration).second)
+      if (common &&
+          (layout_.named() || drawn_ceilings.insert("registration" + registration).second))
         ceilings.push_back(marks.registration);
-      if (drawn_ceilings.insert("lattice" + lattice).second) ceilings.push_back(marks.lattice);
+      if (common && drawn_ceilings.insert("lattice" + lattice).second)
+        ceilings.push_back(marks.lattice);
       if (summary_.study.seeds > 1) spreads.push_back(marks.spread);
       lines.push_back(marks.line);
     }
@@ -134,7 +139,8 @@ class CurveFigure {
 
   [[nodiscard]] FigureSheet finish(const std::string& caption) {
     const std::string settings = score_settings(layout_.bars() ? 0.0 : least_);
-    for (Panel& panel : sheet_.panels) panel.settings.push_back(settings);
+    if (has_ceilings_)
+      for (Panel& panel : sheet_.panels) panel.settings.push_back(settings);
     add_legend();
     sheet_.caption = caption + layout_.columns_caption();
     return std::move(sheet_);
@@ -169,10 +175,11 @@ class CurveFigure {
   }
 
   void add_legend() {
-    if (!layout_.bars())
+    if (!layout_.bars() && (has_ceilings_ || layout_.curves().size() > 1))
       for (const Curve& curve : layout_.curves())
         sheet_.add_legend(layout_.named() ? "points " + curve.mark(1.2) : curve.legend(),
                           curve.name);
+    if (!has_ceilings_) return;
     sheet_.add_legend(std::string(layout_.bars() ? "points pt 2 ps 2 " : "lines ") + kLatticeStyle,
                       "lattice ceiling");
     sheet_.add_legend(fmt::format("{} lc rgb '#666666'", layout_.bars() ? "points pt 1 ps 2 lw 1.5"
@@ -184,6 +191,7 @@ class CurveFigure {
   const StudyLayout& layout_;
   FigureSheet sheet_;
   double least_ = 1.0;
+  bool has_ceilings_ = true;  ///< all scores share one axis
 };
 
 }  // namespace
@@ -202,7 +210,7 @@ FigureSheet curve_figure(const StudySummary& summary, const StudyLayout& layout,
     panel.title = !rows ? score.title : i < columns ? layout.columns()[i] : "";
     if (last_row && !layout.bars()) panel.x_label = layout.x().title();
     if (first) panel.y_label = rows ? score.row_title : y_label;
-    panel.y_tic_labels = first;
+    panel.y_tic_labels = first || !score.own_axis.empty();
     figure.add(score, i % heads, std::move(panel));
   }
   return figure.finish(caption);
