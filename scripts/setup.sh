@@ -7,8 +7,7 @@
 #
 #   scripts/setup.sh           what building, the demo and the tests need
 #   scripts/setup.sh --train   and what trains networks
-#   scripts/setup.sh --ci      and that, clang-format for the format check, and evo, which tests hold ATE and RPE
-#                              against, unpacked below build/deps
+#   scripts/setup.sh --ci      and that, clang-format for the format check, and evo, against which ATE and RPE are held
 
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -111,8 +110,8 @@ PYTHON
 }
 
 # GPL-3, so a tool beside the tests and no part of mapscore. Its core needs numpy and scipy alone.
-install_evo() {
-  [ -f "$evo_folder/evo/core/metrics.py" ] && return
+install_evo() (  # in a shell of its own, for its trap
+  [ -f "$evo_folder/evo/core/metrics.py" ] && exit
   say "fetching evo $evo_version into $evo_folder"
   wheel_folder=$(mktemp -d)
   trap 'rm -rf "$wheel_folder" "$evo_folder.partial"' EXIT
@@ -129,7 +128,7 @@ install_evo() {
   mkdir -p "$evo_folder.partial"
   python3 -m zipfile -e "$wheel_folder"/*.whl "$evo_folder.partial"
   mv "$evo_folder.partial" "$evo_folder"
-}
+)
 
 install_packages
 install_mujoco

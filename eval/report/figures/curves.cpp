@@ -104,7 +104,7 @@ class CurveFigure {
   void add(const CurveScore& score, std::size_t column, Panel panel) {
     panel.settings = x_settings(sheet_, layout_.x(), layout_.bars() ? 0.7 : 0.5);
     const bool common = score.own_axis.empty();
-    if (!common) panel.settings.push_back(score.own_axis);
+    defined_ = false;
     has_ceilings_ = has_ceilings_ && common;
     std::set<std::string> drawn_ceilings;
     std::vector<std::string> ceilings, spreads, lines;
@@ -130,6 +130,8 @@ class CurveFigure {
       if (summary_.study.seeds > 1) spreads.push_back(marks.spread);
       lines.push_back(marks.line);
     }
+    if (!common)  // gnuplot refuses to find the range of nothing
+      panel.settings.push_back(score.own_axis + (defined_ ? "" : "; set yrange [0:1]"));
     auto& order = panel.elements;
     if (layout_.bars()) order = std::exchange(lines, {});
     for (const auto* part : {&ceilings, &spreads, &lines})
@@ -162,6 +164,7 @@ class CurveFigure {
       const auto trial = layout_.trial(curve, column, x);
       if (!trial) continue;
       const Estimate value = at(summary_.trials[*trial]);
+      defined_ = defined_ || value.pooled.has_value();
       const std::string registration = note(at(summary_.registration_ceilings[*trial]).pooled);
       const std::string lattice = note(at(summary_.lattice_ceilings[*trial]).pooled);
       const std::string place = fmt::format("{:.9g} ", layout_.x().at[x]);
@@ -192,6 +195,7 @@ class CurveFigure {
   FigureSheet sheet_;
   double least_ = 1.0;
   bool has_ceilings_ = true;  ///< all scores share one axis
+  bool defined_ = false;      ///< some value of the panel that is added
 };
 
 }  // namespace

@@ -74,7 +74,7 @@ std::optional<FigureSheet> pose_figure(const StudySummary& summary, const Figure
   add("rpe_percent", "RPE (% of the way)");
   add("rpe_deg_per_m", "RPE (deg/m)");
   add("nees_share", "NEES x y yaw: share in band", "set yrange [0:1.03]; " + honest_line(0.95));
-  add("nees_mean", "NEES x y yaw: mean", "set yrange [0:*]; " + honest_line(3.0));
+  add("nees_mean", "NEES x y yaw: mean", "set yrange [0:4<*]; " + honest_line(3.0));
   return curve_figure(poses, StudyLayout(poses, style), "poses", scores, "",
                       fmt::format("{}: errors of the poses that are mapped from, all frames.{} "
                                   "Dashed: an honest covariance.",

@@ -17,6 +17,7 @@ namespace mapscore::eval {
 namespace {
 
 constexpr double kErrorHeight_in = 1.15, kLeastOfSource_in = 1.3;
+constexpr double kRoomForTics_in = 2.0;  ///< for five tics along an axis of errors
 
 /// One axis of the error in the plane.
 struct ErrorRow {
@@ -111,10 +112,11 @@ FigureSheet pose_errors_figure(std::span<const PoseErrors> sources, const std::s
       Panel panel{r == 0 ? sources[s].source : "",
                   r + 1 == kErrorRows.size() ? "time of the recording (s)" : "",
                   s == 0 ? kErrorRows[r].label : ""};
-      panel.settings = {fmt::format("set xrange [{:.9g}:{:.9g}]; set xtics {:.9g}", first_s, last_s,
-                                    tic_step(last_s - first_s, sheet.panel_width_in)),
-                        fmt::format("set yrange [{:.6g}:{:.6g}]; set ytics {:.6g}", -reach, reach,
-                                    tic_step(2.0 * reach, kErrorHeight_in))};
+      panel.settings = {
+          fmt::format("set xrange [{:.9g}:{:.9g}]; set xtics {:.9g}", first_s, last_s,
+                      tic_step(last_s - first_s, sheet.panel_width_in)),
+          fmt::format("set yrange [{:.6g}:{:.6g}]; set ytics {:.6g}; set format y '%6g'", -reach,
+                      reach, tic_step(2.0 * reach, kRoomForTics_in))};
       const std::size_t error = 2 + 3 * r;
       panel.elements = {fmt::format("{} using 1:{}:{} with filledcurves {} notitle", blocks[s],
                                     error + 1, error + 2, band_fill(s, colour, style)),

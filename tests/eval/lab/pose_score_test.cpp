@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/lab/map_frame.hpp"
-#include "eval/lab/pose_sources.hpp"
+#include "eval/lab/bench.hpp"
 #include "eval/lab/trial_run.hpp"
-#include "eval/lab/truth_cache.hpp"
-#include "eval/recording/frame_cache.hpp"
 #include "eval/score/metrics.hpp"
 #include "files/file_bytes.hpp"
 #include "tests/eval/lab/driven_recording.hpp"
@@ -15,6 +12,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
 #include <string>
 
 namespace mapscore::eval {
@@ -34,13 +34,10 @@ class PoseScoreTest : public ::testing::Test {
                               const std::string& score = kScore) const {
     const Study study = study_of(lines + '\n' + score);
     const Task task = task_of(study, trials(study)[0], labels, recording_.content_hash());
-    const ClassTable& table = recording_.info().table;
-    FrameCache frames(recording_, {.label = true, .depth = true, .depth_label = true});
-    TruthCache truths(recording_, table, frames);
-    PoseSources poses(recording_);
-    TrialRun run(task, recording_, table, truths, poses);
-    for (int index = 0; index < recording_.frame_count(); ++index) run.advance(*frames.get(index));
-    return run.finish().counts;
+    Bench bench(recording_, recording_.info().table, false, std::size_t{1} << 24);
+    const std::unique_ptr<TrialRun> run = bench.start(task);
+    bench.run(*run);
+    return run->finish().counts;
   }
   [[nodiscard]] const Recording& recording() const { return recording_; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
@@ -93,7 +90,7 @@ TEST_F(PoseScoreTest, AGaussianIsOffByItsSigmas) {
   EXPECT_LT(figure(scored, "ate_m"), 0.5);
   EXPECT_EQ(scored[kBackground].poses->nees_frames, recording().frame_count());
   EXPECT_EQ(scored[kBackground].poses->nees6_frames, 0) << "it says nothing of z";
-  const Counts other = counts(pose + "\nsegmentation: {}\nmap_origin_m: [0.2, 0.1, 0]\n");
+  const Counts other = counts(pose + "\nmap_origin_m: [0.2, 0.1, 0]\n");
   EXPECT_EQ(other[kBackground].poses, scored[kBackground].poses) << "whatever the lattice";
 }
 
