@@ -13,14 +13,20 @@
 
 namespace mapscore::eval {
 
+/// A y axis from 0 to what a panel's values and spreads need.
+struct OwnAxis {
+  double least_top = 0.0;                          ///< to which it reaches in any case
+  std::optional<double> dashed_at = std::nullopt;  ///< a line across the panel
+};
+
 /// What one panel of curves shows.
 struct CurveScore {
   std::string group;  ///< of StudySummary::groups()
   std::string metric;
   std::string title;      ///< above its panel, where scores stand side by side
   std::string row_title;  ///< left of its row, where it has one
-  /// `set` lines of a y axis of its own; such a figure has no ceilings. Empty: the scores' axis.
-  std::string own_axis = {};
+  /// Of a figure whose panels share no axis, which has no ceilings.
+  std::optional<OwnAxis> own_axis = std::nullopt;
 };
 
 /// Curves over the x axis, with spread and ceilings: lines over numbers, points side by side over

@@ -35,14 +35,6 @@ StudySummary of_first_method(const StudySummary& summary) {
   return first;
 }
 
-/// Where an honest covariance would have its points.
-std::string honest_line(double at) {
-  return fmt::format(
-      "set arrow from graph 0, first {0:.9g} to graph 1, first {0:.9g} nohead back lw 1 dt (6,4) "
-      "lc rgb '#000000'",
-      at);
-}
-
 }  // namespace
 
 FigureSheet accuracy_figure(const StudySummary& summary, const StudyLayout& layout) {
@@ -64,17 +56,16 @@ std::optional<FigureSheet> pose_figure(const StudySummary& summary, const Figure
   if (!summary.has_metric("ate_m")) return std::nullopt;
   const StudySummary poses = of_first_method(summary);
   std::vector<CurveScore> scores;
-  const auto add = [&](const std::string& metric, const std::string& title,
-                       const std::string& axis = "set yrange [0:*]") {
+  const auto add = [&](const std::string& metric, const std::string& title, OwnAxis axis = {}) {
     scores.push_back(pooled_score(metric, title));
-    scores.back().own_axis = "unset arrow; set ytics auto; " + axis;
+    scores.back().own_axis = axis;
   };
   add("ate_m", "ATE (m)");
   add("ate_aligned_m", "ATE, aligned (m)");
   add("rpe_percent", "RPE (% of the way)");
   add("rpe_deg_per_m", "RPE (deg/m)");
-  add("nees_share", "NEES x y yaw: share in band", "set yrange [0:1.03]; " + honest_line(0.95));
-  add("nees_mean", "NEES x y yaw: mean", "set yrange [0:4<*]; " + honest_line(3.0));
+  add("nees_share", "NEES x y yaw: share in band", {1.03, 0.95});
+  add("nees_mean", "NEES x y yaw: mean", {4.0, 3.0});
   return curve_figure(poses, StudyLayout(poses, style), "poses", scores, "",
                       fmt::format("{}: errors of the poses that are mapped from, all frames.{} "
                                   "Dashed: an honest covariance.",

@@ -25,7 +25,7 @@ struct ErrorRow {
   double units;  ///< in one metre or radian
 };
 constexpr std::array<ErrorRow, 3> kErrorRows{
-    {{"ahead (m)", 1.0}, {"left (m)", 1.0}, {"heading (deg)", 180.0 / std::numbers::pi}}};
+    {{"ahead (cm)", 100.0}, {"left (cm)", 100.0}, {"heading (deg)", 180.0 / std::numbers::pi}}};
 
 /// Block of a source. Where it never converges it holds undefined numbers alone.
 std::string add_block(FigureSheet& sheet, const PoseErrors& of) {
@@ -115,7 +115,7 @@ FigureSheet pose_errors_figure(std::span<const PoseErrors> sources, const std::s
       panel.settings = {
           fmt::format("set xrange [{:.9g}:{:.9g}]; set xtics {:.9g}", first_s, last_s,
                       tic_step(last_s - first_s, sheet.panel_width_in)),
-          fmt::format("set yrange [{:.6g}:{:.6g}]; set ytics {:.6g}; set format y '%6g'", -reach,
+          fmt::format("set yrange [{:.6g}:{:.6g}]; set ytics {:.6g}; set format y '%4g'", -reach,
                       reach, tic_step(2.0 * reach, kRoomForTics_in))};
       const std::size_t error = 2 + 3 * r;
       panel.elements = {fmt::format("{} using 1:{}:{} with filledcurves {} notitle", blocks[s],

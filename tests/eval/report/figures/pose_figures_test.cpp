@@ -100,8 +100,8 @@ TEST_F(FiguresTest, ErrorsOverTimeStandInTheBandOfTwoSigma) {
   EXPECT_EQ(sheet.columns, 2);
   EXPECT_EQ(sheet.panels.size(), 6u);
   EXPECT_THAT(block(sheet.data, "# wheels"),
-              ElementsAre("1 0.1 -0.0349066 0.0349066 0 -0.0349066 0.0349066 3 -2 2",
-                          "2 -0.03 -0.0349066 0.0349066 0 -0.0349066 0.0349066 1 -2 2"));
+              ElementsAre("1 10 -3.49066 3.49066 0 -3.49066 3.49066 3 -2 2",
+                          "2 -3 -3.49066 3.49066 0 -3.49066 3.49066 1 -2 2"));
   EXPECT_THAT(sheet.caption, HasSubstr("wheels: 50, 100 and 50 % of frames within the band."));
   EXPECT_THAT(sheet.caption, HasSubstr("lost: never converged."));
   EXPECT_EQ(draw(sheet, folder_).size(), 3u);
