@@ -16,6 +16,8 @@
 namespace mapscore::eval {
 namespace {
 
+constexpr double kRounding = 1e-9;  ///< metres or radians of an axis that is right
+
 /// Way along the true trajectory to each pose. Squares are added from left to right, as evo's
 /// library does: the pair of a pose must not depend on the last bit of a sum.
 std::vector<double> ways_to(std::span<const Pose> truth) {
@@ -70,10 +72,20 @@ void tally_up(double squared, const NeesBand& band, NeesTally& tally) {
     ++tally.infinite;
 }
 
+/// Whether every axis that a belief calls certain is right.
+bool right_where_certain(const PoseEstimate& estimate, const PlanarPose& T_true) {
+  const Eigen::Vector3d xi = log_planar(inverse(estimate.mean) * T_true);
+  for (int axis = 0; axis < 3; ++axis)
+    if (estimate.covariance(axis, axis) == 0.0 && std::abs(xi[axis]) > kRounding) return false;
+  return true;
+}
+
 void add_nees(const PoseBelief& belief, const Pose& T_true, TrajectoryErrors& errors) {
   const PoseEstimate estimate = planar_estimate(belief);
-  if (!estimate.covariance.isZero(0.0))
-    tally_up(nees(estimate, planar(T_true)), kNeesBand, errors.planar);
+  const bool some_certain = (estimate.covariance.diagonal().array() == 0.0).any();
+  const bool silent = estimate.covariance.isZero(0.0) ||
+                      (some_certain && right_where_certain(estimate, planar(T_true)));
+  if (!silent) tally_up(nees(estimate, planar(T_true)), kNeesBand, errors.planar);
   if (is_spatial(belief)) tally_up(nees(belief, T_true), kNeesBand6, errors.spatial);
 }
 

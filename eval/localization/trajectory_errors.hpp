@@ -58,7 +58,9 @@ struct TrajectoryErrors {
   SquareSum rotation;           ///< of each frame, rad^2, as it stands
   SquareSum relative_position;  ///< of each pair, m^2: RPE
   SquareSum relative_rotation;  ///< of each pair, rad^2
-  NeesTally planar;             ///< x y yaw, three degrees of freedom
+  /// x y yaw, three degrees of freedom. Not of beliefs that state no covariance, nor of those that
+  /// call an axis certain and are right within 1e-9 m or rad.
+  NeesTally planar;
   NeesTally spatial;            ///< all axes, six degrees of freedom; of beliefs with all variances
 };
 

@@ -133,6 +133,7 @@ class CurveFigure {
       lines.push_back(marks.line);
     }
     if (!common) panel.settings.push_back(own_settings(*score.own_axis));
+    if (!common && !sheet_.style.width_mm) panel.settings.emplace_back("set ylabel offset 0,0");
     auto& order = panel.elements;
     if (layout_.bars()) order = std::exchange(lines, {});
     for (const auto* part : {&ceilings, &spreads, &lines})
@@ -154,8 +155,9 @@ class CurveFigure {
     constexpr double kAbove = 1.05, kTopOfNothing = 1.0;
     double top = std::max(axis.least_top, kAbove * most_);
     if (top == 0.0) top = kTopOfNothing;
-    std::string settings = fmt::format("unset arrow; set yrange [0:{:.6g}]; set ytics {:.6g}", top,
-                                       tic_step(top, kNarrow_in));
+    std::string settings =
+        fmt::format("unset arrow; set format y '%4g'; set yrange [0:{:.6g}]; set ytics {:.6g}", top,
+                    tic_step(top, kNarrow_in));
     if (axis.dashed_at)
       settings += fmt::format(
           "; set arrow from graph 0, first {0:.9g} to graph 1, first {0:.9g} nohead back lw 1 dt "

@@ -163,12 +163,13 @@ TEST(TrajectoryErrors, NeesIsOfThePlaneOfAllAndOfSpaceOfThoseThatHaveIt) {
   plane[0] = plane[1] = 0.1;
   plane[5] = 0.02;
   const Pose off = planar_pose(0.1, -0.2, 0);
-  const std::vector<Pose> truth(4, Pose::Identity());
+  const std::vector<Pose> truth(5, Pose::Identity());
   const TrajectoryErrors errors = trajectory_errors(
-      truth,
-      std::vector<PoseBelief>{belief_of(off, plane), belief_of(off, Vector6::Constant(0.1)),
-                              belief_of(off, Vector6::Zero()),           // says nothing
-                              belief_of(off, 0.1 * Vector6::Unit(0))});  // of y and yaw: certain
+      truth, std::vector<PoseBelief>{belief_of(off, plane), belief_of(off, Vector6::Constant(0.1)),
+                                     belief_of(off, Vector6::Zero()),  // says nothing
+                                     // Certain of y and yaw: wrong, and right.
+                                     belief_of(off, 0.1 * Vector6::Unit(0)),
+                                     belief_of(planar_pose(0.1, 0, 0), 0.1 * Vector6::Unit(0))});
   EXPECT_EQ(errors.planar.count, 3);
   EXPECT_EQ(errors.planar.in_band, 2);
   EXPECT_EQ(errors.planar.infinite, 1);
