@@ -61,7 +61,7 @@ struct TrajectoryErrors {
   /// x y yaw, three degrees of freedom. Not of beliefs that state no covariance, nor of those that
   /// call an axis certain and are right within 1e-9 m or rad.
   NeesTally planar;
-  NeesTally spatial;            ///< all axes, six degrees of freedom; of beliefs with all variances
+  NeesTally spatial;  ///< all axes, six degrees of freedom; of beliefs with all variances
 };
 
 /// Pairs of poses a metre of way apart. For each pose i of the true trajectory the later pose j
