@@ -8,7 +8,7 @@
 #
 #   scripts/setup.sh           what building, the demo and the tests need
 #   scripts/setup.sh --train   and what trains networks
-#   scripts/setup.sh --ci      and that, and clang-format, for the format check
+#   scripts/setup.sh --ci      and that, clang-format for the format check, and evo, against which ATE and RPE are held
 
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -33,6 +33,10 @@ declare -A mujoco_sha256=(
 small_gicp_version=1.0.1
 small_gicp_folder=build/deps/small_gicp-$small_gicp_version
 small_gicp_sha256=e0b1a03a87da154b53b489cce7079b5be02ba17723f89c4161f8311b564ca0b1
+
+evo_version=1.38.1
+evo_folder=build/deps/evo-$evo_version
+evo_sha256=6f9ebbedec38de74c481a62b04d24c2320568878a9a8cf92cc3f627ef515ac9e
 
 say() { printf 'setup: %s\n' "$*" >&2; }
 
@@ -110,8 +114,8 @@ PYTHON
 }
 
 # The source distribution carries the C++ headers, which is all that is used of it.
-install_small_gicp() {
-  [ -f "$small_gicp_folder/include/small_gicp/registration/registration.hpp" ] && return
+install_small_gicp() (  # in a shell of its own, for its trap
+  [ -f "$small_gicp_folder/include/small_gicp/registration/registration.hpp" ] && exit
   say "fetching small_gicp $small_gicp_version into $small_gicp_folder"
   sdist_folder=$(mktemp -d)
   trap 'rm -rf "$sdist_folder" "$small_gicp_folder.partial"' EXIT
@@ -129,8 +133,30 @@ install_small_gicp() {
   tar -xzf "$sdist_folder"/small_gicp-*.tar.gz -C "$small_gicp_folder.partial" --strip-components=1 \
     "small_gicp-$small_gicp_version/include" "small_gicp-$small_gicp_version/LICENSE"
   mv "$small_gicp_folder.partial" "$small_gicp_folder"
-}
+)
+
+# GPL-3, so a tool beside the tests and no part of mapscore. Its core needs numpy and scipy alone.
+install_evo() (  # in a shell of its own, for its trap
+  [ -f "$evo_folder/evo/core/metrics.py" ] && exit
+  say "fetching evo $evo_version into $evo_folder"
+  wheel_folder=$(mktemp -d)
+  trap 'rm -rf "$wheel_folder" "$evo_folder.partial"' EXIT
+  if ! python3 -m pip download --quiet --disable-pip-version-check --no-deps --only-binary=:all: \
+    -d "$wheel_folder" "evo==$evo_version"; then
+    say "evo could not be fetched; check the network"
+    exit 2
+  fi
+  if ! echo "$evo_sha256 $(ls "$wheel_folder"/*.whl)" | sha256sum --check --quiet; then
+    say "the evo wheel is not the one this project was tested with; nothing was installed"
+    exit 2
+  fi
+  rm -rf "$evo_folder.partial"
+  mkdir -p "$evo_folder.partial"
+  python3 -m zipfile -e "$wheel_folder"/*.whl "$evo_folder.partial"
+  mv "$evo_folder.partial" "$evo_folder"
+)
 
 install_packages
 install_mujoco
 install_small_gicp
+case "${1:-}" in --ci) install_evo ;; esac

@@ -3,6 +3,7 @@
 
 #include "core/geometry/pose.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace mapscore {

@@ -3,10 +3,8 @@
 
 #include "core/localization/planar_pose.hpp"
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace mapscore {
@@ -77,13 +75,6 @@ Covariance6 spatial_covariance(const Eigen::Matrix3d& covariance) {
   Covariance6 spatial = Covariance6::Zero();
   spatial(kAxes, kAxes) = covariance;
   return spatial;
-}
-
-double nees(const PoseEstimate& estimate, const PlanarPose& T_map_base_true) {
-  const Eigen::Vector3d xi = log_planar(inverse(estimate.mean) * T_map_base_true);
-  const Eigen::LLT<Eigen::Matrix3d> llt(estimate.covariance);
-  if (llt.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
-  return xi.dot(llt.solve(xi));
 }
 
 }  // namespace mapscore

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include "core/error.hpp"
 #include "core/whole_file.hpp"
+#include "eval/cli/localization_table.hpp"
 #include "eval/cli/shared/figure_flags.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
@@ -11,16 +13,19 @@
 #include "eval/recording/grid_file.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/report/figures/believed_figures.hpp"
+#include "eval/report/figures/figures.hpp"
+#include "eval/report/table_formats.hpp"
 #include "eval/study/study.hpp"
 #include "files/folder_lock.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +34,9 @@ namespace mapscore::eval {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char *kAll = "all", *kOdometry = "odometry", *kFilter = "particle_filter",
+                     *kTrajectory = "trajectory";
 
 struct LocalizeFlags {
   std::string recording, output, source = "particle_filter", model = "likelihood_field";
@@ -50,7 +58,7 @@ Study study_of(const LocalizeFlags& flags) {
   study.methods = {{"direct", Direct{}}};  // a study has one; nothing is mapped here
   study.seed = flags.seed;
   study.seeds = flags.seeds;
-  set_leaf(study, "localization.source", flags.source);
+  if (flags.source != kAll) set_leaf(study, "localization.source", flags.source);
   set_leaf(study, "localization.filter.scan_model", flags.model);
   set_leaf(study, "faults.lidar.preset", "rplidar_a2");
   if (flags.global_start) set_leaf(study, "localization.filter.start", "global");
@@ -60,83 +68,183 @@ Study study_of(const LocalizeFlags& flags) {
   return study;
 }
 
-std::string csv_of(int seed, const LocalizationScore& score) {
-  std::string text;
-  for (const FrameError& frame : score.frames)
-    text += fmt::format("{},{},{:.6f},{:.5f},{},{:.6f},{}\n", seed, frame.stamp_s, frame.position_m,
-                        frame.heading_rad * 180.0 / std::numbers::pi,
-                        frame.nees ? fmt::format("{:.5g}", *frame.nees) : "", frame.sigma_m,
-                        frame.converged ? 1 : 0);
+/// Sources that move a robot through a recording by its logs or a file; the others move the truth.
+bool localises(PoseSource source) {
+  return source != PoseSource::gaussian && source != PoseSource::truth;
+}
+
+std::vector<std::string> source_names() {
+  std::vector<std::string> names;
+  constexpr auto kNames = names_of(PoseSource{});
+  for (std::size_t n = 0; n < kNames.size(); ++n)
+    if (localises(static_cast<PoseSource>(n))) names.emplace_back(kNames[n]);
+  return names;
+}
+
+/// Why a recording, or what was given with it, has nothing for a source; empty where it has.
+std::string missing_for(const std::string& source, const Study& study, const Recording& recording) {
+  if (source == kTrajectory)
+    return study.localization.trajectory ? "" : "no --set localization.trajectory=FILE";
+  const bool without_wheels =
+      source.starts_with("visual") && !study.localization.visual.visual.wheels;
+  if (!recording.has_odometry() && !without_wheels) return "no odometry.txt";
+  if (source == kFilter && !recording.has_scans()) return "no scan/scans.bin";
+  return "";
+}
+
+/// The source of the flags, or all that the recording has something for.
+std::vector<std::string> chosen_sources(const LocalizeFlags& flags, const Study& study,
+                                        const Recording& recording) {
+  if (flags.source != kAll) return {flags.source};
+  std::vector<std::string> sources;
+  for (const std::string& source : source_names()) {
+    const std::string missing = missing_for(source, study, recording);
+    if (missing.empty())
+      sources.push_back(source);
+    else
+      std::cerr << fmt::format("localize: not {}: {}\n", source, missing);
+  }
+  if (sources.empty())
+    throw Error(
+        fmt::format("{}: no source has anything to go by; record it with trajectory.drive: "
+                    "{{wheels: {{}}}}, or give a trajectory",
+                    shown(recording.folder())));
+  return sources;
+}
+
+/// What a believed trajectory says at each frame, in the format of TUM.
+std::string frame_poses_text(const BelievedTrajectory& believed,
+                             const std::vector<TrajectoryPose>& truth) {
+  std::vector<TrajectoryPose> poses;
+  for (const TrajectoryPose& at : truth) {
+    const PoseBelief belief = believed.at(at.stamp_s);
+    poses.push_back({at.stamp_s, belief.T_map_odom * belief.T_odom_base});
+  }
+  return trajectory_text(poses);
+}
+
+/// How the pose of each depth image came about.
+std::string tracking_csv(const VisualTrajectory& visual) {
+  std::string text = "stamp_s,tracking,key_frame,closed_loop,known_share,inlier_share\n";
+  for (const OdometryStep& step : visual.steps)
+    text += fmt::format("{},{},{},{},{:.4f},{:.4f}\n", step.stamp_s,
+                        names_of(step.tracking)[static_cast<std::size_t>(step.tracking)],
+                        step.key_frame ? 1 : 0, step.closed_loop ? 1 : 0, step.known_share,
+                        step.inlier_share);
   return text;
 }
 
-void print_row(const std::string& source, int seed, const LocalizationScore& score) {
-  if (!score.converged_s) {
-    std::cout << fmt::format("{:<16} {:>5} {:>11}\n", source, seed, "never");
-    return;
-  }
-  const std::string share = score.nees_share ? fmt::format("{:.3f}", *score.nees_share) : "-";
-  std::cout << fmt::format("{:<16} {:>5} {:>11.2f} {:>9.4f} {:>9.4f} {:>10.3f} {:>10.3f} {:>10}\n",
-                           source, seed, *score.converged_s, score.position_m.mean,
-                           score.position_m.p95, score.heading_deg.mean, score.heading_deg.p95,
-                           share);
+/// The same, counted: `visual_slam, seed 0: 2433 tracked, 2 slipped of 2436 images; 4 loops
+/// closed`.
+std::string tracking_text(const std::string& source, int seed, const VisualTrajectory& visual) {
+  std::string text;
+  const auto frames = visual.frames_by_tracking();
+  for (std::size_t n = 0; n < frames.size(); ++n)
+    if (frames[n] > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", frames[n], names_of(Tracking{})[n]);
+  return fmt::format("{}, seed {}: {} of {} depth images; {} loops closed\n", source, seed, text,
+                     visual.steps.size(), visual.loops);
 }
 
-/// Scores of all repetitions; the files of the first one.
-std::vector<LocalizationScore> localised(const Study& study, const Recording& recording,
-                                         const OccupancyGrid& grid, bool quiet,
-                                         const fs::path& folder) {
-  Progress progress("localize", "turns", quiet);
-  std::vector<LocalizationScore> scores;
+/// Of one repetition; says how visual odometry fared.
+BelievedTrajectory believed_by(const Recording& recording, const Task& task,
+                               const OccupancyGrid* grid, const fs::path& folder,
+                               const std::function<void(int, int)>& progress) {
+  const PoseSource source = task.config.localization.source;
+  if (!is_visual(source)) return believed_trajectory(recording, task, grid, progress);
+  const VisualTrajectory visual = visual_trajectory(recording, task, progress);
+  const std::string name = leaf_text(task.config, "localization.source");
+  if (task.seed_index == 0)
+    write_whole_file(folder / (name + "_tracking.csv"), tracking_csv(visual));
+  std::cerr << tracking_text(name, task.seed_index, visual);
+  return visual.believed;
+}
+
+/// Where one source is, in all repetitions; writes the poses of the first one.
+SourceScores localised(const Study& study, const Recording& recording, const OccupancyGrid* grid,
+                       const LocalizeFlags& flags, const std::vector<TrajectoryPose>& truth) {
+  const fs::path folder = flags.output;
+  const std::string name = leaf_text(study, "localization.source");
+  Progress progress("localize", "turns", flags.quiet);
+  SourceScores scores{name, {}};
   for (int run = 0; run < study.seeds; ++run) {
     Task task;
     task.config = study;
     task.seed_index = run;
     const BelievedTrajectory believed =
-        believed_trajectory(recording, task, &grid, [&](int done, int total) {
+        believed_by(recording, task, grid, folder, [&](int done, int total) {
           progress.show(std::int64_t{run} * total + done, std::int64_t{study.seeds} * total);
         });
-    if (run == 0) write_whole_file(folder / "localization.txt", believed_text(believed));
-    scores.push_back(score_localization(believed, recording));
+    if (run == 0) {
+      write_whole_file(folder / (flags.source == kAll ? fmt::format("localization_{}.txt", name)
+                                                      : "localization.txt"),
+                       believed_text(believed));
+      write_whole_file(folder / (name + "_at_frames.txt"), frame_poses_text(believed, truth));
+    }
+    scores.seeds.push_back(score_localization(believed, truth));
   }
   return scores;
 }
 
+/// Of all sources, one after the other, and the files of their errors.
+std::vector<SourceScores> all_localised(Study study, const Recording& recording,
+                                        const std::vector<std::string>& sources,
+                                        const OccupancyGrid* grid, const LocalizeFlags& flags) {
+  const fs::path folder = flags.output;
+  const std::vector<TrajectoryPose> truth = true_poses(recording);
+  write_whole_file(folder / "truth_at_frames.txt", trajectory_text(truth));
+  std::vector<SourceScores> scores;
+  for (const std::string& source : sources) {
+    set_leaf(study, "localization.source", source);
+    scores.push_back(localised(study, recording, grid, flags, truth));
+  }
+  write_whole_file(folder / "localization.csv", frame_errors_csv(scores));
+  write_whole_file(folder / "localization_scores.csv", scores_csv(scores));
+  return scores;
+}
+
+void list_files(const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) std::cout << shown(file) << '\n';
+}
+
 void localize(const LocalizeFlags& flags) {
   const FigureStyle style = flags.style.style();
-  Study study = study_of(flags);
   const Recording recording = Recording::open(flags.recording);
-  const OccupancyGrid grid = grid_of(recording, study);
+  Study study = study_of(flags);
+  std::vector<std::string> sources = chosen_sources(flags, study, recording);
+  std::optional<OccupancyGrid> grid;
+  if (recording.has_scans() || study.localization.grid) grid = grid_of(recording, study);
   const fs::path folder = flags.output;
   const FolderLock lock(folder);
   fs::create_directories(folder);
-  save_grid(grid, folder / "grid.yaml");
-  const std::vector<LocalizationScore> scores =
-      localised(study, recording, grid, flags.quiet, folder);
-  std::string csv = "seed,stamp_s,position_error_m,heading_error_deg,nees,sigma_m,converged\n";
-  for (int run = 0; const LocalizationScore& score : scores) csv += csv_of(run++, score);
-  write_whole_file(folder / "localization.csv", csv);
-  if (flags.source != "odometry")
-    study.sweep = {{"localization.source", {flags.source, "odometry"}}};
-  for (const fs::path& file : draw_believed(study, recording, {}, folder, style))
-    std::cout << shown(file) << '\n';
-  std::cout << fmt::format("{:<16} {:>5} {:>11} {:>9} {:>9} {:>10} {:>10} {:>10}\n", "source",
-                           "seed", "converged_s", "mean_m", "p95_m", "mean_deg", "p95_deg",
-                           "nees_share");
-  for (int run = 0; const LocalizationScore& score : scores) print_row(flags.source, run++, score);
+  if (grid) save_grid(*grid, folder / "grid.yaml");
+  const std::vector<SourceScores> scores =
+      all_localised(study, recording, sources, grid ? &*grid : nullptr, flags);
+  const StudySummary summary = pose_summary(study, scores);
+  if (flags.source != kAll && flags.source != kOdometry && recording.has_odometry())
+    sources.emplace_back(kOdometry);  // drawn beside it
+  study.sweep = {{"localization.source", sources}};
+  list_files(draw_believed(study, recording, {}, folder, style));
+  if (flags.source == kAll) list_files(draw(pose_figure(summary, style).value(), folder));
+  std::cout << converged_rows(scores) << '\n' << to_text(trajectory_scores_table(summary));
 }
 
 }  // namespace
 
 void add_localize(CLI::App& program) {
+  std::vector<std::string> sources = source_names();
+  sources.emplace_back(kAll);
   const auto [verb, flags] = add_verb<LocalizeFlags>(
       program, "localize", "Localise the robot anew from a recording's logs", localize);
-  verb->add_option("RECORDING", flags->recording, "Folder with odometry.txt and scan/scans.bin")
+  verb->add_option("RECORDING", flags->recording,
+                   "Folder with odometry.txt, and scan/scans.bin for the filter")
       ->required();
   verb->add_option("-o,--output", flags->output, "Folder for the results")->required();
   verb->add_option("--source", flags->source,
-                   "particle_filter, odometry, visual_odometry or visual_slam")
-      ->check(CLI::IsMember({"particle_filter", "odometry", "visual_odometry", "visual_slam"}))
+                   fmt::format("One of {}; all: each that the recording has something for, side by "
+                               "side",
+                               fmt::join(sources, ", ")))
+      ->check(CLI::IsMember(sources))
       ->capture_default_str();
   verb->add_option("--model", flags->model, "Of a scan: likelihood_field or beam")
       ->check(CLI::IsMember({"likelihood_field", "beam"}))
@@ -157,14 +265,21 @@ void add_localize(CLI::App& program) {
   verb->add_flag("-q,--quiet", flags->quiet, "No progress");
   flags->style.add_to(*verb);
   verb->footer(
-      "Writes grid.yaml and .pgm, localization.txt and trajectory_on_grid.png, .pdf and .svg "
-      "(first seed), and\n"
-      "localization.csv (errors by frame, all seeds); prints the errors after convergence\n"
-      "(docs/metrics.md).\n"
+      "Writes grid.yaml and .pgm where there are scans; of the first seed localization.txt, the "
+      "poses at the frames\n"
+      "(truth_at_frames.txt, SOURCE_at_frames.txt: TUM), trajectory_on_grid and errors_over_time "
+      "(.png, .pdf, .svg); of all\n"
+      "seeds localization.csv (errors by frame) and localization_scores.csv (ATE, RPE, NEES); "
+      "with --source all\n"
+      "localization_SOURCE.txt and poses_by_source (.png, .pdf, .svg). Prints the errors after "
+      "convergence, then\n"
+      "ATE, RPE and NEES of all frames (docs/metrics.md).\n"
       "Examples:\n"
       "  mapscore localize results/home/recordings/home-* -o results/home/localized --seeds 10\n"
       "  mapscore localize /data/home -o out --global --grid /data/home/map.yaml\n"
-      "  mapscore localize /data/home -o out --source odometry\n"
+      "  mapscore localize /data/home -o out --source all --seeds 5\n"
+      "  mapscore localize /data/home -o out --source trajectory "
+      "--set localization.trajectory=slam.txt\n"
       "  mapscore localize /data/home -o out --set localization.grid_resolution_m=0.05 "
       "--set localization.filter.temper=0.2");
 }

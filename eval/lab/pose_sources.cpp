@@ -59,11 +59,7 @@ std::vector<PoseBelief> gaussian(const Recording& recording, const Task& task,
                                  const std::vector<int>& depth_of, const Pose& T_map_world) {
   sim::PoseNoise noise = task.config.faults.pose;
   if (task.config.localization.source == PoseSource::truth) noise = {};
-  std::vector<Pose> poses;
-  for (int frame = 0; frame < recording.frame_count(); ++frame)
-    poses.push_back(looks_up_at_depth(task)
-                        ? recording.T_world_base_of_depth(depth_of[static_cast<std::size_t>(frame)])
-                        : recording.T_world_base_of_color(frame));
+  const std::vector<Pose> poses = true_poses(recording, task, depth_of);
   const Covariance6 covariance = sim::reported_covariance(noise);
   std::vector<PoseBelief> beliefs;
   for (const Pose& pose :
@@ -87,6 +83,16 @@ std::string poses_key(const Task& task) {
 }
 
 }  // namespace
+
+std::vector<Pose> true_poses(const Recording& recording, const Task& task,
+                             const std::vector<int>& depth_of) {
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < recording.frame_count(); ++frame)
+    poses.push_back(looks_up_at_depth(task)
+                        ? recording.T_world_base_of_depth(depth_of[static_cast<std::size_t>(frame)])
+                        : recording.T_world_base_of_color(frame));
+  return poses;
+}
 
 OccupancyGrid grid_of(const Recording& recording, const Study& config) {
   check_logs(recording, PoseSource::particle_filter);

@@ -53,6 +53,10 @@ class PoseSources {
     const Recording& recording, const Task& task,
     const std::function<void(int, int)>& progress = {});
 
+/// The true poses T_world_base at the stamps of a task's beliefs, by frame.
+[[nodiscard]] std::vector<Pose> true_poses(const Recording& recording, const Task& task,
+                                           const std::vector<int>& depth_of);
+
 /// What the robot believes along a whole recording, in the scene's world, as a task's source says:
 /// odometry, particle filter, depth images or a file. `grid`: grid_of the task's configuration
 /// where it is at hand, else the filter has it made. `progress(turns or images done, all)` of

@@ -45,7 +45,16 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       truths_(truths),
       mapper_(mapping_, table.classes.size()) {
   result_.counts = zero_counts(table_.classes.size(), score_options_);
+  if (score_options_.asked.poses) result_.counts[kBackground].poses = score_poses(recording);
   if (task.config.score.unit == ScoreUnit::map) look_up_truth({});
+}
+
+PoseCounts TrialRun::score_poses(const Recording& recording) const {
+  const Pose T_world_map = map_frame_.T_map_world().inverse();
+  std::vector<PoseBelief> believed = beliefs_;
+  for (PoseBelief& belief : believed) belief.T_map_odom = T_world_map * belief.T_map_odom;
+  return PoseCounts::of(
+      trajectory_errors(true_poses(recording, task_, sights_->depth_of_frames()), believed));
 }
 
 void TrialRun::advance(const Frame& frame, const Sight& sight) {

@@ -60,7 +60,8 @@ class TrialRun {
   /// What is believed at every frame.
   [[nodiscard]] const std::vector<PoseBelief>& beliefs() const { return beliefs_; }
 
-  /// What was kept, in the order of the frames; added up, the counts of the trial.
+  /// What was kept, in the order of the frames; added up, the counts of the trial, but for its
+  /// poses, which are of no frame.
   [[nodiscard]] const std::vector<FrameResult>& frames() const { return frames_; }
   /// Moves the kept frames out.
   [[nodiscard]] std::vector<FrameResult> take_frames() { return std::exchange(frames_, {}); }
@@ -75,6 +76,8 @@ class TrialRun {
   /// Counts a frame's detections and their boxes; one of a wrong class has no box there.
   void count(const std::vector<Segment>& segments,
              const std::vector<Eigen::AlignedBox3d>& true_boxes, Counts& counts);
+  /// Errors of the beliefs of all frames, in the scene's world.
+  [[nodiscard]] PoseCounts score_poses(const Recording& recording) const;
   /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.
   void score_labels(const Frame& frame, const Sight& sight, Counts& counts) const;
   [[nodiscard]] Observation observe_truth(const Frame& frame) const;

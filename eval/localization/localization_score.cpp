@@ -3,6 +3,8 @@
 
 #include "eval/localization/localization_score.hpp"
 
+#include "core/localization/nees.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,8 +14,9 @@
 namespace mapscore::eval {
 namespace {
 
-FrameError error_at(const BelievedTrajectory& believed, const TrajectoryPose& truth) {
-  const PoseEstimate estimate = planar_estimate(believed.at(truth.stamp_s));
+FrameError error_of(const PoseBelief& belief, const TrajectoryPose& truth) {
+  const PoseEstimate estimate = planar_estimate(belief);
+  const Pose T_mean = belief.T_map_odom * belief.T_odom_base;
   const PlanarPose T_map_base = planar(truth.T_world_base);
   FrameError error;
   error.stamp_s = truth.stamp_s;
@@ -22,6 +25,11 @@ FrameError error_at(const BelievedTrajectory& believed, const TrajectoryPose& tr
   error.heading_rad = std::abs(wrapped_angle(estimate.mean.yaw_rad - T_map_base.yaw_rad));
   if (!estimate.covariance.isZero(0.0)) error.nees = nees(estimate, T_map_base);
   error.sigma_m = std::sqrt(estimate.covariance.topLeftCorner<2, 2>().trace());
+  error.error = log_planar(inverse(estimate.mean) * T_map_base);
+  error.sigma = estimate.covariance.diagonal().cwiseSqrt();
+  error.distance_m = (T_mean.translation() - truth.T_world_base.translation()).norm();
+  error.rotation_rad = rotation_angle(truth.T_world_base.linear().transpose() * T_mean.linear());
+  if (is_spatial(belief)) error.spatial_nees = nees(belief, truth.T_world_base);
   return error;
 }
 
@@ -46,9 +54,13 @@ LocalizationScore score_localization(const BelievedTrajectory& believed,
                                      const std::vector<TrajectoryPose>& truth) {
   LocalizationScore score;
   std::vector<double> positions_m, headings_deg;
+  std::vector<PoseBelief> beliefs;
+  std::vector<Pose> poses;
   int in_band = 0, with_nees = 0;
   for (const TrajectoryPose& pose : truth) {
-    FrameError error = error_at(believed, pose);
+    poses.push_back(pose.T_world_base);
+    beliefs.push_back(believed.at(pose.stamp_s));
+    FrameError error = error_of(beliefs.back(), pose);
     if (!score.converged_s && error.sigma_m < kConvergedSigma) score.converged_s = pose.stamp_s;
     error.converged = score.converged_s.has_value();
     score.frames.push_back(error);
@@ -57,20 +69,25 @@ LocalizationScore score_localization(const BelievedTrajectory& believed,
     headings_deg.push_back(error.heading_rad * 180.0 / std::numbers::pi);
     if (!error.nees) continue;
     ++with_nees;
-    if (*error.nees >= kNeesBand.low && *error.nees <= kNeesBand.high) ++in_band;
+    if (kNeesBand.holds(*error.nees)) ++in_band;
   }
   if (with_nees > 0) score.nees_share = static_cast<double>(in_band) / with_nees;
   score.position_m = summary_of(std::move(positions_m));
   score.heading_deg = summary_of(std::move(headings_deg));
+  score.all = trajectory_errors(poses, beliefs);
   return score;
+}
+
+std::vector<TrajectoryPose> true_poses(const Recording& recording) {
+  std::vector<TrajectoryPose> truth;
+  for (int frame = 0; frame < recording.frame_count(); ++frame)
+    truth.push_back({recording.color_stamp_s(frame), recording.T_world_base_of_color(frame)});
+  return truth;
 }
 
 LocalizationScore score_localization(const BelievedTrajectory& believed,
                                      const Recording& recording) {
-  std::vector<TrajectoryPose> truth;
-  for (int frame = 0; frame < recording.frame_count(); ++frame)
-    truth.push_back({recording.color_stamp_s(frame), recording.T_world_base_of_color(frame)});
-  return score_localization(believed, truth);
+  return score_localization(believed, true_poses(recording));
 }
 
 }  // namespace mapscore::eval

@@ -223,7 +223,7 @@ const char* name_of(Standing verdict) {
 }
 
 bool higher_is_better(std::string_view metric) {
-  return !metric.ends_with("_m") && metric != "brier" && metric != "ece";
+  return !is_size_of_error(metric) && metric != "brier" && metric != "ece";
 }
 
 std::optional<double> JudgedFigure::gain() const {

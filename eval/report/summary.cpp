@@ -168,7 +168,7 @@ Estimate estimate(const BestThreshold& best, std::optional<double> ChosenScore::
 
 SeedSummary spread_of(std::string_view metric, const std::vector<std::optional<double>>& by_seed) {
   ValueLimits limits{.low = 0.0};
-  if (!metric.ends_with("_m")) limits.high = 1.0;
+  if (!is_size_of_error(metric)) limits.high = 1.0;
   return summarise(by_seed, limits);
 }
 
@@ -275,7 +275,9 @@ ClassCounts counts_of_group(const Counts& counts, const ClassTable& table, std::
   const auto named = std::ranges::find(table.classes, group, &SemanticClass::name);
   if (named == table.classes.end())
     throw Error(fmt::format("class '{}': not in the class table", group));
-  return counts.at(named->id);
+  ClassCounts of_class = counts.at(named->id);
+  of_class.poses = counts.at(kBackground).poses;  // the same whatever the class
+  return of_class;
 }
 
 std::vector<Metric> metrics_of_group(const Counts& counts, const ClassTable& table,

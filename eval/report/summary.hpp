@@ -67,8 +67,7 @@ struct Estimate {
   std::vector<std::optional<double>> by_seed = {};  ///< in the order of the line's seeds
 };
 
-/// The spread of a metric over the seeds, of which distances (`_m`) are at least 0 and all others
-/// from 0 to 1.
+/// The spread of a metric over the seeds: sizes of errors are at least 0, all others from 0 to 1.
 [[nodiscard]] SeedSummary spread_of(std::string_view metric,
                                     const std::vector<std::optional<double>>& by_seed);
 

@@ -48,6 +48,10 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
     caption.emplace_back(
         "2D: of detections in the image; IoU, accuracy, boundary F and ECE of pixels (pooled and "
         "macro: of background too), recall and PQ of instances");
+  if (study.score.asked.poses)
+    caption.emplace_back(
+        "ATE, RPE, NEES: of the poses that are mapped from, the same for all methods and classes; "
+        "NEES share: of frames in its 95 % band");
   return caption;
 }
 
@@ -126,8 +130,20 @@ std::string method_text(const Study& study, const std::string& name, Reader read
 
 std::string metric_text(const std::string& name, Reader reader) {
   if (reader != Reader::paper) return name;
-  for (const auto& [metric, text] :
-       {std::pair{"f1", "F1"}, {"iou", "IoU"}, {"ap", "AP"}, {"pq", "PQ"}, {"f1_best", "F1 best"}})
+  for (const auto& [metric, text] : {std::pair{"f1", "F1"},
+                                     {"iou", "IoU"},
+                                     {"ap", "AP"},
+                                     {"pq", "PQ"},
+                                     {"f1_best", "F1 best"},
+                                     {"ate_m", "ATE (m)"},
+                                     {"ate_aligned_m", "ATE, aligned (m)"},
+                                     {"ate_deg", "ATE (deg)"},
+                                     {"rpe_percent", "RPE (%)"},
+                                     {"rpe_deg_per_m", "RPE (deg/m)"},
+                                     {"nees_share", "NEES share"},
+                                     {"nees_mean", "NEES mean"},
+                                     {"nees6_share", "NEES share, 6 axes"},
+                                     {"nees6_mean", "NEES mean, 6 axes"}})
     if (name == metric) return text;
   const std::size_t last = name.rfind('_');
   if (last == name.npos || !name.ends_with("cm")) return spaced(name);
@@ -157,7 +173,11 @@ Table score_table(const StudySummary& summary, const std::string& group, Reader 
                                                         {"2D recall", "label_instance_recall"},
                                                         {"2D PQ", "label_pq"},
                                                         {"2D boundary F", "label_boundary_f"},
-                                                        {"2D ECE", "label_pixel_ece"}})
+                                                        {"2D ECE", "label_pixel_ece"},
+                                                        {"ATE (m)", "ate_m"},
+                                                        {"RPE (%)", "rpe_percent"},
+                                                        {"RPE (deg/m)", "rpe_deg_per_m"},
+                                                        {"NEES share", "nees_share"}})
     if (summary.has_metric(name) && has_value(name)) metrics.emplace_back(title, name);
   metrics.insert(metrics.end(),
                  {{"AP", "ap"}, {"F1 best", kBestF1}, {"threshold", kBestThreshold}});

@@ -114,6 +114,7 @@ ClassCounts pool_detected(const Counts& counts, const ClassTable& table) {
   }
   if (pooled.empty()) return {};
   pool("labels", pooled.front().labels, counts[kBackground].labels);
+  pooled.front().poses = counts[kBackground].poses;
   return std::move(pooled.front());
 }
 

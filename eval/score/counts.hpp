@@ -28,7 +28,7 @@ inline constexpr int kScoringVersion = 3;
 
 /// The parts of a score that a study must ask for, by their names in ClassCounts::parts().
 struct AskedParts {
-  bool instances = false, thin = false, labels = false;
+  bool instances = false, thin = false, labels = false, poses = false;
 
   static void fields(auto& s, auto&& visit) {
     const auto part = [&](auto& member, std::string_view key, std::string_view meaning) {
@@ -39,6 +39,8 @@ struct AskedParts {
     part(s.thin, "thin", "count the voxels of thin parts (chair legs) by themselves too");
     part(s.labels, "labels",
          "score detections in the image too: pixels, edges, instances, how sure they were");
+    part(s.poses, "poses",
+         "score the poses that are mapped from too: ATE, RPE, and NEES of their covariances");
   }
   bool operator==(const AskedParts&) const = default;
 };
@@ -95,6 +97,7 @@ struct ClassCounts {
   std::optional<InstanceCounts> instances;  ///< where instances were scored
   std::optional<ThinCounts> thin;           ///< where thin parts were scored
   std::optional<LabelCounts> labels;        ///< where detections were scored in the image
+  std::optional<PoseCounts> poses;          ///< where poses were scored; of no class, see Counts
 
   static auto counts() {
     return std::to_array<CountField<ClassCounts>>({
@@ -117,7 +120,8 @@ struct ClassCounts {
   static auto parts() {
     return std::tuple{
         std::pair{"boxes", &ClassCounts::boxes}, std::pair{"thin", &ClassCounts::thin},
-        std::pair{"instances", &ClassCounts::instances}, std::pair{"labels", &ClassCounts::labels}};
+        std::pair{"instances", &ClassCounts::instances}, std::pair{"labels", &ClassCounts::labels},
+        std::pair{"poses", &ClassCounts::poses}};
   }
 
   /// Pools. Throws Error when tolerances or distances differ, or one alone has an optional part.
@@ -139,7 +143,8 @@ void for_each_part(const ClassCounts& counts, auto&& act) {
 }
 
 /// Indexed by class id; entry 0 (background) stays zero, since background is never predicted, but
-/// for the pixels of `labels`.
+/// for the pixels of `labels`, and for `poses`: those of a trial are of no class, and stand there
+/// once.
 using Counts = std::vector<ClassCounts>;
 
 /// Zero counts for every class, with tolerances and parts as asked for and no distances.

@@ -49,6 +49,11 @@ std::vector<Metric> mean_over_classes(const std::vector<std::vector<Metric>>& cl
   return mean;
 }
 
+bool is_size_of_error(std::string_view name) {
+  return name.ends_with("_m") || name.ends_with("_deg") || name == "rpe_percent" ||
+         name == "nees_mean" || name == "nees6_mean";
+}
+
 std::optional<double> value_of(const std::vector<Metric>& metrics, const std::string& name) {
   const auto metric = std::ranges::find(metrics, name, &Metric::name);
   if (metric == metrics.end()) {

@@ -50,6 +50,10 @@ struct ClassOverlap {
 [[nodiscard]] std::vector<Metric> mean_over_classes(
     const std::vector<std::vector<Metric>>& classes);
 
+/// Whether a figure of that name is the size of an error, from 0 without bound: metres, degrees,
+/// percent of a way, normalised squares. All others are shares.
+[[nodiscard]] bool is_size_of_error(std::string_view name);
+
 /// The figure of that name, or nullopt when it is undefined. Throws Error when there is none.
 [[nodiscard]] std::optional<double> value_of(const std::vector<Metric>& metrics,
                                              const std::string& name);

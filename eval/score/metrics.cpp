@@ -126,12 +126,15 @@ std::vector<Metric> macro_metrics(const Counts& counts, const ClassTable& table)
     ClassCounts of_class = counts[semantic.id];
     of_class.instances.reset();  // which have means of their own
     of_class.labels.reset();
+    of_class.poses.reset();  // of no class
     classes.push_back(metrics_of(of_class));
   }
   if (classes.empty()) return {};
   std::vector<Metric> macro = mean_over_classes(classes);
   for (Metric& metric : mean_instance_metrics(counts, table)) macro.push_back(std::move(metric));
   for (Metric& metric : mean_label_metrics(counts)) macro.push_back(std::move(metric));
+  if (const auto& poses = counts[kBackground].poses)
+    for (Metric& metric : poses->metrics()) macro.push_back(std::move(metric));
   macro.push_back({"mpa", value_of(macro, "recall")});
   macro.push_back({"miou", value_of(macro, "iou")});
   return macro;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "eval/localization/trajectory_errors.hpp"
 #include "eval/score/metric.hpp"
 
 #include <Eigen/Geometry>
@@ -68,6 +69,61 @@ struct ThinCounts {
     });
   }
   bool operator==(const ThinCounts&) const = default;
+};
+
+/// ate_m, ate_aligned_m, ate_deg, rpe_percent, rpe_deg_per_m, nees_share, nees_mean, nees6_share,
+/// nees6_mean, in this order.
+[[nodiscard]] std::vector<Metric> pose_metrics(const TrajectoryErrors& errors);
+
+/// Errors of the poses that a trial maps from: integers that add over trials. A sum is kept as its
+/// whole part and the 10^-12 parts of the rest, each sum rounded once a trial, so that neither a
+/// lost robot nor a good one costs digits and the order of pooling does not matter.
+struct PoseCounts {
+  std::int64_t frames = 0, pairs = 0;  ///< pairs of frames a metre of way apart
+  // Sums of squares: m^2 and rad^2, over the frames, then over the pairs.
+  std::int64_t position = 0, position_parts = 0;
+  std::int64_t aligned = 0, aligned_parts = 0;
+  std::int64_t rotation = 0, rotation_parts = 0;
+  std::int64_t relative_position = 0, relative_position_parts = 0;
+  std::int64_t relative_rotation = 0, relative_rotation_parts = 0;
+  // Normalised errors, of x y yaw, then of all six axes: frames that have one, of them in the band
+  // and infinite, and the sum of the others.
+  std::int64_t nees_frames = 0, nees_in_band = 0, nees_infinite = 0;
+  std::int64_t nees = 0, nees_parts = 0;
+  std::int64_t nees6_frames = 0, nees6_in_band = 0, nees6_infinite = 0;
+  std::int64_t nees6 = 0, nees6_parts = 0;
+
+  [[nodiscard]] static PoseCounts of(const TrajectoryErrors& errors);
+  /// Those of pose_metrics.
+  [[nodiscard]] std::vector<Metric> metrics() const;
+
+  static auto counts() {
+    return std::to_array<CountField<PoseCounts>>({
+        {"pose_frames", &PoseCounts::frames},
+        {"pose_pairs", &PoseCounts::pairs},
+        {"position_m2", &PoseCounts::position, false},
+        {"position_parts", &PoseCounts::position_parts, false},
+        {"aligned_m2", &PoseCounts::aligned, false},
+        {"aligned_parts", &PoseCounts::aligned_parts, false},
+        {"rotation_rad2", &PoseCounts::rotation, false},
+        {"rotation_parts", &PoseCounts::rotation_parts, false},
+        {"relative_position_m2", &PoseCounts::relative_position, false},
+        {"relative_position_parts", &PoseCounts::relative_position_parts, false},
+        {"relative_rotation_rad2", &PoseCounts::relative_rotation, false},
+        {"relative_rotation_parts", &PoseCounts::relative_rotation_parts, false},
+        {"nees_frames", &PoseCounts::nees_frames},
+        {"nees_in_band", &PoseCounts::nees_in_band, false},
+        {"nees_infinite", &PoseCounts::nees_infinite, false},
+        {"nees_sum", &PoseCounts::nees, false},
+        {"nees_parts", &PoseCounts::nees_parts, false},
+        {"nees6_frames", &PoseCounts::nees6_frames},
+        {"nees6_in_band", &PoseCounts::nees6_in_band, false},
+        {"nees6_infinite", &PoseCounts::nees6_infinite, false},
+        {"nees6_sum", &PoseCounts::nees6, false},
+        {"nees6_parts", &PoseCounts::nees6_parts, false},
+    });
+  }
+  bool operator==(const PoseCounts&) const = default;
 };
 
 /// Least IoUs of the average precisions, percent; ap_mean is over all but the first.

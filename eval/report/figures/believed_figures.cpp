@@ -5,12 +5,14 @@
 
 #include "eval/lab/pose_sources.hpp"
 #include "eval/localization/localization_score.hpp"
+#include "eval/report/figures/pose_errors_figure.hpp"
 #include "eval/report/figures/trajectory_picture.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace mapscore::eval {
 namespace {
@@ -83,7 +85,8 @@ std::vector<std::filesystem::path> draw_believed(const Study& study, const Recor
                                                  const std::filesystem::path& folder,
                                                  const FigureStyle& style) {
   const std::vector<Study> configs = sources_of(study, choice);
-  if (configs.empty() || !recording.has_scans()) return {};
+  if (configs.empty()) return {};
+  std::vector<PoseErrors> errors;
   std::vector<DrawnTrajectory> lines{drawn_truth(recording)};
   TrajectoryNotes notes{"trajectory_on_grid",
                         fmt::format("{}: where the robot believes it is", study.name),
@@ -96,14 +99,23 @@ std::vector<std::filesystem::path> draw_believed(const Study& study, const Recor
     const BelievedTrajectory believed = believed_trajectory(recording, task);
     std::string name = leaf_text(config, kSourceKey);
     std::ranges::replace(name, '_', ' ');
-    const LocalizationScore score = score_localization(believed, recording);
+    LocalizationScore score = score_localization(believed, recording);
     if (score.converged_s) lines.push_back(drawn(recording, name, believed, *score.converged_s));
     notes.caption += errors_text(name, score);
+    errors.push_back({std::move(name), std::move(score.frames)});
   }
+  std::vector<std::filesystem::path> files =
+      draw(pose_errors_figure(errors, fmt::format("{}: seed {}. ", study.name, choice.seed_index),
+                              style),
+           folder);
+  if (!recording.has_scans()) return files;
   if (study.scene)
     for (const auto& [x, y, yaw] : study.trajectory.waypoints_m_deg)
       notes.waypoints_map.emplace_back(x, y);
-  return draw(trajectory_figure(grid_of(recording, configs.front()), lines, notes, style), folder);
+  for (std::filesystem::path& file :
+       draw(trajectory_figure(grid_of(recording, configs.front()), lines, notes, style), folder))
+    files.push_back(std::move(file));
+  return files;
 }
 
 }  // namespace mapscore::eval

@@ -13,11 +13,12 @@
 
 namespace mapscore::eval {
 
-/// Draws `trajectory_on_grid`: where the robot was, and where the study's pose sources believe it
+/// Draws `errors_over_time` (pose_errors_figure) and, where the recording has scans,
+/// `trajectory_on_grid`: where the robot was, and where the study's pose sources believe it
 /// to be, on the grid used for localisation, with each source's errors in the caption. Sources: all
 /// values of a sweep over `localization.source`, else the study's own; `gaussian` and `truth` are
 /// not drawn. Other swept leaves and the seed: as in `choice`. Draws and returns nothing when no
-/// source is left or the recording has no scans. Throws Error as PoseSources, trajectory_figure,
+/// source is left. Throws Error as PoseSources, trajectory_figure,
 /// draw.
 [[nodiscard]] std::vector<std::filesystem::path> draw_believed(const Study& study,
                                                                const Recording& recording,

@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t kScoresARow = 3;
 constexpr double kXPadding = 0.05;
+constexpr double kLeastOwnAxis_in = 1.0;  ///< two have room in a column, with their numbers
 /// Width over a name that the curves share; names are 1 apart.
 constexpr double kNamePlace = 0.7;
 constexpr const char* kLatticeStyle = "lw 1.2 dt (6,4) lc rgb '#000000'";
@@ -103,6 +104,10 @@ class CurveFigure {
   /// `column`: of StudyLayout::columns().
   void add(const CurveScore& score, std::size_t column, Panel panel) {
     panel.settings = x_settings(sheet_, layout_.x(), layout_.bars() ? 0.7 : 0.5);
+    const bool common = !score.own_axis;
+    most_ = 0.0;
+    has_ceilings_ = has_ceilings_ && common;
+    if (!common) sheet_.least_panel_in = std::min(sheet_.least_panel_in, kLeastOwnAxis_in);
     std::set<std::string> drawn_ceilings;
     std::vector<std::string> ceilings, spreads, lines;
     const std::string& head = layout_.columns()[column];
@@ -119,12 +124,16 @@ class CurveFigure {
       const CurveMarks marks = layout_.bars()    ? as_bars(curve, of)
                                : layout_.named() ? as_points(curve, of, offset, place)
                                                  : as_line(curve, of);
-      if (layout_.named() || drawn_ceilings.insert("registration" + registration).second)
+      if (common &&
+          (layout_.named() || drawn_ceilings.insert("registration" + registration).second))
         ceilings.push_back(marks.registration);
-      if (drawn_ceilings.insert("lattice" + lattice).second) ceilings.push_back(marks.lattice);
+      if (common && drawn_ceilings.insert("lattice" + lattice).second)
+        ceilings.push_back(marks.lattice);
       if (summary_.study.seeds > 1) spreads.push_back(marks.spread);
       lines.push_back(marks.line);
     }
+    if (!common) panel.settings.push_back(own_settings(*score.own_axis));
+    if (!common && !sheet_.style.width_mm) panel.settings.emplace_back("set ylabel offset 0,0");
     auto& order = panel.elements;
     if (layout_.bars()) order = std::exchange(lines, {});
     for (const auto* part : {&ceilings, &spreads, &lines})
@@ -134,13 +143,29 @@ class CurveFigure {
 
   [[nodiscard]] FigureSheet finish(const std::string& caption) {
     const std::string settings = score_settings(layout_.bars() ? 0.0 : least_);
-    for (Panel& panel : sheet_.panels) panel.settings.push_back(settings);
+    if (has_ceilings_)
+      for (Panel& panel : sheet_.panels) panel.settings.push_back(settings);
     add_legend();
     sheet_.caption = caption + layout_.columns_caption();
     return std::move(sheet_);
   }
 
  private:
+  [[nodiscard]] std::string own_settings(const OwnAxis& axis) const {
+    constexpr double kAbove = 1.05, kTopOfNothing = 1.0;
+    double top = std::max(axis.least_top, kAbove * most_);
+    if (top == 0.0) top = kTopOfNothing;
+    std::string settings =
+        fmt::format("unset arrow; set format y '%4g'; set yrange [0:{:.6g}]; set ytics {:.6g}", top,
+                    tic_step(top, kNarrow_in));
+    if (axis.dashed_at)
+      settings += fmt::format(
+          "; set arrow from graph 0, first {0:.9g} to graph 1, first {0:.9g} nohead back lw 1 dt "
+          "(6,4) lc rgb '#000000'",
+          *axis.dashed_at);
+    return settings;
+  }
+
   /// Texts of both columns of ceilings, registration first, to draw equal ones once.
   std::pair<std::string, std::string> add_points(const CurveScore& score, std::size_t column,
                                                  const Curve& curve) {
@@ -156,6 +181,8 @@ class CurveFigure {
       const auto trial = layout_.trial(curve, column, x);
       if (!trial) continue;
       const Estimate value = at(summary_.trials[*trial]);
+      for (const auto& figure : {value.pooled, value.over_seeds.high})
+        most_ = std::max(most_, figure.value_or(0.0));
       const std::string registration = note(at(summary_.registration_ceilings[*trial]).pooled);
       const std::string lattice = note(at(summary_.lattice_ceilings[*trial]).pooled);
       const std::string place = fmt::format("{:.9g} ", layout_.x().at[x]);
@@ -169,10 +196,11 @@ class CurveFigure {
   }
 
   void add_legend() {
-    if (!layout_.bars())
+    if (!layout_.bars() && (has_ceilings_ || layout_.curves().size() > 1))
       for (const Curve& curve : layout_.curves())
         sheet_.add_legend(layout_.named() ? "points " + curve.mark(1.2) : curve.legend(),
                           curve.name);
+    if (!has_ceilings_) return;
     sheet_.add_legend(std::string(layout_.bars() ? "points pt 2 ps 2 " : "lines ") + kLatticeStyle,
                       "lattice ceiling");
     sheet_.add_legend(fmt::format("{} lc rgb '#666666'", layout_.bars() ? "points pt 1 ps 2 lw 1.5"
@@ -184,6 +212,8 @@ class CurveFigure {
   const StudyLayout& layout_;
   FigureSheet sheet_;
   double least_ = 1.0;
+  bool has_ceilings_ = true;  ///< all scores share one axis
+  double most_ = 0.0;         ///< of the panel that is added
 };
 
 }  // namespace
@@ -202,7 +232,7 @@ FigureSheet curve_figure(const StudySummary& summary, const StudyLayout& layout,
     panel.title = !rows ? score.title : i < columns ? layout.columns()[i] : "";
     if (last_row && !layout.bars()) panel.x_label = layout.x().title();
     if (first) panel.y_label = rows ? score.row_title : y_label;
-    panel.y_tic_labels = first;
+    panel.y_tic_labels = first || score.own_axis;
     figure.add(score, i % heads, std::move(panel));
   }
   return figure.finish(caption);

@@ -13,19 +13,27 @@
 
 namespace mapscore::eval {
 
+/// A y axis from 0 to what a panel's values and spreads need.
+struct OwnAxis {
+  double least_top = 0.0;                          ///< to which it reaches in any case
+  std::optional<double> dashed_at = std::nullopt;  ///< a line across the panel
+};
+
 /// What one panel of curves shows.
 struct CurveScore {
   std::string group;  ///< of StudySummary::groups()
   std::string metric;
   std::string title;      ///< above its panel, where scores stand side by side
   std::string row_title;  ///< left of its row, where it has one
+  /// Of a figure whose panels share no axis, which has no ceilings.
+  std::optional<OwnAxis> own_axis = std::nullopt;
 };
 
 /// Curves over the x axis, with spread and ceilings: lines over numbers, points side by side over
 /// names, bars over methods. A row a score, a column a value of the second axis; where there is
-/// none, three scores a row, with `y_label` left of it. `y` reaches from the least figure, or 0 for
-/// bars, to 1. A block of the data file is one curve of one panel:
-/// `x value low high registration_ceiling lattice_ceiling`, `-` where undefined.
+/// none, three scores a row, with `y_label` left of it. The scores' `y` reaches from the least
+/// figure, or 0 for bars, to 1. A block of the data file is one curve of one panel: `x value low
+/// high registration_ceiling lattice_ceiling`, `-` where undefined.
 [[nodiscard]] FigureSheet curve_figure(const StudySummary& summary, const StudyLayout& layout,
                                        const std::string& stem,
                                        const std::vector<CurveScore>& scores,

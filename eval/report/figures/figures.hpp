@@ -33,6 +33,12 @@ namespace mapscore::eval {
 /// Precision, recall and F1 at tolerance 0, and by distance, pooled over the detected classes.
 [[nodiscard]] FigureSheet accuracy_figure(const StudySummary& summary, const StudyLayout& layout);
 
+/// poses: ATE, RPE and NEES of the poses that were mapped from, with their spread over the seeds,
+/// an axis each, honest values dashed; nothing where poses were not scored. All methods of a cell
+/// and seed map from the same poses, so there is no curve a method.
+[[nodiscard]] std::optional<FigureSheet> pose_figure(const StudySummary& summary,
+                                                     const FigureStyle& style = {});
+
 /// f1_by_two_doses: F1 over the first two swept axes, pooled over the detected classes, in tones
 /// with lines of equal F1; a panel a curve. Nothing where one of them has names or a single number.
 /// Blocks of the data file for each panel: `x y f1` as measured, `x y f1` on a raster, linear in

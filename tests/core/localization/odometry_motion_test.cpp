@@ -4,7 +4,7 @@
 #include "core/localization/odometry_motion.hpp"
 
 #include "core/error.hpp"
-#include "tests/support/log_pose.hpp"
+#include "core/geometry/pose.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include "core/localization/particle_filter.hpp"
 
 #include "core/error.hpp"
+#include "core/localization/nees.hpp"
 #include "polygon_home.hpp"
 
 #include <gtest/gtest.h>

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "core/geometry/pose.hpp"
 #include "core/mapping/semantic_map.hpp"
 #include "core/placement/placement.hpp"
 #include "core/placement/pose_belief.hpp"
-#include "tests/support/log_pose.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

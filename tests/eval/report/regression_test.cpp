@@ -252,9 +252,11 @@ TEST(Regression, OtherSettingsDoNotCompare) {
 }
 
 TEST(Regression, LessIsBetterOfDistances) {
-  for (const char* metric : {"f1", "precision", "recall_2cm", "f_2cm", "ap"})
+  for (const char* metric :
+       {"f1", "precision", "recall_2cm", "f_2cm", "ap", "ap_mean", "nees_share"})
     EXPECT_TRUE(higher_is_better(metric)) << metric;
-  for (const char* metric : {"accuracy_mean_m", "completeness_p95_m", "brier", "ece"})
+  for (const char* metric : {"accuracy_mean_m", "completeness_p95_m", "brier", "ece", "ate_m",
+                             "ate_deg", "rpe_percent", "rpe_deg_per_m", "nees_mean"})
     EXPECT_FALSE(higher_is_better(metric)) << metric;
   JudgedFigure figure;
   figure.metric = "accuracy_mean_m";

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "core/geometry/pose.hpp"
 #include "sim/faults/calibration_faults.hpp"
 #include "sim/faults/pose_fault.hpp"
-#include "tests/support/log_pose.hpp"
 
 #include <gtest/gtest.h>
 
