@@ -13,7 +13,7 @@ namespace mapscore {
 namespace {
 
 constexpr double kLeastObstacle_m = 0.03, kLowSpace_m = 0.2;
-constexpr double kSeenShare = 0.25;
+constexpr double kSeenShare = 0.15;
 
 /// What the map says of the space above a place.
 struct Column {
