@@ -32,7 +32,7 @@ class ScanGrid {
 
  private:
   void grow_to(const Eigen::Vector2d& low_m, const Eigen::Vector2d& high_m);
-  void pass(const Eigen::Vector2d& from, const GridCell& last, const Eigen::Vector2d& to);
+  void count_turn();
 
   OccupancyGrid grid_;
   std::vector<float> log_odds_;      ///< of cells that are known

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/exploration/drivable_floor.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mapscore {
+namespace {
+
+constexpr double kLeastObstacle_m = 0.03, kLowSpace_m = 0.2;
+constexpr double kSeenShare = 0.25;
+
+/// What the map says of the space above a place.
+struct Column {
+  bool obstacle = false, seen = false;
+};
+
+/// Columns of cubes up to the robot's height.
+class Columns {
+ public:
+  Columns(const KnownSpace& space, double floor_m, double height_m) : space_(space) {
+    const auto above = [&](double z_m) {
+      return static_cast<std::int32_t>(std::ceil((floor_m + z_m) / space.edge_m() - 1e-9));
+    };
+    lowest_obstacle_ = std::max(above(kLeastObstacle_m), space.low().k);
+    lowest_seen_ = std::max(above(kLowSpace_m), space.low().k);
+    end_ = std::min(above(height_m), space.low().k + space.size().k);
+  }
+
+  [[nodiscard]] Column at(std::int32_t i, std::int32_t j) const {
+    Column column;
+    if (!space_.contains({i, j, lowest_obstacle_})) return column;
+    int known = 0;
+    for (std::int32_t k = lowest_obstacle_; k < end_; ++k) {
+      const Space space = space_.at(space_.place_of({i, j, k}));
+      column.obstacle |= space == Space::occupied || space == Space::unsure;
+      if (k >= lowest_seen_ && space != Space::unknown && space != Space::beyond) ++known;
+    }
+    column.seen = known >= kSeenShare * (end_ - lowest_seen_);
+    return column;
+  }
+
+ private:
+  const KnownSpace& space_;
+  std::int32_t lowest_obstacle_, lowest_seen_, end_;
+};
+
+/// Cells that the lidar's beams left out between free ones: five neighbours or more are free, and
+/// none is occupied; twice.
+OccupancyGrid without_gaps(OccupancyGrid grid) {
+  for (int pass = 0; pass < 2; ++pass) {
+    const OccupancyGrid before = grid;
+    for (GridCell cell; cell.row < grid.frame().height; ++cell.row)
+      for (cell.column = 0; cell.column < grid.frame().width; ++cell.column) {
+        if (before.at(cell) != kUnknownCell) continue;
+        int free = 0, occupied = 0;
+        for (int n = 0; n < 9; ++n) {
+          const Occupancy beside =
+              before.at_or_unknown({cell.column + n % 3 - 1, cell.row + n / 3 - 1});
+          free += beside == kFreeCell;
+          occupied += beside == kOccupiedCell;
+        }
+        if (free >= 5 && occupied == 0) grid.set(cell, kFreeCell);
+      }
+  }
+  return grid;
+}
+
+void check(const ExplorationState& state) {
+  const PlanarPose& T = state.T_map_base;
+  if (!(std::isfinite(T.x_m) && std::isfinite(T.y_m) && std::isfinite(T.yaw_rad) &&
+        std::isfinite(state.floor_m)))
+    throw Error("T_map_base, floor_m: not finite; give the robot's place in metres and radians");
+}
+
+/// Calls use(cell) for the cells whose centre lies within a distance of a point.
+void for_each_cell_near(const OccupancyGrid& grid, const Eigen::Vector2d& p_map, double within_m,
+                        auto&& use) {
+  const GridCell middle = grid.cell_of(p_map);
+  const auto reach = static_cast<std::int32_t>(std::ceil(within_m / grid.frame().resolution_m));
+  for (std::int32_t row = middle.row - reach; row <= middle.row + reach; ++row)
+    for (std::int32_t column = middle.column - reach; column <= middle.column + reach; ++column) {
+      const GridCell cell{column, row};
+      if (grid.contains(cell) && (grid.centre_of(cell) - p_map).norm() <= within_m) use(cell);
+    }
+}
+
+}  // namespace
+
+DrivableFloor::DrivableFloor(const ExplorationState& state, const ExploringRobot& robot,
+                             const KnownSpace& space)
+    : grid_(without_gaps(state.floor)), T_map_base_(state.T_map_base) {
+  check(state);
+  const Eigen::Vector2d p_base(T_map_base_.x_m, T_map_base_.y_m);
+  robot_cell_ = grid_.cell_of(p_base);
+  const Columns columns(space, state.floor_m, robot.height_m);
+  for (GridCell cell; cell.row < grid_.frame().height; ++cell.row)
+    for (cell.column = 0; cell.column < grid_.frame().width; ++cell.column) {
+      if (grid_.at(cell) == kUnknownCell) continue;
+      const Eigen::Vector2d p = grid_.centre_of(cell);
+      const VoxelKey key = voxel_of({p.x(), p.y(), state.floor_m}, space.edge_m());
+      const Column column = columns.at(key.i, key.j);
+      if (column.obstacle)
+        grid_.set(cell, kOccupiedCell);
+      else if (!column.seen && grid_.at(cell) == kFreeCell)
+        grid_.set(cell, kUnknownCell);
+    }
+  // Cubes that are smaller than a cell, or whose column holds no centre of one.
+  const VoxelKey &low = space.low(), &size = space.size();
+  for (std::int32_t i = low.i; i < low.i + size.i; ++i)
+    for (std::int32_t j = low.j; j < low.j + size.j; ++j) {
+      if (!columns.at(i, j).obstacle) continue;
+      const GridCell cell = grid_.cell_of({(i + 0.5) * space.edge_m(), (j + 0.5) * space.edge_m()});
+      if (grid_.contains(cell)) grid_.set(cell, kOccupiedCell);
+    }
+  for_each_cell_near(grid_, p_base, robot.radius_m - grid_.frame().resolution_m,
+                     [&](const GridCell& cell) { grid_.set(cell, kFreeCell); });
+  find_clear(robot.radius_m);
+}
+
+void DrivableFloor::find_clear(double radius_m) {
+  OccupancyGrid blocked = grid_;
+  for (GridCell cell; cell.row < grid_.frame().height; ++cell.row)
+    for (cell.column = 0; cell.column < grid_.frame().width; ++cell.column)
+      if (grid_.at(cell) != kFreeCell) blocked.set(cell, kOccupiedCell);
+  clearance_ = squared_distances(blocked);
+  const double cells = radius_m / grid_.frame().resolution_m + std::numbers::sqrt2;
+  const auto wanted = static_cast<std::int64_t>(std::ceil(cells * cells - 1e-9));
+  clear_.assign(clearance_.size(), 0);
+  for (std::size_t n = 0; n < clear_.size(); ++n) clear_[n] = clearance_[n] >= wanted ? 1 : 0;
+  if (!grid_.contains(robot_cell_) || clear(robot_cell_)) return;
+  const std::int64_t here = squared_clearance(robot_cell_);
+  for_each_cell_near(grid_, {T_map_base_.x_m, T_map_base_.y_m}, radius_m,
+                     [&](const GridCell& cell) {
+                       if (squared_clearance(cell) >= here) clear_[grid_.index(cell)] = 1;
+                     });
+}
+
+}  // namespace mapscore

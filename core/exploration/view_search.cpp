@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/exploration/view_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace mapscore {
+
+ViewSearch::ViewSearch(const NextBestView& params, const ExploringRobot& robot)
+    : params_(params),
+      gain_(robot.cameras, params.ray_step.rad(), params.heading_step.rad(), params.surface_per_m) {
+}
+
+void ViewSearch::look(const ExplorationState& state, const Surroundings& now) {
+  // Before the first decision nobody has looked anywhere on purpose.
+  if (std::exchange(looked_, true))
+    gain_.remember(now.space, state.T_map_base, state.floor_m, state.again, memory_);
+}
+
+ViewGain::Scene ViewSearch::scene_of(const ExplorationState& state, const Surroundings& now) const {
+  ViewGain::Scene scene{now.space,
+                        state.map.edge_m(),
+                        state.floor_m,
+                        {memory_, Looked::unknown, now.space},
+                        {memory_, Looked::unsure, now.space},
+                        state.again};
+  for (LookAgain& point : scene.again)
+    point.priority_voxels *= memory_.worth(
+        Looked::again, LookMemory::block_of(voxel_of(point.p_map, now.space.edge_m())));
+  return scene;
+}
+
+std::optional<Prospect> ViewSearch::prospect(const ViewGain::Scene& scene, const Lookout& place,
+                                             double yaw_rad) const {
+  const Panorama panorama = gain_.look_around(scene, place.p_map);
+  std::optional<Prospect> best;
+  double best_utility = 0.0;
+  for (std::size_t h = 0; h < panorama.headings.size(); ++h) {
+    const Gain& gain = panorama.headings[h];
+    const double worth = gain.worth(params_.unsure_weight);
+    if (worth < params_.least_voxels) continue;
+    const double heading = static_cast<double>(h) * gain_.heading_step_rad();
+    const double turn = std::abs(wrapped_angle(heading - yaw_rad));
+    const double utility = worth / (params_.view_cost_m + params_.turn_cost_m_per_rad * turn);
+    if (best && utility <= best_utility) continue;
+    best = Prospect{place, heading, panorama.all, gain};
+    best_utility = utility;
+  }
+  return best;
+}
+
+std::vector<Prospect> ViewSearch::prospects(const ExplorationState& state,
+                                            const Surroundings& now) const {
+  const ViewGain::Scene scene = scene_of(state, now);
+  std::vector<Prospect> prospects;
+  for (const Lookout& place : now.places(params_.place_step_m))
+    if (auto found = prospect(scene, place, state.T_map_base.yaw_rad))
+      prospects.push_back(std::move(*found));
+  return prospects;
+}
+
+std::optional<ExplorationEnd> ViewSearch::end(const ExplorationState& state,
+                                              const Surroundings& now) const {
+  const ViewGain::Scene scene = scene_of(state, now);
+  for (const Lookout& place : now.places(params_.place_step_m))
+    if (prospect(scene, place, 0.0)) return {};
+  return end_without_prospect(state, now);
+}
+
+ExplorationEnd ViewSearch::end_without_prospect(const ExplorationState& state,
+                                                const Surroundings& now) const {
+  const ViewGain::Scene scene = scene_of(state, now);
+  const auto places = now.places_out_of_reach(params_.place_step_m);
+  const bool more = std::ranges::any_of(
+      places, [&](const Lookout& place) { return prospect(scene, place, 0.0).has_value(); });
+  return more ? ExplorationEnd::nothing_reachable : ExplorationEnd::explored;
+}
+
+}  // namespace mapscore

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/exploration/exploration.hpp"
+#include "core/exploration/look_memory.hpp"
+#include "core/exploration/surroundings.hpp"
+#include "core/exploration/view_gain.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace mapscore {
+
+/// A place, what it shows all around, and its best heading.
+struct Prospect {
+  Lookout place;
+  double yaw_rad = 0.0;
+  Gain all, view;
+};
+
+/// Looks for views that show enough that is new, by what was looked at before. Used by one thread
+/// at a time.
+class ViewSearch {
+ public:
+  ViewSearch(const NextBestView& params, const ExploringRobot& robot);
+
+  /// To be called once a decision, first: the robot looks from where it stands.
+  void look(const ExplorationState& state, const Surroundings& now);
+  /// Places that are reached with a view that is worth at least `least_voxels`; by square.
+  [[nodiscard]] std::vector<Prospect> prospects(const ExplorationState& state,
+                                                const Surroundings& now) const;
+  /// Why the exploration ends, unless there is a prospect.
+  [[nodiscard]] std::optional<ExplorationEnd> end(const ExplorationState& state,
+                                                  const Surroundings& now) const;
+  /// The same where it is known that there is none.
+  [[nodiscard]] ExplorationEnd end_without_prospect(const ExplorationState& state,
+                                                    const Surroundings& now) const;
+
+ private:
+  [[nodiscard]] ViewGain::Scene scene_of(const ExplorationState& state,
+                                         const Surroundings& now) const;
+  [[nodiscard]] std::optional<Prospect> prospect(const ViewGain::Scene& scene, const Lookout& place,
+                                                 double yaw_rad) const;
+
+  NextBestView params_;
+  ViewGain gain_;
+  LookMemory memory_;
+  bool looked_ = false;
+};
+
+}  // namespace mapscore
