@@ -104,7 +104,7 @@ std::string scene_name(const ExplorationGroup& group) {
 Table table_of(const Study& study, const std::vector<ExplorationGroup>& groups) {
   Table table;
   table.caption = {fmt::format(
-      "# {}: metres to {:.0f} % of the visible surface, budget where it is not reached; area under "
+      "{}: metres to {:.0f} % of the visible surface, budget where it is not reached; area under "
       "the coverage up to the budget; mean [{}]",
       study.name, 100.0 * kCoveredShare,
       groups.empty() ? "" : name_of(groups.front().metres_at_most.kind))};

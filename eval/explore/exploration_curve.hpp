@@ -15,7 +15,7 @@ struct MapState {
 };
 
 /// An exploration after one of its frames.
-struct CurvePoint {
+struct CoveragePoint {
   double stamp_s = 0.0, driven_m = 0.0;
   int views = 0;                   ///< chosen until then
   double coverage = 0.0;           ///< seen share of the visible surface, background included
@@ -24,7 +24,7 @@ struct CurvePoint {
 };
 
 /// The points of an exploration, by stamp.
-using ExplorationCurve = std::vector<CurvePoint>;
+using ExplorationCurve = std::vector<CoveragePoint>;
 
 /// What a curve is read over.
 enum class CurveAxis { metres, seconds };

@@ -86,7 +86,7 @@ void write_moments(const ExplorationResult& result, const fs::path& folder) {
   write_file(folder / kFrontiersFile, frontiers);
 }
 
-CurvePoint point_of(const std::vector<std::string>& cells, const std::string& file,
+CoveragePoint point_of(const std::vector<std::string>& cells, const std::string& file,
                     std::size_t line) {
   std::vector<double> numbers;
   for (const std::string& cell : cells)
@@ -94,7 +94,7 @@ CurvePoint point_of(const std::vector<std::string>& cells, const std::string& fi
   const bool scored = numbers.size() == kCurveColumns;
   if (!scored && numbers.size() != kCurveColumns - kMapColumns)
     throw Error(fmt::format("{}:{}: is no line of a curve; explore again", file, line));
-  CurvePoint point{numbers[0], numbers[1],  static_cast<int>(numbers[2]),
+  CoveragePoint point{numbers[0], numbers[1],  static_cast<int>(numbers[2]),
                    numbers[3], numbers[4], std::nullopt};
   if (scored) point.map = MapState{numbers[5], numbers[6], numbers[7], numbers[8]};
   return point;
@@ -104,7 +104,7 @@ CurvePoint point_of(const std::vector<std::string>& cells, const std::string& fi
 
 std::string curve_text(const ExplorationCurve& curve) {
   std::string text = kCurveHead;
-  for (const CurvePoint& point : curve) {
+  for (const CoveragePoint& point : curve) {
     text += fmt::format("{},{},{},{},{}", point.stamp_s, point.driven_m, point.views,
                         point.coverage, point.coverage_detected);
     text += point.map ? fmt::format(",{},{},{},{}\n", point.map->precision, point.map->recall,

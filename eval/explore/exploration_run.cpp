@@ -233,7 +233,7 @@ class ExplorationRun {
   // --- scores ------------------------------------------------------------------------------------
 
   void note_point(double stamp_s) {
-    CurvePoint point{stamp_s,
+    CoveragePoint point{stamp_s,
                      drive_.log().distance_m,
                      static_cast<int>(result_.views.size()),
                      seen_.coverage(),

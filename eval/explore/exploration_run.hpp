@@ -35,7 +35,7 @@ struct ExplorationSinks {
   /// After each frame, with its number; the image is read-only.
   std::function<void(const Frame& frame, const SemanticMap& map)> frame = {};
   /// After each frame; may throw to stop the exploration.
-  std::function<void(const CurvePoint& point)> progress = {};
+  std::function<void(const CoveragePoint& point)> progress = {};
   /// Once, at the end.
   std::function<void(const SemanticMap& map)> map = {};
 };

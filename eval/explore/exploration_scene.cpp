@@ -15,6 +15,7 @@
 #include "eval/render/study_recording.hpp"
 #include "eval/results/build_identity.hpp"
 #include "eval/results/plan.hpp"
+#include "eval/results/study_store.hpp"
 #include "files/file_bytes.hpp"
 #include "sim/render/renderer.hpp"
 #include "sim/robot/clearance.hpp"
@@ -37,6 +38,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::size_t kReachRoom = 1, kStartRoom = 3;  ///< steps of StandingFloor
 constexpr double kViewGridM = 0.5;      ///< between places of the dense views, at most
 constexpr int kViewHeadings = 8;        ///< at each
 constexpr std::size_t kLeastPlaces = 4;
@@ -47,7 +49,8 @@ constexpr std::size_t kScenes = 64, kSurfaces = 32;  ///< kept at once
 struct Scene {
   sim::World world;
   sim::DriveModel drive;
-  StandingFloor floor;
+  StandingFloor floor;  ///< with room for a controller's error
+  StandingFloor roomy;  ///< with more, to start from
 };
 
 /// What of a configuration decides a Scene.
@@ -81,9 +84,10 @@ std::shared_ptr<const Scene> make_scene(const Study& config) {
   sim::World world = world_of(config);
   sim::DriveModel drive =
       sim::make_drive_model(world, robot_path(config), drive_settings(config).clearance_m);
-  StandingFloor floor(drive, floor_bounds(drive));
+  const StandingFloor floor(drive, floor_bounds(drive));
+  StandingFloor reachable = floor.with_room(kReachRoom), roomy = floor.with_room(kStartRoom);
   return std::make_shared<const Scene>(
-      Scene{std::move(world), std::move(drive), std::move(floor)});
+      Scene{std::move(world), std::move(drive), std::move(reachable), std::move(roomy)});
 }
 
 PlanarPose given_start(const std::array<double, 3>& start_m_deg, const sim::DriveModel& drive) {
@@ -104,7 +108,7 @@ PlanarPose given_start(const std::array<double, 3>& start_m_deg, const sim::Driv
 
 /// Stream (trial seed, "exploration start"): a place of the largest floor, and a heading.
 PlanarPose drawn_start(const Scene& scene, const Study& config, int seed_index) {
-  const std::vector<Eigen::Vector2d> places = scene.floor.largest();
+  const std::vector<Eigen::Vector2d> places = scene.roomy.largest();
   if (places.empty())
     throw Error(fmt::format(
         "{}: no place where the robot can stand: it needs floor near z = 0 and {:.2f} m to each "
@@ -272,7 +276,7 @@ void ExplorationScenes::run(const PlannedExploration& planned, const Ready& read
   const ExplorationResult result = explore(
       {scene->world, scene->drive, table, *surface}, task, ready.start, made,
       {.recording = writer ? &*writer : nullptr,
-       .progress = [&](const CurvePoint& point) { progress(point.driven_m, point.coverage); },
+       .progress = [&](const CoveragePoint& point) { progress(point.driven_m, point.coverage); },
        .map = [&](const SemanticMap& map) { map.save(folder / kMapFile); }});
   if (writer) writer->finish();
   write_exploration(result, ready.key, folder);

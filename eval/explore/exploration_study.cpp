@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string word_of(const std::string& text) {
+std::string folder_word(const std::string& text) {
   std::string word;
   for (const char letter : text)
     word += std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.' ? letter : '_';
@@ -32,7 +32,7 @@ std::string word_of(const std::string& text) {
 std::string name_of(const Study& study, const TrialSpec& spec) {
   std::string name = scene_of(study, spec.cell);
   const auto add = [&](const std::string& part) {
-    name += (name.empty() ? "" : "-") + word_of(part);
+    name += (name.empty() ? "" : "-") + folder_word(part);
   };
   for (const auto& [path, value] : doses_of_scene(study, spec.cell.doses)) add(value);
   if (study.methods.size() > 1) add(spec.method);

@@ -111,7 +111,7 @@ std::string exploration_csv(const std::vector<FinishedExploration>& finished) {
                               "precision", "recall", "f1", "known_m3"});
   for (const FinishedExploration& run : finished) {
     const std::vector<std::string> keys = key_cells(run.planned);
-    for (const CurvePoint& point : run.kept.curve) {
+    for (const CoveragePoint& point : run.kept.curve) {
       if (!point.map) continue;
       text += line_of(keys, {number(point.stamp_s), number(point.driven_m),
                              fmt::format("{}", point.views), number(point.coverage),

@@ -44,6 +44,23 @@ StandingFloor::StandingFloor(const sim::DriveModel& drive, const Eigen::AlignedB
   label_parts();
 }
 
+StandingFloor StandingFloor::with_room(std::size_t steps) const {
+  StandingFloor roomy = *this;
+  const auto stands = [&](std::size_t column, std::size_t row) {
+    return column < columns_ && row < rows_ && part_of_[row * columns_ + column] != 0;
+  };
+  for (std::size_t cell = 0; cell < part_of_.size(); ++cell) {
+    bool has_room = part_of_[cell] != 0;
+    // Beyond the low end the difference is a great number, beyond the lattice too.
+    for (std::size_t i = 0; i <= 2 * steps && has_room; ++i)
+      for (std::size_t j = 0; j <= 2 * steps && has_room; ++j)
+        has_room = stands(cell % columns_ + i - steps, cell / columns_ + j - steps);
+    roomy.part_of_[cell] = has_room ? kOpen : 0;
+  }
+  roomy.label_parts();
+  return roomy;
+}
+
 Eigen::Vector2d StandingFloor::place(std::size_t cell) const {
   return {static_cast<double>(first_column_ + static_cast<std::int64_t>(cell % columns_)) * step_m_,
           static_cast<double>(first_row_ + static_cast<std::int64_t>(cell / columns_)) * step_m_};

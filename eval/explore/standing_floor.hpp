@@ -15,8 +15,9 @@
 namespace mapscore::eval {
 
 /// Where a robot can stand in a scene: the places of a lattice of kStepM about the world's origin
-/// where nothing lies within its clearance and both wheels have floor (sim::Clearance). It is
-/// probed at heading 0 as for a round robot. Immutable, safe to share between threads.
+/// where nothing lies within its clearance and both wheels have floor (sim::Clearance), and so
+/// within `room` steps of the lattice along both axes. It is probed at heading 0 as for a round
+/// robot. Immutable, safe to share between threads.
 class StandingFloor {
  public:
   static constexpr double kStepM = 0.05;
@@ -24,6 +25,9 @@ class StandingFloor {
   /// Probes the places within `bounds` (world, metres), on a coarser lattice where they would be
   /// more than a million.
   StandingFloor(const sim::DriveModel& drive, const Eigen::AlignedBox2d& bounds);
+
+  /// The same floor with room to each side.
+  [[nodiscard]] StandingFloor with_room(std::size_t steps) const;
 
   [[nodiscard]] double step_m() const { return step_m_; }
   /// Places that a way along edges of the lattice connects with the nearest one to `start` within

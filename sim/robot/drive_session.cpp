@@ -17,7 +17,7 @@ constexpr double kReactionS = 0.1;  ///< from a command to the wheels' speed
 constexpr double kStuckS = 4.0;     ///< without getting anywhere
 constexpr double kStuckM = 0.005, kStuckRad = 0.01;
 constexpr double kPatience = 5.0;  ///< times the time that a waypoint should take
-constexpr double kBackMps = 0.1, kRoomM = 0.03;
+constexpr double kBackMps = 0.1, kTurningRoomM = 0.03;
 
 int share_of(double hz, double of_hz, const char* name) {
   const double share = of_hz / hz;
@@ -100,9 +100,9 @@ void DriveSession::back_off(double most_m) {
                       place_.y_m - way_m * std::sin(place_.yaw_rad), place_.yaw_rad};
   };
   double clear_m = 0.0;  // driven since there was room
-  while (gone_m() < most_m && clear_m < kRoomM && physics_.time_s() < limit_s) {
+  while (gone_m() < most_m && clear_m < kTurningRoomM && physics_.time_s() < limit_s) {
     const bool was_blocked = blocked_at(place_);
-    if (!was_blocked && blocked_at(behind(2.0 * kRoomM))) break;
+    if (!was_blocked && blocked_at(behind(2.0 * kTurningRoomM))) break;
     const double before_m = gone_m();
     advance({-kBackMps, 0.0});
     if (!was_blocked) clear_m += gone_m() - before_m;
