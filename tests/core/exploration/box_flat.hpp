@@ -18,8 +18,11 @@ namespace mapscore::testing {
 
 using Box = Eigen::AlignedBox3d;
 
+/// Where a flat lies in the map: no wall is to lie on a border of voxels.
+inline const Eigen::Vector3d kFlatOrigin(0.013, 0.021, 0.017);
+
 /// A flat of boxes: walls, floor, ceiling and furniture, seen by plain ray casts. Its frame is the
-/// map's, the floor at z = 0.
+/// map's; boxes are added in the flat's own, whose floor is z = 0.
 struct BoxFlat {
   std::vector<Box> boxes;
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  ///< from the origin, walls included
@@ -31,7 +34,8 @@ struct BoxFlat {
     add(0, 0, 0, 0.1, y, 2.5), add(x - 0.1, 0, 0, x, y, 2.5);
   }
   void add(double x0, double y0, double z0, double x1, double y1, double z1) {
-    boxes.emplace_back(Eigen::Vector3d(x0, y0, z0), Eigen::Vector3d(x1, y1, z1));
+    boxes.emplace_back(kFlatOrigin + Eigen::Vector3d(x0, y0, z0),
+                       kFlatOrigin + Eigen::Vector3d(x1, y1, z1));
   }
   /// A wall along y at x, with a door from `door_y` on; a lintel above 2 m.
   void add_wall_x(double x, double y0, double y1, double door_y, double door_m) {
@@ -67,7 +71,8 @@ struct BoxFlat {
   [[nodiscard]] double clearance(const Eigen::Vector2d& place, double height_m) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Box& box : boxes) {
-      if (box.max().z() <= 0.01 || box.min().z() >= height_m) continue;
+      if (box.max().z() <= kFlatOrigin.z() + 0.01 || box.min().z() >= kFlatOrigin.z() + height_m)
+        continue;
       const Eigen::AlignedBox2d foot(box.min().head<2>().eval(), box.max().head<2>().eval());
       least = std::min(least, foot.exteriorDistance(place));
     }
@@ -98,21 +103,21 @@ class FlatSensors {
       : flat_(flat), cameras_(robot.cameras), noise_(noise), stream_(1, "flat sensors") {}
 
   [[nodiscard]] Eigen::Vector3d camera_at(const PlanarPose& T_map_base) const {
-    return (spatial(T_map_base) * cameras_.T_base_depth).translation();
+    return T_map_depth(T_map_base).translation();
   }
   /// Points of a depth image, in the map.
   std::vector<Eigen::Vector3d> points(const PlanarPose& T_map_base) {
-    const Pose T_map_depth = spatial(T_map_base) * cameras_.T_base_depth;
+    const Pose T = T_map_depth(T_map_base);
     const CameraModel& camera = cameras_.depth;
     std::vector<Eigen::Vector3d> points;
     for (int v = 0; v < camera.height_px; ++v)
       for (int u = 0; u < camera.width_px; ++u) {
         const Eigen::Vector3d ray = camera.back_project(u, v, 1.0);
-        double z = flat_.cast(T_map_depth.translation(), T_map_depth.linear() * ray);
+        double z = flat_.cast(T.translation(), T.linear() * ray);
         if (noise_ > 0 && std::isfinite(z))
           z += noise_ * (0.0012 + 0.0019 * (z - 0.4) * (z - 0.4)) * stream_.normal();
         if (z < cameras_.range_min_m || z > cameras_.range_max_m) continue;
-        points.push_back(T_map_depth * (z * ray));
+        points.push_back(T * (z * ray));
       }
     return points;
   }
@@ -121,7 +126,8 @@ class FlatSensors {
     const PlanarPose T = T_map_base * scan.T_base_lidar;
     for (int n = 0; n < 360; ++n) {
       const double angle = T.yaw_rad + scan.first_angle_rad + n * scan.angle_step_rad;
-      double range = flat_.cast({T.x_m, T.y_m, 0.2}, {std::cos(angle), std::sin(angle), 1e-12});
+      double range = flat_.cast({T.x_m, T.y_m, kFlatOrigin.z() + 0.2},
+                                {std::cos(angle), std::sin(angle), 1e-12});
       if (noise_ > 0) range *= 1.0 + noise_ * 0.005 * stream_.normal();
       scan.ranges_m.push_back(static_cast<float>(range));
     }
@@ -129,6 +135,12 @@ class FlatSensors {
   }
 
  private:
+  [[nodiscard]] Pose T_map_depth(const PlanarPose& T_map_base) const {
+    Pose T = spatial(T_map_base) * cameras_.T_base_depth;
+    T.translation().z() += kFlatOrigin.z();
+    return T;
+  }
+
   const BoxFlat& flat_;
   Calibration cameras_;
   double noise_;

@@ -54,7 +54,10 @@ class FlatRun {
     look();
   }
 
-  [[nodiscard]] ExplorationState state() const { return {map_, grid_.grid(), here_}; }
+  [[nodiscard]] const Truth& found() const { return found_; }
+  [[nodiscard]] ExplorationState state() const {
+    return {map_, grid_.grid(), here_, kFlatOrigin.z()};
+  }
 
   Result explore(Explorer& explorer, int most_views) {
     while (result_.views < most_views) {
