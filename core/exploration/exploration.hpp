@@ -49,7 +49,8 @@ struct NextBestView {
   bool operator==(const NextBestView&) const = default;
 };
 
-/// To the nearest border of the known floor, to look beyond it (B. Yamauchi, CIRA 1997).
+/// To the nearest border of the known floor, to look beyond it (B. Yamauchi, CIRA 1997); where the
+/// floor has none left, to the nearest place with a view that NextBestView would find worth it.
 struct NearestFrontier {
   static constexpr std::string_view kKind = "nearest_frontier";
   static constexpr std::string_view kMeaning = "the nearest border of the known floor";

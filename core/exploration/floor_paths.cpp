@@ -28,17 +28,17 @@ Eigen::Vector2d place_of(const PlanarPose& pose) {
 
 }  // namespace
 
-FloorPaths::FloorPaths(const DrivableFloor& floor)
+FloorPaths::FloorPaths(const DrivableFloor& floor, const GridCell& start)
     : floor_(floor), length_m_(floor.grid().cells().size(), kNoWay), before_(length_m_.size(), -1) {
-  if (floor.grid().contains(floor.robot_cell())) search();
+  if (floor.grid().contains(start)) search(start);
 }
 
-void FloorPaths::search() {
+void FloorPaths::search(const GridCell& from) {
   const OccupancyGrid& grid = floor_.grid();
   const double r = grid.frame().resolution_m;
   using Open = std::pair<double, std::size_t>;  // length, then index
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  const std::size_t start = grid.index(floor_.robot_cell());
+  const std::size_t start = grid.index(from);
   length_m_[start] = 0.0;
   before_[start] = static_cast<std::int32_t>(start);
   open.emplace(0.0, start);

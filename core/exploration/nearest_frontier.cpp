@@ -6,12 +6,14 @@
 #include "core/exploration/look_around.hpp"
 #include "core/exploration/planners.hpp"
 #include "core/exploration/surroundings.hpp"
+#include "core/exploration/view_search.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace mapscore {
 namespace {
@@ -23,10 +25,11 @@ constexpr double kLookedAt_m =
 class NearestFrontierExplorer : public Explorer {
  public:
   NearestFrontierExplorer(const NearestFrontier& params, const ExploringRobot& robot)
-      : params_(params), robot_(robot) {}
+      : params_(params), robot_(robot), search_({}, robot) {}
 
   ExplorationStep next(const ExplorationState& state) override {
     const Surroundings now(state, robot_, 0.0);
+    search_.look(state, now);
     const OccupancyGrid& grid = now.floor.grid();
     ExplorationStep step;
     step.frontiers = find_frontiers(grid, params_.least_m, [&](const GridCell& cell) {
@@ -45,12 +48,24 @@ class NearestFrontierExplorer : public Explorer {
         if (!way || found->way_m < way->way_m) way = found, nearest = &frontier;
     if (way)
       step.view = look_at(*nearest, *way, now);
-    else if (!step.frontiers.empty() || now.stuck())
-      step.end = ExplorationEnd::nothing_reachable;
+    else
+      look_at_the_rest(state, now, step);
     return step;
   }
 
  private:
+  /// The floor is done: the nearest place from which a view shows enough that is new.
+  void look_at_the_rest(const ExplorationState& state, const Surroundings& now,
+                        ExplorationStep& step) const {
+    const std::vector<Prospect> prospects = search_.prospects(state, now);
+    const auto nearest = std::ranges::min_element(
+        prospects, {}, [](const Prospect& prospect) { return prospect.place.way_m; });
+    if (nearest == prospects.end())
+      step.end = search_.end_without_prospect(state, now);
+    else
+      step.view = now.view(nearest->place.cell, nearest->yaw_rad);
+  }
+
   /// Towards the unknown beside the part of the frontier that is nearest.
   NextView look_at(const Frontier& frontier, const Approach& way, const Surroundings& now) {
     const OccupancyGrid& grid = now.floor.grid();
@@ -77,6 +92,7 @@ class NearestFrontierExplorer : public Explorer {
 
   NearestFrontier params_;
   ExploringRobot robot_;
+  ViewSearch search_;  ///< for what is left when the floor is known
   std::map<LatticeCell, int> looks_;
   bool first_ = true;
 };

@@ -3,12 +3,18 @@
 
 #include "core/exploration/frontiers.hpp"
 #include "core/exploration/planners.hpp"
+#include "core/exploration/stop_order.hpp"
 #include "core/exploration/surroundings.hpp"
 #include "core/exploration/view_search.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace mapscore {
 namespace {
 
+constexpr std::size_t kStops = 8;         ///< planned ahead, at most
 constexpr double kLeastFrontier_m = 0.3;  ///< of those that are shown
 
 class NextBestViewExplorer : public Explorer {
@@ -25,22 +31,51 @@ class NextBestViewExplorer : public Explorer {
     if (prospects.empty())
       step.end = search_.end_without_prospect(state, now);
     else
-      step.view = view_of(best(prospects), now);
+      step.view = view_of(best(prospects, now), now);
     return step;
   }
 
  private:
-  [[nodiscard]] double utility(const Prospect& prospect) const {
-    return prospect.all.worth(params_.unsure_weight) / (prospect.place.way_m + params_.view_cost_m);
+  /// Turning takes no metres: all that is worth it is looked at before the robot drives on, to the
+  /// first of the stops that together show all that can be seen.
+  [[nodiscard]] const Prospect& best(const std::vector<Prospect>& prospects,
+                                     const Surroundings& now) const {
+    if (prospects.front().place.way_m == 0.0) return prospects.front();
+    const auto [chosen, stops] = stops_of(prospects, now);
+    return prospects[chosen[soonest_order(stops).front()]];
   }
 
-  /// Turning takes no metres: all that is worth it is looked at before the robot drives on.
-  [[nodiscard]] const Prospect& best(const std::vector<Prospect>& prospects) const {
-    const Prospect* best = &prospects.front();
-    if (best->place.way_m == 0.0) return *best;
-    for (const Prospect& prospect : prospects)
-      if (utility(prospect) > utility(*best)) best = &prospect;
-    return *best;
+  /// One prospect after the other: the one that adds most to those before for its way.
+  [[nodiscard]] std::pair<std::vector<std::size_t>, Stops> stops_of(
+      const std::vector<Prospect>& prospects, const Surroundings& now) const {
+    std::vector<std::size_t> chosen;
+    Stops stops;
+    SeenBlocks seen;
+    while (chosen.size() < std::min(kStops, prospects.size())) {
+      std::size_t best = 0;
+      double best_rate = 0.0, best_worth = 0.0;
+      for (std::size_t n = 0; n < prospects.size(); ++n) {
+        const double worth = seen.added_by(prospects[n]);
+        const double rate = worth / (prospects[n].place.way_m + params_.view_cost_m);
+        if (worth >= params_.least_voxels && rate > best_rate)
+          best = n, best_rate = rate, best_worth = worth;
+      }
+      if (best_rate == 0.0) {
+        if (!chosen.empty()) break;
+        best_worth = seen.added_by(prospects[best]);
+      }
+      seen.add(prospects[best]);
+      chosen.push_back(best);
+      stops.worth.push_back(best_worth);
+      stops.way_m.push_back(prospects[best].place.way_m + params_.view_cost_m);
+    }
+    for (const std::size_t from : chosen) {
+      const FloorPaths paths(now.floor, prospects[from].place.cell);
+      std::vector<double>& between_m = stops.between_m.emplace_back();
+      for (const std::size_t to : chosen)
+        between_m.push_back(paths.length_m(prospects[to].place.cell) + params_.view_cost_m);
+    }
+    return {chosen, stops};
   }
 
   static NextView view_of(const Prospect& prospect, const Surroundings& now) {

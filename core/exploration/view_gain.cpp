@@ -19,6 +19,27 @@ bool is_surface(Space space) {
   return space == Space::occupied || space == Space::unsure;
 }
 
+/// Numbers of blocks of 8 x 8 x 8 cubes in a box.
+class Blocks {
+ public:
+  explicit Blocks(const KnownSpace& space) : low_(space.low()) {
+    const VoxelKey& size = space.size();
+    size_ = {(size.i + 7) / 8, (size.j + 7) / 8, (size.k + 7) / 8};
+  }
+  [[nodiscard]] std::size_t count() const {
+    return static_cast<std::size_t>(size_.i) * static_cast<std::size_t>(size_.j) *
+           static_cast<std::size_t>(size_.k);
+  }
+  [[nodiscard]] std::size_t of(const VoxelKey& cube) const {
+    return static_cast<std::size_t>(
+        (((cube.i - low_.i) >> 3) * size_.j + ((cube.j - low_.j) >> 3)) * size_.k +
+        ((cube.k - low_.k) >> 3));
+  }
+
+ private:
+  VoxelKey low_, size_;
+};
+
 /// One ray's gain.
 struct RayGain {
   double unknown = 0.0, unsure = 0.0;
@@ -75,6 +96,8 @@ Panorama ViewGain::look_around(const Scene& scene, const Eigen::Vector2d& place_
   Panorama panorama;
   panorama.headings.resize(headings());
   std::vector<RayGain> ring(azimuths_);
+  const Blocks blocks(scene.space);
+  std::vector<double> of_block(blocks.count(), 0.0);
   for (const Elevation& elevation : elevations_) {
     for (std::size_t a = 0; a < azimuths_; ++a) {
       RayGain gain;
@@ -96,7 +119,11 @@ Panorama ViewGain::look_around(const Scene& scene, const Eigen::Vector2d& place_
                  const double meets =
                      on_floor ? worth : worth * std::min(1.0, surface_per_m_ * (to_m - from_m));
                  const double slope = on_floor ? std::max(kLeastSine, -elevation.sine) : 1.0;
-                 if (measured) gain.unknown += chance * meets * area / slope;
+                 if (measured) {
+                   const double expected = chance * meets * area / slope;
+                   gain.unknown += expected;
+                   of_block[blocks.of(key)] += expected;
+                 }
                  chance *= 1.0 - meets;
                  return chance > kLeastChance && !on_floor;
                });
@@ -111,6 +138,8 @@ Panorama ViewGain::look_around(const Scene& scene, const Eigen::Vector2d& place_
         panorama.headings[h].unsure += gain.unsure;
       }
   }
+  for (std::size_t n = 0; n < of_block.size(); ++n)
+    if (of_block[n] > 0.0) panorama.blocks.push_back({n, of_block[n]});
   for (const LookAgain& point : scene.again) {
     bool seen = false;
     for (std::size_t h = 0; h < panorama.headings.size(); ++h) {

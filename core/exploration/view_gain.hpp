@@ -24,10 +24,17 @@ struct Gain {
   }
 };
 
+/// Unknown surface that is expected in a block of 8 x 8 x 8 cubes.
+struct BlockGain {
+  std::size_t block;  ///< numbered in the space's box
+  double unknown;
+};
+
 /// The gain of one place: all around, and of each heading.
 struct Panorama {
   Gain all;
-  std::vector<Gain> headings;  ///< at n * heading_step_rad() in frame map
+  std::vector<BlockGain> blocks;  ///< of all.unknown; by block
+  std::vector<Gain> headings;     ///< at n * heading_step_rad() in frame map
 };
 
 /// Expected gain of views (docs/exploration.md). From a place, rays go out all around and as far up

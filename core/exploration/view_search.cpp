@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 namespace mapscore {
@@ -20,10 +19,25 @@ ViewSearch::ViewSearch(const NextBestView& params, const ExploringRobot& robot)
       gain_(robot.cameras, params.ray_step.rad(), params.heading_step.rad(), params.surface_per_m) {
 }
 
+double SeenBlocks::added_by(const Prospect& prospect) const {
+  double added = prospect.worth;
+  for (const BlockGain& gain : prospect.blocks)
+    if (const auto found = seen_.find(gain.block); found != seen_.end())
+      added -= std::min(gain.unknown, found->second);
+  return added;
+}
+
+void SeenBlocks::add(const Prospect& prospect) {
+  for (const BlockGain& gain : prospect.blocks) {
+    double& seen = seen_[gain.block];
+    seen = std::max(seen, gain.unknown);
+  }
+}
+
 void ViewSearch::look(const ExplorationState& state, const Surroundings& now) {
   // Before the first decision nobody has looked anywhere on purpose.
   if (!std::exchange(looked_, true)) return;
-  if (!getenv("NOMEM")) gain_.remember(now.space, state.T_map_base, state.floor_m, state.again, memory_);
+  gain_.remember(now.space, state.T_map_base, state.floor_m, state.again, memory_);
   views_.push_back(state.T_map_base);
 }
 
@@ -50,7 +64,7 @@ std::vector<double> ViewSearch::headings_taken_at(const Lookout& place) const {
 
 std::optional<Prospect> ViewSearch::prospect(const ViewGain::Scene& scene, const Lookout& place,
                                              double yaw_rad) const {
-  const Panorama panorama = gain_.look_around(scene, place.p_map);
+  Panorama panorama = gain_.look_around(scene, place.p_map);
   const std::vector<double> taken = headings_taken_at(place);
   std::optional<Prospect> best;
   double best_utility = 0.0;
@@ -60,15 +74,17 @@ std::optional<Prospect> ViewSearch::prospect(const ViewGain::Scene& scene, const
     const auto looks = std::ranges::count_if(taken, [&](double before_rad) {
       return std::abs(wrapped_angle(heading - before_rad)) < gain_.heading_step_rad();
     });
-    const double worth =
-        std::ldexp(gain.worth(params_.unsure_weight), -static_cast<int>(looks));
+    const double worth = std::ldexp(gain.worth(params_.unsure_weight), -static_cast<int>(looks));
     if (worth < params_.least_voxels) continue;
     const double turn = std::abs(wrapped_angle(heading - yaw_rad));
     const double utility = worth / (params_.view_cost_m + params_.turn_cost_m_per_rad * turn);
     if (best && utility <= best_utility) continue;
-    best = Prospect{place, heading, panorama.all, gain};
+    best = Prospect{place, heading, panorama.all, gain, 0.0, {}};
     best_utility = utility;
   }
+  if (!best) return best;
+  best->worth = panorama.all.worth(params_.unsure_weight);
+  best->blocks = std::move(panorama.blocks);
   return best;
 }
 

@@ -8,7 +8,9 @@
 #include "core/exploration/surroundings.hpp"
 #include "core/exploration/view_gain.hpp"
 
+#include <cstddef>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace mapscore {
@@ -18,6 +20,19 @@ struct Prospect {
   Lookout place;
   double yaw_rad = 0.0;
   Gain all, view;
+  double worth = 0.0;             ///< of all around
+  std::vector<BlockGain> blocks;  ///< of all around
+};
+
+/// What several places show together: of each block what the best of them shows.
+class SeenBlocks {
+ public:
+  /// What a place adds.
+  [[nodiscard]] double added_by(const Prospect& prospect) const;
+  void add(const Prospect& prospect);
+
+ private:
+  std::unordered_map<std::size_t, double> seen_;
 };
 
 /// Looks for views that show enough that is new, by what was looked at before. Used by one thread
