@@ -210,7 +210,10 @@ class ExplorationRun {
     const sim::StampedPose pose{stamp_s, sim::pose_at(drive_.log(), stamp_s)};
     Frame frame;
     frame.index = frame.depth_index = index;
-    renderer_.render_color(pose, frame);
+    if (sinks_.recording || sinks_.frame || reads_colour(task_.config))
+      renderer_.render_color(pose, frame);
+    else
+      renderer_.render_label(pose, frame);
     renderer_.render_depth(pose, frame);
     if (sinks_.recording) sinks_.recording->write_color(frame);
     if (sinks_.recording) sinks_.recording->write_depth(frame);
