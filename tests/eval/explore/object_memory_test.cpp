@@ -8,12 +8,12 @@
 namespace mapscore::eval {
 namespace {
 
-constexpr int kWidth = 40, kHeight = 30;
+constexpr int kWidth = 80, kHeight = 60;
 
 /// Both cameras look along z of the base.
 Calibration looking_along_z() {
   Calibration calibration;
-  calibration.color = calibration.depth = CameraModel{kWidth, kHeight, 40.0, 40.0, 20.0, 15.0};
+  calibration.color = calibration.depth = CameraModel{kWidth, kHeight, 80.0, 80.0, 40.0, 30.0};
   calibration.range_min_m = 0.1;
   calibration.range_max_m = 5.0;
   return calibration;

@@ -4,9 +4,13 @@
 #include "eval/study/grid.hpp"
 #include "eval/study/study.hpp"
 #include "tests/support/expect_error.hpp"
+#include "tests/support/tiny_recording.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
 
 namespace mapscore::eval {
 namespace {
@@ -58,12 +62,12 @@ TEST(ExplorationSettings, OneSceneMayHaveAStartOfItsOwn) {
 }
 
 TEST(ExplorationSettings, WhatCannotActIsRefused) {
-  mapscore::testing::expect_error("demo.yaml:3: exploration: cannot act beside recording", [] {
-    (void)parse_study(
-        "recording: a\nmethods: {d: {segmentation: {direct: {}}}}\n"
-        "exploration: {planner: random}\n",
-        "demo.yaml");
-  });
+  const mapscore::testing::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "demo.yaml";
+  std::ofstream(file) << "recording: a\nmethods: {d: {segmentation: {direct: {}}}}\n"
+                         "exploration: {planner: random}\n";
+  mapscore::testing::expect_error("demo.yaml:3: exploration: cannot act beside recording",
+                                  [&] { (void)load_study(file); });
   mapscore::testing::expect_error("exploration.planner drives its waypoints",
                                   [] { (void)study("exploration: {planner: waypoints}\n"); });
   mapscore::testing::expect_error(
