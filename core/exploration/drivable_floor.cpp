@@ -8,16 +8,20 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace mapscore {
 namespace {
 
-constexpr double kLeastObstacle_m = 0.03, kLowSpace_m = 0.2;
-constexpr double kSeenShare = 0.25;
+constexpr double kLeastObstacle_m = 0.05, kLowSpace_m = 0.2;
+constexpr double kSeenShare = 0.15;
+
+constexpr int kLeastCubes = 5;
 
 /// What the map says of the space above a place.
 struct Column {
-  bool obstacle = false, seen = false;
+  int occupied = 0;  ///< cubes
+  bool seen = false;
 };
 
 /// Columns of cubes up to the robot's height.
@@ -32,13 +36,22 @@ class Columns {
     end_ = std::min(above(height_m), space.low().k + space.size().k);
   }
 
+  /// Whether there is a cube of an obstacle in the column, and enough of them about it: fewer are
+  /// taken for noise.
+  [[nodiscard]] bool obstacle(std::int32_t i, std::int32_t j) const {
+    if (at(i, j).occupied == 0) return false;
+    int about = 0;
+    for (std::int32_t n = 0; n < 9; ++n) about += at(i + n % 3 - 1, j + n / 3 - 1).occupied;
+    return about >= kLeastCubes;
+  }
+
   [[nodiscard]] Column at(std::int32_t i, std::int32_t j) const {
     Column column;
     if (!space_.contains({i, j, lowest_obstacle_})) return column;
     int known = 0;
     for (std::int32_t k = lowest_obstacle_; k < end_; ++k) {
       const Space space = space_.at(space_.place_of({i, j, k}));
-      column.obstacle |= space == Space::occupied || space == Space::unsure;
+      column.occupied += space == Space::occupied || space == Space::unsure ? 1 : 0;
       if (k >= lowest_seen_ && space != Space::unknown && space != Space::beyond) ++known;
     }
     column.seen = known >= kSeenShare * (end_ - lowest_seen_);
@@ -104,23 +117,29 @@ DrivableFloor::DrivableFloor(const ExplorationState& state, const ExploringRobot
       if (grid_.at(cell) == kUnknownCell) continue;
       const Eigen::Vector2d p = grid_.centre_of(cell);
       const VoxelKey key = voxel_of({p.x(), p.y(), state.floor_m}, space.edge_m());
-      const Column column = columns.at(key.i, key.j);
-      if (column.obstacle)
+      if (columns.obstacle(key.i, key.j))
         grid_.set(cell, kOccupiedCell);
-      else if (!column.seen && grid_.at(cell) == kFreeCell)
+      else if (!columns.at(key.i, key.j).seen && grid_.at(cell) == kFreeCell)
         grid_.set(cell, kUnknownCell);
     }
   // Cubes that are smaller than a cell, or whose column holds no centre of one.
   const VoxelKey &low = space.low(), &size = space.size();
   for (std::int32_t i = low.i; i < low.i + size.i; ++i)
     for (std::int32_t j = low.j; j < low.j + size.j; ++j) {
-      if (!columns.at(i, j).obstacle) continue;
+      if (!columns.obstacle(i, j)) continue;
       const GridCell cell = grid_.cell_of({(i + 0.5) * space.edge_m(), (j + 0.5) * space.edge_m()});
       if (grid_.contains(cell)) grid_.set(cell, kOccupiedCell);
     }
   for_each_cell_near(grid_, p_base, robot.radius_m - grid_.frame().resolution_m,
                      [&](const GridCell& cell) { grid_.set(cell, kFreeCell); });
   find_clear(robot.radius_m);
+}
+
+DrivableFloor::DrivableFloor(OccupancyGrid grid, const PlanarPose& T_map_base, double radius_m)
+    : grid_(std::move(grid)),
+      T_map_base_(T_map_base),
+      robot_cell_(grid_.cell_of({T_map_base.x_m, T_map_base.y_m})) {
+  find_clear(radius_m);
 }
 
 void DrivableFloor::find_clear(double radius_m) {

@@ -15,7 +15,7 @@ namespace mapscore {
 /// Where the robot can stand and drive, on the lattice of the lidar's grid (docs/exploration.md).
 ///
 /// A cell is *occupied* when the lidar's grid says so, or the map has an obstacle above it:
-/// occupied voxels between 3 cm above the floor and the robot's height. It is *free* when it is not
+/// occupied voxels between 5 cm above the floor and the robot's height. It is *free* when it is not
 /// occupied, the lidar saw it free (gaps between beams count as free), and the map knows at least a
 /// quarter of the space above it from 0.2 m up to the robot's height; and where the robot stands.
 /// All else is *unknown*. A cell is *clear* when the centres of all cells that are not free lie at
@@ -26,6 +26,8 @@ class DrivableFloor {
   /// Throws Error when pose or floor height are not finite.
   DrivableFloor(const ExplorationState& state, const ExploringRobot& robot,
                 const KnownSpace& space);
+  /// Of a grid as grid() gives it.
+  DrivableFloor(OccupancyGrid grid, const PlanarPose& T_map_base, double radius_m);
 
   /// Free, occupied, unknown.
   [[nodiscard]] const OccupancyGrid& grid() const { return grid_; }

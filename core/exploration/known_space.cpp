@@ -12,6 +12,7 @@ namespace mapscore {
 namespace {
 
 constexpr double kLeastCube_m = 0.04;
+constexpr int kLeastBeside = 2;  ///< occupied neighbours of what is no speck
 
 }  // namespace
 
@@ -27,6 +28,7 @@ KnownSpace::KnownSpace(const SemanticMap& map, const Eigen::AlignedBox3d& box_m,
   low_ = voxel_of(box_m.min(), edge_m_);
   const VoxelKey high = voxel_of(box_m.max(), edge_m_);
   size_ = {high.i - low_.i + 1, high.j - low_.j + 1, high.k - low_.k + 1};
+  strides_[2] = 1;
   strides_[1] = size_.k + 2;
   strides_[0] = strides_[1] * (size_.j + 2);
   cubes_.assign(static_cast<std::size_t>(strides_[0] * (size_.i + 2)), Space::beyond);
@@ -39,6 +41,27 @@ KnownSpace::KnownSpace(const SemanticMap& map, const Eigen::AlignedBox3d& box_m,
   if (tree.getRoot() == nullptr) return;
   const std::int32_t low = -(1 << (tree.getTreeDepth() - 1 - level_));
   read(tree, tree.getRoot(), tree.getTreeDepth(), {low, low, low});
+  free_specks();
+}
+
+void KnownSpace::free_specks() {
+  const auto is_occupied = [&](std::ptrdiff_t place) {
+    return at(place) == Space::occupied || at(place) == Space::unsure;
+  };
+  std::vector<std::ptrdiff_t> specks;
+  for (std::int32_t i = low_.i; i < low_.i + size_.i; ++i)
+    for (std::int32_t j = low_.j; j < low_.j + size_.j; ++j)
+      for (std::int32_t k = low_.k; k < low_.k + size_.k; ++k) {
+        const std::ptrdiff_t place = place_of({i, j, k});
+        if (!is_occupied(place)) continue;
+        int beside = -1;  // itself
+        for (std::ptrdiff_t x = -1; x <= 1 && beside < kLeastBeside; ++x)
+          for (std::ptrdiff_t y = -1; y <= 1; ++y)
+            for (std::ptrdiff_t z = -1; z <= 1; ++z)
+              beside += is_occupied(place + x * strides_[0] + y * strides_[1] + z) ? 1 : 0;
+        if (beside < kLeastBeside) specks.push_back(place);
+      }
+  for (const std::ptrdiff_t place : specks) cubes_[static_cast<std::size_t>(place)] = Space::free;
 }
 
 bool KnownSpace::contains(const VoxelKey& key) const {

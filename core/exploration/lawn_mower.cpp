@@ -46,7 +46,7 @@ class LawnMowerExplorer : public Explorer {
           least_m = now.paths.length_m(way.first), nearest = way;
     if (nearest)
       step.view = drive(*nearest, now);
-    else if (now.paths.reached().size() <= 1)
+    else if (now.stuck())
       step.end = ExplorationEnd::nothing_reachable;
     return step;
   }

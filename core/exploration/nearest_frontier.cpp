@@ -45,7 +45,7 @@ class NearestFrontierExplorer : public Explorer {
         if (!way || found->way_m < way->way_m) way = found, nearest = &frontier;
     if (way)
       step.view = look_at(*nearest, *way, now);
-    else if (!step.frontiers.empty())
+    else if (!step.frontiers.empty() || now.stuck())
       step.end = ExplorationEnd::nothing_reachable;
     return step;
   }

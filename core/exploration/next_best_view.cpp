@@ -34,8 +34,10 @@ class NextBestViewExplorer : public Explorer {
     return prospect.all.worth(params_.unsure_weight) / (prospect.place.way_m + params_.view_cost_m);
   }
 
+  /// Turning takes no metres: all that is worth it is looked at before the robot drives on.
   [[nodiscard]] const Prospect& best(const std::vector<Prospect>& prospects) const {
     const Prospect* best = &prospects.front();
+    if (best->place.way_m == 0.0) return *best;
     for (const Prospect& prospect : prospects)
       if (utility(prospect) > utility(*best)) best = &prospect;
     return *best;

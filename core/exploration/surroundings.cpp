@@ -30,7 +30,7 @@ Eigen::AlignedBox3d space_about(const ExplorationState& state) {
   const Eigen::Vector2d far = Eigen::Vector2d::Constant(kSpaceReach_m);
   const Eigen::Vector2d low = (box.min() - margin).cwiseMax(robot - far);
   const Eigen::Vector2d high = (box.max() + margin).cwiseMin(robot + far);
-  return {Eigen::Vector3d(low.x(), low.y(), state.floor_m - state.map.edge_m()),
+  return {Eigen::Vector3d(low.x(), low.y(), state.floor_m),
           Eigen::Vector3d(high.x(), high.y(), state.floor_m + kCeiling_m)};
 }
 
@@ -66,7 +66,15 @@ Surroundings::Surroundings(const ExplorationState& state, const ExploringRobot& 
                            double unsure_below)
     : space(state.map, space_about(state), unsure_below),
       floor(state, robot, space),
-      paths(floor) {}
+      paths(floor),
+      radius_m_(robot.radius_m) {}
+
+bool Surroundings::stuck() const {
+  const PlanarPose& T = floor.T_map_base();
+  return std::ranges::none_of(paths.reached(), [&](const GridCell& cell) {
+    return (floor.grid().centre_of(cell) - Eigen::Vector2d(T.x_m, T.y_m)).norm() > radius_m_;
+  });
+}
 
 std::vector<Lookout> Surroundings::places(double step_m) const {
   const PlanarPose& T = floor.T_map_base();

@@ -22,7 +22,8 @@ struct Lookout {
 /// What an explorer makes of what the robot knows, for one decision: space, floor and ways on it.
 struct Surroundings {
   /// Throws Error when the robot's place or floor height are not finite, or the map does not carve.
-  /// Space reaches a metre beyond the lidar's grid, but at most 25 m from the robot, and 3.2 m up.
+  /// Space reaches a metre beyond the lidar's grid, but at most 25 m from the robot, and from the
+  /// floor 3.2 m up.
   Surroundings(const ExplorationState& state, const ExploringRobot& robot, double unsure_below);
   Surroundings(const Surroundings&) = delete;
   Surroundings& operator=(const Surroundings&) = delete;
@@ -38,6 +39,11 @@ struct Surroundings {
   [[nodiscard]] std::vector<Lookout> places_out_of_reach(double step_m) const;
   /// The view from a place that is reached.
   [[nodiscard]] NextView view(const GridCell& cell, double yaw_rad) const;
+  /// Whether the robot can get no farther than its own radius.
+  [[nodiscard]] bool stuck() const;
+
+ private:
+  double radius_m_;
 };
 
 /// Throws Error when radius or height are not positive, or as check(Calibration).

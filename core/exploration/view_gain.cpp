@@ -83,7 +83,7 @@ Panorama ViewGain::look_around(const Scene& scene, const Eigen::Vector2d& place_
                                       elevation.cosine * directions_[a].y(), elevation.sine);
       walk_ray(scene.space, origin, direction, cameras_.range_max_m,
                [&](const VoxelKey& key, Space space, double from_m, double to_m) {
-                 if (space == Space::free) return key.k >= floor;
+                 if (space == Space::free) return true;
                  const bool measured = from_m >= cameras_.range_min_m;
                  const double area = elevation.solid_angle * from_m * from_m * per_voxel;
                  if (is_surface(space)) {
@@ -91,7 +91,6 @@ Panorama ViewGain::look_around(const Scene& scene, const Eigen::Vector2d& place_
                      gain.unsure += chance * area * static_cast<double>(scene.unsure.of(key));
                    return false;
                  }
-                 if (key.k < floor) return false;
                  const auto worth = static_cast<double>(scene.unknown.of(key));
                  const bool on_floor = key.k == floor;
                  const double meets =

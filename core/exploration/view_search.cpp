@@ -5,9 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 namespace mapscore {
+namespace {
+
+constexpr double kSamePlace_m = 0.2;  ///< views from nearer to each other are from the same place
+
+}  // namespace
 
 ViewSearch::ViewSearch(const NextBestView& params, const ExploringRobot& robot)
     : params_(params),
@@ -16,8 +22,9 @@ ViewSearch::ViewSearch(const NextBestView& params, const ExploringRobot& robot)
 
 void ViewSearch::look(const ExplorationState& state, const Surroundings& now) {
   // Before the first decision nobody has looked anywhere on purpose.
-  if (std::exchange(looked_, true))
-    gain_.remember(now.space, state.T_map_base, state.floor_m, state.again, memory_);
+  if (!std::exchange(looked_, true)) return;
+  if (!getenv("NOMEM")) gain_.remember(now.space, state.T_map_base, state.floor_m, state.again, memory_);
+  views_.push_back(state.T_map_base);
 }
 
 ViewGain::Scene ViewSearch::scene_of(const ExplorationState& state, const Surroundings& now) const {
@@ -33,16 +40,29 @@ ViewGain::Scene ViewSearch::scene_of(const ExplorationState& state, const Surrou
   return scene;
 }
 
+std::vector<double> ViewSearch::headings_taken_at(const Lookout& place) const {
+  std::vector<double> headings;
+  for (const PlanarPose& view : views_)
+    if ((Eigen::Vector2d(view.x_m, view.y_m) - place.p_map).norm() < kSamePlace_m)
+      headings.push_back(view.yaw_rad);
+  return headings;
+}
+
 std::optional<Prospect> ViewSearch::prospect(const ViewGain::Scene& scene, const Lookout& place,
                                              double yaw_rad) const {
   const Panorama panorama = gain_.look_around(scene, place.p_map);
+  const std::vector<double> taken = headings_taken_at(place);
   std::optional<Prospect> best;
   double best_utility = 0.0;
   for (std::size_t h = 0; h < panorama.headings.size(); ++h) {
     const Gain& gain = panorama.headings[h];
-    const double worth = gain.worth(params_.unsure_weight);
-    if (worth < params_.least_voxels) continue;
     const double heading = static_cast<double>(h) * gain_.heading_step_rad();
+    const auto looks = std::ranges::count_if(taken, [&](double before_rad) {
+      return std::abs(wrapped_angle(heading - before_rad)) < gain_.heading_step_rad();
+    });
+    const double worth =
+        std::ldexp(gain.worth(params_.unsure_weight), -static_cast<int>(looks));
+    if (worth < params_.least_voxels) continue;
     const double turn = std::abs(wrapped_angle(heading - yaw_rad));
     const double utility = worth / (params_.view_cost_m + params_.turn_cost_m_per_rad * turn);
     if (best && utility <= best_utility) continue;
@@ -72,6 +92,7 @@ std::optional<ExplorationEnd> ViewSearch::end(const ExplorationState& state,
 
 ExplorationEnd ViewSearch::end_without_prospect(const ExplorationState& state,
                                                 const Surroundings& now) const {
+  if (now.stuck()) return ExplorationEnd::nothing_reachable;
   const ViewGain::Scene scene = scene_of(state, now);
   const auto places = now.places_out_of_reach(params_.place_step_m);
   const bool more = std::ranges::any_of(

@@ -44,9 +44,12 @@ class ViewSearch {
   [[nodiscard]] std::optional<Prospect> prospect(const ViewGain::Scene& scene, const Lookout& place,
                                                  double yaw_rad) const;
 
+  [[nodiscard]] std::vector<double> headings_taken_at(const Lookout& place) const;
+
   NextBestView params_;
   ViewGain gain_;
   LookMemory memory_;
+  std::vector<PlanarPose> views_;  ///< that were taken
   bool looked_ = false;
 };
 
