@@ -62,6 +62,13 @@ class Explore : public ::testing::Test {
                "methods: {direct: {segmentation: {direct: {}}}}\n" +
                    more);
   }
+  /// The same faults and method over what was recorded.
+  void write_replay() const {
+    write_text(folder() / "replay.yaml",
+               "recording: out/runs/seed0/recording\nvoxel_m: 0.1\noccupancy: {carve: true}\n"
+               "faults: {depth: {preset: astra}, misregistration: {magnitude_m: 0.01}}\n"
+               "methods: {direct: {segmentation: {direct: {}}}}\n");
+  }
   [[nodiscard]] const fs::path& folder() const { return temporary_.path(); }
   [[nodiscard]] Outcome explore(std::vector<std::string> more = {},
                                 const std::string& to = "out") const {
@@ -93,18 +100,34 @@ TEST_F(Explore, EndsWithAReasonAndRecordsWhatOtherVerbsTake) {
   expect_done(info);
   EXPECT_THAT(info.out, AllOf(HasSubstr("odometry: "), HasSubstr("scans of 180 beams")));
   expect_done(mapscore({"map", run / "recording", "-o", folder() / "again.ot", "-q"}));
-  // What was mapped on the way is what `run` maps of the recording, faults and all.
-  write_text(folder() / "replay.yaml",
-             "recording: out/runs/seed0/recording\nvoxel_m: 0.1\noccupancy: {carve: true}\n"
-             "faults: {depth: {preset: astra}, misregistration: {magnitude_m: 0.01}}\n"
-             "methods: {direct: {segmentation: {direct: {}}}}\n");
+  write_replay();
   expect_done(mapscore({"sweep", folder() / "replay.yaml", "-o", folder() / "swept", "-q"}));
-  expect_done(mapscore({"run", folder() / "replay.yaml", "-o", folder() / "swept", "-q"}));
-  std::string mapped;
-  for (const std::string& name : contents_of(folder() / "swept/runs"))
-    if (name.ends_with("/map.ot")) mapped = bytes_of(folder() / "swept/runs" / name);
-  EXPECT_FALSE(mapped.empty());
-  EXPECT_EQ(mapped, bytes_of(run / "map.ot"));
+}
+
+TEST_F(Explore, WhatIsMappedOnTheWayIsWhatIsMappedOfTheRecording) {
+  const std::vector<std::vector<std::string>> beliefs{
+      {"faults.pose.sigma_xy_m=0.02", "faults.pose.sigma_yaw_deg=0.5", "faults.pose.kind=walk",
+       "fusion.blend.N=3"},
+      {"localization.source=odometry", "fusion.blend.N=3"},
+      {"localization.source=truth"}};
+  for (const std::vector<std::string>& belief : beliefs) {
+    std::vector<std::string> flags{"-q"};
+    for (const std::string& flag : belief) flags.insert(flags.end(), {"--set", flag});
+    fs::remove_all(folder() / "out");
+    fs::remove_all(folder() / "swept");
+    std::vector<std::string> exploring = flags;
+    exploring.insert(exploring.end(), {"--set", "exploration.budget_m=4", "--set",
+                                       "trajectory.drive.wheels.track_error_percent=3"});
+    expect_done(explore(exploring));
+    write_replay();
+    flags.insert(flags.begin(), {"run", folder() / "replay.yaml", "-o", folder() / "swept"});
+    expect_done(mapscore(flags));
+    std::string mapped;
+    for (const std::string& name : contents_of(folder() / "swept/runs"))
+      if (name.ends_with("/map.ot")) mapped = bytes_of(folder() / "swept/runs" / name);
+    EXPECT_FALSE(mapped.empty());
+    EXPECT_TRUE(mapped == bytes_of(folder() / "out/runs/seed0/map.ot")) << belief.front();
+  }
 }
 
 TEST_F(Explore, SameBytesForAnyNumberOfJobsAndNothingIsRunTwice) {
