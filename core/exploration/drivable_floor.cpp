@@ -17,6 +17,7 @@ constexpr double kLeastObstacle_m = 0.05, kLowSpace_m = 0.2;
 constexpr double kSeenShare = 0.15;
 
 constexpr int kLeastCubes = 5;
+constexpr double kSameSurface_m = 0.125;
 
 /// What the map says of the space above a place.
 struct Column {
@@ -112,13 +113,19 @@ DrivableFloor::DrivableFloor(const ExplorationState& state, const ExploringRobot
   const Eigen::Vector2d p_base(T_map_base_.x_m, T_map_base_.y_m);
   robot_cell_ = grid_.cell_of(p_base);
   const Columns columns(space, state.floor_m, robot.height_m);
+  const std::vector<std::int64_t> from_lidar = squared_distances(grid_);
+  const double near = kSameSurface_m / grid_.frame().resolution_m;
+  const auto mark = [&](const GridCell& cell) {
+    const std::int64_t squared = from_lidar[grid_.index(cell)];
+    if (static_cast<double>(squared) > near * near) grid_.set(cell, kOccupiedCell);
+  };
   for (GridCell cell; cell.row < grid_.frame().height; ++cell.row)
     for (cell.column = 0; cell.column < grid_.frame().width; ++cell.column) {
       if (grid_.at(cell) == kUnknownCell) continue;
       const Eigen::Vector2d p = grid_.centre_of(cell);
       const VoxelKey key = voxel_of({p.x(), p.y(), state.floor_m}, space.edge_m());
       if (columns.obstacle(key.i, key.j))
-        grid_.set(cell, kOccupiedCell);
+        mark(cell);
       else if (!columns.at(key.i, key.j).seen && grid_.at(cell) == kFreeCell)
         grid_.set(cell, kUnknownCell);
     }
@@ -128,7 +135,7 @@ DrivableFloor::DrivableFloor(const ExplorationState& state, const ExploringRobot
     for (std::int32_t j = low.j; j < low.j + size.j; ++j) {
       if (!columns.obstacle(i, j)) continue;
       const GridCell cell = grid_.cell_of({(i + 0.5) * space.edge_m(), (j + 0.5) * space.edge_m()});
-      if (grid_.contains(cell)) grid_.set(cell, kOccupiedCell);
+      if (grid_.contains(cell)) mark(cell);
     }
   for_each_cell_near(grid_, p_base, robot.radius_m - grid_.frame().resolution_m,
                      [&](const GridCell& cell) { grid_.set(cell, kFreeCell); });
@@ -148,7 +155,7 @@ void DrivableFloor::find_clear(double radius_m) {
     for (cell.column = 0; cell.column < grid_.frame().width; ++cell.column)
       if (grid_.at(cell) != kFreeCell) blocked.set(cell, kOccupiedCell);
   clearance_ = squared_distances(blocked);
-  const double cells = radius_m / grid_.frame().resolution_m + std::numbers::sqrt2;
+  const double cells = radius_m / grid_.frame().resolution_m + 0.5 * std::numbers::sqrt2;
   const auto wanted = static_cast<std::int64_t>(std::ceil(cells * cells - 1e-9));
   clear_.assign(clearance_.size(), 0);
   for (std::size_t n = 0; n < clear_.size(); ++n) clear_[n] = clearance_[n] >= wanted ? 1 : 0;

@@ -14,13 +14,15 @@ namespace mapscore {
 
 /// Where the robot can stand and drive, on the lattice of the lidar's grid (docs/exploration.md).
 ///
-/// A cell is *occupied* when the lidar's grid says so, or the map has an obstacle above it:
-/// occupied voxels between 5 cm above the floor and the robot's height. It is *free* when it is not
-/// occupied, the lidar saw it free (gaps between beams count as free), and the map knows at least a
-/// quarter of the space above it from 0.2 m up to the robot's height; and where the robot stands.
-/// All else is *unknown*. A cell is *clear* when the centres of all cells that are not free lie at
-/// least the robot's radius and the diagonal of a cell away. Immutable, safe to share between
-/// threads.
+/// A cell is *occupied* when the lidar's grid says so, or the map has an obstacle above it: a voxel
+/// that is occupied between 5 cm above the floor and the robot's height, with at least five in its
+/// column and the eight about it (fewer are noise); but within 12.5 cm of what the lidar sees the
+/// lidar is believed, since surfaces that a depth camera sees are thick by its noise. It is *free*
+/// when it is not occupied, the lidar saw it free (gaps between beams count as free), and the map
+/// knows at least 15 % of the space above it from 0.2 m up to the robot's height; and where the
+/// robot stands. All else is *unknown*. A cell is *clear* when the centres of all cells that are
+/// not free lie at least the robot's radius and half the diagonal of a cell away. Immutable, safe
+/// to share between threads.
 class DrivableFloor {
  public:
   /// Throws Error when pose or floor height are not finite.

@@ -21,9 +21,9 @@ enum class Space : std::uint8_t { unknown, free, occupied, unsure, beyond };
 /// Copy of a box of a carved map, a byte a cube, for very many reads: unknown, free, occupied, and
 /// `unsure`: occupied by a surface whose class is uncertain. A cube is a voxel of the map, or of
 /// voxels below 4 cm the smallest node of the octree that is not; it is occupied when a voxel in it
-/// is, and free when one is free and none occupied. Occupied cubes with fewer than two occupied ones
-/// among their 26 neighbours are specks of a depth camera's noise, and taken for free. Around the box lies a layer `beyond`.
-/// Immutable, safe to share between threads.
+/// is, and free when one is free and none occupied. Occupied cubes with fewer than two occupied
+/// ones among their 26 neighbours are specks of a depth camera's noise, and taken for free. Around
+/// the box lies a layer `beyond`. Immutable, safe to share between threads.
 class KnownSpace {
  public:
   /// `unsure_below`: the class of a voxel with beliefs is uncertain when its best probability is
