@@ -117,7 +117,7 @@ TEST_F(Explore, WhatIsMappedOnTheWayIsWhatIsMappedOfTheRecording) {
     fs::remove_all(folder() / "swept");
     std::vector<std::string> exploring = flags;
     exploring.insert(exploring.end(), {"--set", "exploration.budget_m=4", "--set",
-                                       "trajectory.drive.wheels.track_error_percent=3"});
+                                       "trajectory.drive={wheels: {track_error_percent: 3}}"});
     expect_done(explore(exploring));
     write_replay();
     flags.insert(flags.begin(), {"run", folder() / "replay.yaml", "-o", folder() / "swept"});
