@@ -3,11 +3,15 @@
 
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
+#include "eval/cli/shared/figure_flags.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/explore/exploration_study.hpp"
 #include "eval/explore/exploration_summary.hpp"
+#include "eval/report/figures/exploration_figure.hpp"
+#include "eval/report/pictures/caption.hpp"
+#include "eval/report/pictures/exploration_strip.hpp"
 #include "eval/report/table_formats.hpp"
 #include "files/text.hpp"
 
@@ -27,7 +31,8 @@ struct ExploreFlags {
   StudyFlags study;
   WorkFlags work;
   std::optional<int> seed;
-  bool scores_only = false;
+  bool scores_only = false, figures = false;
+  FigureFlags style;
   std::string format = "text";
 };
 
@@ -38,6 +43,12 @@ class ExploreDisplay {
       : planned_(planned), driven_m_(planned.size()), progress_("explore", "m", quiet) {
     for (const PlannedExploration& exploration : planned)
       budget_m_ += exploration.config.exploration.budget_m;
+  }
+
+  /// All have ended.
+  void finish() {
+    const auto budget = static_cast<std::int64_t>(budget_m_);
+    progress_.show(budget, budget, "all of them ended");
   }
 
   void show(std::size_t position, double driven_m, double coverage) {
@@ -65,11 +76,10 @@ std::vector<PlannedExploration> chosen(const Study& study, const ExploreFlags& f
   std::vector<PlannedExploration> planned = explorations(study);
   if (!flags.seed) return planned;
   if (*flags.seed < 0 || *flags.seed >= study.seeds)
-    throw Error(
-        fmt::format("--seed: {} is none of the study; seeds: 0 to {}", *flags.seed, study.seeds - 1));
-  std::erase_if(planned, [&](const PlannedExploration& one) {
-    return one.spec.seed_index != *flags.seed;
-  });
+    throw Error(fmt::format("--seed: {} is none of the study; seeds: 0 to {}", *flags.seed,
+                            study.seeds - 1));
+  std::erase_if(planned,
+                [&](const PlannedExploration& one) { return one.spec.seed_index != *flags.seed; });
   return planned;
 }
 
@@ -113,9 +123,9 @@ Table table_of(const Study& study, const std::vector<ExplorationGroup>& groups) 
       table.columns.push_back(path.substr(path.find_last_of('.') + 1));
   if (study.methods.size() > 1) table.columns.emplace_back("method");
   table.keys = table.columns.size();
-  for (const char* column : {"metres to 90 %", "reached", "first / this", "area (metres)",
-                             "area (seconds)", "coverage", "F1", "driven (m)", "views", "bumps",
-                             "ends"})
+  for (const char* column :
+       {"metres to 90 %", "reached", "first / this", "area (metres)", "area (seconds)", "coverage",
+        "F1", "driven (m)", "views", "bumps", "ends"})
     table.columns.emplace_back(column);
   for (const ExplorationGroup& group : groups) {
     const auto first = std::ranges::find_if(groups, [&](const ExplorationGroup& other) {
@@ -144,7 +154,23 @@ void print_single(const FinishedExploration& run) {
       kept.bump_contacts);
 }
 
+/// Curves of all, and for the first start of each group its moments and its film strip.
+void draw_figures(const Study& study, const std::vector<ExplorationGroup>& groups,
+                  const FigureStyle& style, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files = draw(exploration_curves(study, groups, style), folder);
+  for (const ExplorationGroup& group : groups) {
+    const FinishedExploration& run = *group.runs.front();
+    const auto moments = draw(exploration_moments(run, style), folder);
+    files.insert(files.end(), moments.begin(), moments.end());
+    if (const auto strip = exploration_strip(run))
+      files.push_back(write_picture(folder / ("strip_" + run.planned.name + ".png"), *strip));
+  }
+  for (const std::filesystem::path& file : files)
+    if (file.extension() == ".png") std::cout << shown(file) << '\n';
+}
+
 void explore_study(const ExploreFlags& flags) {
+  const FigureStyle style = flags.style.style();  // refused before the work
   const Study study = flags.study.load();
   const std::filesystem::path folder = flags.study.results_folder(study);
   const std::vector<PlannedExploration> planned = chosen(study, flags);
@@ -155,6 +181,7 @@ void explore_study(const ExploreFlags& flags) {
                            [&](std::size_t position, double driven_m, double coverage) {
                              display.show(position, driven_m, coverage);
                            });
+    display.finish();
   }
   const FolderLock lock(folder);
   write_whole_file(folder / "study.yaml", to_yaml(study));
@@ -162,7 +189,9 @@ void explore_study(const ExploreFlags& flags) {
   write_whole_file(folder / "runs.csv", runs_csv(finished));
   if (flags.format == "text")
     for (const FinishedExploration& run : finished) print_single(run);
-  std::cout << formatted(table_of(study, groups_of(finished)), flags.format);
+  const std::vector<ExplorationGroup> groups = groups_of(finished);
+  std::cout << formatted(table_of(study, groups), flags.format);
+  if (flags.figures) draw_figures(study, groups, style, folder / "figures");
   if (flags.format != "text") return;
   for (const char* file : {"exploration.csv", "runs.csv"})
     std::cout << shown(folder / file) << '\n';
@@ -171,18 +200,22 @@ void explore_study(const ExploreFlags& flags) {
 }  // namespace
 
 void add_explore(CLI::App& program) {
-  const auto [verb, flags] =
-      add_verb<ExploreFlags>(program, "explore",
-                             "The robot chooses its own way: drive, map, plan, record, score",
-                             explore_study);
+  const auto [verb, flags] = add_verb<ExploreFlags>(
+      program, "explore", "The robot chooses its own way: drive, map, plan, record, score",
+      explore_study);
   flags->study.add_to(*verb);
   verb->add_option("--seed", flags->seed, "Only the exploration of this seed's index [all]");
   verb->add_flag("--scores_only", flags->scores_only,
                  "Keep no recordings, which take a megabyte for ten frames and more");
+  verb->add_flag("--figures", flags->figures,
+                 "Draw curves, floors at four moments, and film strips where recordings are kept, "
+                 "below figures of the output folder");
+  flags->style.add_to(*verb);
   flags->work.add_without_memory_to(*verb);
   add_format_flag(*verb, flags->format, {"text", "csv", "json", "markdown", "tex"});
   verb->footer(
-      "Each exploration ends for a reason: explored, nothing_reachable or budget. Below the output\n"
+      "Each exploration ends for a reason: explored, nothing_reachable or budget. Below the "
+      "output\n"
       "folder runs/NAME holds its files, among them `recording`, which every verb takes, and\n"
       "map.ot. What is there already is not run again.\n"
       "Examples:\n"

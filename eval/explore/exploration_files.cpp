@@ -30,11 +30,15 @@ std::string word_of(auto value) {
 }
 
 std::string run_text(const ExplorationResult& result, const std::string& key) {
-  return fmt::format(
+  std::string text = fmt::format(
       "key: {}\nend: {}\nreason: {}\ndriven_m: {}\nduration_s: {}\nviews: {}\nframes: {}\n"
       "bump_contacts: {}\n",
       key, word_of(result.end), yaml_text(result.reason), result.driven_m, result.duration_s,
       result.views.size(), result.frames.size(), result.bump_contacts);
+  if (result.objects)
+    text += fmt::format("objects: {}\nobjects_missed: {}\nobjects_found_again: {}\n",
+                        result.objects->kept, result.objects->missed, result.objects->found_again);
+  return text;
 }
 
 std::string views_text(const std::vector<ChosenView>& views) {
@@ -53,8 +57,8 @@ std::string way_text(const std::vector<TrajectoryPose>& frames) {
   std::string text = "stamp_s,x_m,y_m,yaw_deg\n";
   for (const TrajectoryPose& frame : frames) {
     const PlanarPose T = planar(frame.T_world_base);
-    text += fmt::format("{},{},{},{}\n", frame.stamp_s, T.x_m, T.y_m,
-                        T.yaw_rad * kDegreesPerRadian);
+    text +=
+        fmt::format("{},{},{},{}\n", frame.stamp_s, T.x_m, T.y_m, T.yaw_rad * kDegreesPerRadian);
   }
   return text;
 }
@@ -87,15 +91,15 @@ void write_moments(const ExplorationResult& result, const fs::path& folder) {
 }
 
 CoveragePoint point_of(const std::vector<std::string>& cells, const std::string& file,
-                    std::size_t line) {
+                       std::size_t line) {
   std::vector<double> numbers;
   for (const std::string& cell : cells)
     if (const auto number = parse_number(cell)) numbers.push_back(*number);
   const bool scored = numbers.size() == kCurveColumns;
   if (!scored && numbers.size() != kCurveColumns - kMapColumns)
     throw Error(fmt::format("{}:{}: is no line of a curve; explore again", file, line));
-  CoveragePoint point{numbers[0], numbers[1],  static_cast<int>(numbers[2]),
-                   numbers[3], numbers[4], std::nullopt};
+  CoveragePoint point{numbers[0], numbers[1], static_cast<int>(numbers[2]),
+                      numbers[3], numbers[4], std::nullopt};
   if (scored) point.map = MapState{numbers[5], numbers[6], numbers[7], numbers[8]};
   return point;
 }
@@ -134,9 +138,9 @@ void write_exploration(const ExplorationResult& result, const std::string& key,
   write_file(folder / kViewsFile, views_text(result.views));
   write_file(folder / kWayFile, way_text(result.frames));
   write_moments(result, folder);
-  write_file(folder / kTimesFile, fmt::format("plans,plans_s,slowest_plan_s\n{},{},{}\n",
-                                              result.moments.size(), result.plans_s,
-                                              result.slowest_plan_s));
+  write_file(folder / kTimesFile,
+             fmt::format("plans,plans_s,slowest_plan_s\n{},{},{}\n", result.moments.size(),
+                         result.plans_s, result.slowest_plan_s));
   write_file(folder / kRunFile, run_text(result, key));
 }
 
@@ -147,16 +151,16 @@ std::optional<KeptExploration> read_exploration(const fs::path& folder) {
   const auto count = [&](const char* key) {
     return static_cast<std::size_t>(run.at(key).whole(0, kMost));
   };
-  return KeptExploration{run.at("key").text(),
-                         run.at("end").text(),
-                         run.at("reason").text(),
-                         run.at("driven_m").number(),
-                         run.at("duration_s").number(),
-                         count("views"),
-                         count("frames"),
-                         count("bump_contacts"),
-                         curve_of_text(read_file(folder / kCurveFile),
-                                       (folder / kCurveFile).string())};
+  return KeptExploration{
+      run.at("key").text(),
+      run.at("end").text(),
+      run.at("reason").text(),
+      run.at("driven_m").number(),
+      run.at("duration_s").number(),
+      count("views"),
+      count("frames"),
+      count("bump_contacts"),
+      curve_of_text(read_file(folder / kCurveFile), (folder / kCurveFile).string())};
 }
 
 }  // namespace mapscore::eval

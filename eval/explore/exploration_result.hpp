@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,16 +41,23 @@ struct FloorMoment {
   std::vector<Eigen::Vector2d> frontier;  ///< centres of its cells
 };
 
+/// What a robot that keeps objects met of them.
+struct MetObjects {
+  std::size_t kept = 0;                     ///< at the end
+  std::size_t missed = 0, found_again = 0;  ///< should have been seen and were not; and later were
+};
+
 /// What an exploration came to.
 struct ExplorationResult {
   ExplorationEnd end = ExplorationEnd::budget;
   std::string reason;  ///< for people
   ExplorationCurve curve;
   std::vector<ChosenView> views;
-  std::vector<FloorMoment> moments;        ///< at each view
-  std::vector<TrajectoryPose> frames;      ///< true poses
+  std::vector<FloorMoment> moments;    ///< at each view
+  std::vector<TrajectoryPose> frames;  ///< true poses
   double driven_m = 0.0, duration_s = 0.0;
   std::size_t bump_contacts = 0;
+  std::optional<MetObjects> objects;
   double slowest_plan_s = 0.0, plans_s = 0.0;  ///< processor time of the planner, measured
 };
 

@@ -10,6 +10,7 @@
 #include "core/random_stream.hpp"
 #include "eval/explore/live_belief.hpp"
 #include "eval/explore/live_floor.hpp"
+#include "eval/explore/object_memory.hpp"
 #include "eval/explore/standing_floor.hpp"
 #include "eval/lab/map_frame.hpp"
 #include "eval/lab/sights.hpp"
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <optional>
 
 namespace mapscore::eval {
 namespace {
@@ -70,9 +72,11 @@ class ExplorationRun {
         mapper_(mapping_, stage.table.classes.size()),
         seen_(stage.surface, stage.world.calibration(), T_map_world_),
         drive_(stage.drive, start, drive_settings(task.config)),
-        explorer_(make_explorer(robot_of(stage.drive, task.config, sights_.believed()),
-                                T_map_world_)) {
+        explorer_(
+            make_explorer(robot_of(stage.drive, task.config, sights_.believed()), T_map_world_)) {
     drive_.mind_edges();
+    if (settings_.look_again_voxels > 0.0)
+      objects_.emplace(stage.table.classes.size(), settings_.look_again_voxels);
   }
 
   ExplorationResult run() {
@@ -91,6 +95,8 @@ class ExplorationRun {
     result_.driven_m = drive_.log().distance_m;
     result_.duration_s = drive_.time_s();
     result_.bump_contacts = drive_.health().bump_contacts;
+    if (objects_)
+      result_.objects = {objects_->objects(), objects_->missed(), objects_->found_again()};
     return std::move(result_);
   }
 
@@ -103,8 +109,9 @@ class ExplorationRun {
     const Pose T_map_base = belief_.mean_at(drive_.log(), stamp_s);
     const OccupancyGrid floor = floor_.grid();
     const double before_s = thread_seconds();
-    ExplorationStep step = explorer_->next(
-        {mapper_.map(), floor, planar(T_map_base), T_map_base.translation().z()});
+    ExplorationStep step =
+        explorer_->next({mapper_.map(), floor, planar(T_map_base), T_map_base.translation().z(),
+                         objects_ ? objects_->again() : std::vector<LookAgain>{}});
     const double plan_s = thread_seconds() - before_s;
     result_.plans_s += plan_s;
     result_.slowest_plan_s = std::max(result_.slowest_plan_s, plan_s);
@@ -172,8 +179,7 @@ class ExplorationRun {
       return;
     }
     view.end = state == sim::WayState::blocked ? WayEnd::blocked : WayEnd::stuck;
-    const auto obstacle =
-        state == sim::WayState::blocked ? drive_.obstacle() : drive_.touched();
+    const auto obstacle = state == sim::WayState::blocked ? drive_.obstacle() : drive_.touched();
     if (obstacle) view.obstacle = obstacle->body;
     const double stamp_s = drive_.log().samples.back().stamp_s;
     const Pose T_map_base = belief_.mean_at(drive_.log(), stamp_s);
@@ -210,7 +216,10 @@ class ExplorationRun {
     const sim::StampedPose pose{stamp_s, sim::pose_at(drive_.log(), stamp_s)};
     Frame frame;
     frame.index = frame.depth_index = index;
-    renderer_.render_color(pose, frame);
+    if (sinks_.recording || sinks_.frame || reads_colour(task_.config))
+      renderer_.render_color(pose, frame);
+    else
+      renderer_.render_label(pose, frame);
     renderer_.render_depth(pose, frame);
     if (sinks_.recording) sinks_.recording->write_color(frame);
     if (sinks_.recording) sinks_.recording->write_depth(frame);
@@ -226,20 +235,19 @@ class ExplorationRun {
     const Sight sight = sights_.of(frame);
     const PoseBelief belief = belief_.at_next_frame(drive_.log(), frame.stamp_s);
     RandomStream draws(trial_seed(task_), "belief", {static_cast<std::uint64_t>(frame.index)});
-    static_cast<void>(mapper_.integrate(sight, belief, draws));
+    const std::vector<Segment> segments = mapper_.integrate(sight, belief, draws);
+    if (objects_) objects_->add(segments, sight, belief, frame.stamp_s);
     if (reads_colour(task_.config)) mapper_.add_colours(sight, frame.color, belief);
   }
 
   // --- scores ------------------------------------------------------------------------------------
 
   void note_point(double stamp_s) {
-    CoveragePoint point{stamp_s,
-                     drive_.log().distance_m,
-                     static_cast<int>(result_.views.size()),
-                     seen_.coverage(),
-                     seen_.coverage_detected(),
-                     std::nullopt};
-    if (point.driven_m >= next_score_m_) {
+    CoveragePoint point{
+        stamp_s,          drive_.log().distance_m,   static_cast<int>(result_.views.size()),
+        seen_.coverage(), seen_.coverage_detected(), std::nullopt};
+    const bool at_view = result_.curve.empty() || point.views != result_.curve.back().views;
+    if (at_view || point.driven_m >= next_score_m_) {
       point.map = stage_.surface.state_of(mapper_.map(), threshold_);
       next_score_m_ =
           settings_.score_every_m * (std::floor(point.driven_m / settings_.score_every_m) + 1.0);
@@ -274,6 +282,7 @@ class ExplorationRun {
   LiveFloor floor_;
   sim::Renderer renderer_;
   Mapper mapper_;
+  std::optional<ObjectMemory> objects_;  ///< none where none are looked for again
   SeenSurface seen_;
   sim::DriveSession drive_;
   std::unique_ptr<Explorer> explorer_;

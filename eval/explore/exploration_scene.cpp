@@ -39,10 +39,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kReachRoom = 1, kStartRoom = 3;  ///< steps of StandingFloor
-constexpr double kViewGridM = 0.5;      ///< between places of the dense views, at most
-constexpr int kViewHeadings = 8;        ///< at each
+constexpr double kViewGridM = 0.5;  ///< between places of the dense views, at most
+constexpr int kViewHeadings = 8;    ///< at each
 constexpr std::size_t kLeastPlaces = 4;
-constexpr double kCloudShare = 0.4;     ///< edge of the cloud's cubes, of a voxel
+constexpr double kCloudShare = 0.4;                  ///< edge of the cloud's cubes, of a voxel
 constexpr std::size_t kScenes = 64, kSurfaces = 32;  ///< kept at once
 
 /// A scene with the robot in it.
@@ -56,8 +56,8 @@ struct Scene {
 /// What of a configuration decides a Scene.
 std::string scene_key(const Study& config) {
   Study deciding;
-  deciding.scene = config.scene ? std::optional(resolve_path(config, *config.scene).string())
-                                : std::nullopt;
+  deciding.scene =
+      config.scene ? std::optional(resolve_path(config, *config.scene).string()) : std::nullopt;
   deciding.classes = config.classes;
   deciding.robot = robot_path(config).string();
   deciding.cameras = config.cameras;
@@ -91,8 +91,7 @@ std::shared_ptr<const Scene> make_scene(const Study& config) {
 }
 
 PlanarPose given_start(const std::array<double, 3>& start_m_deg, const sim::DriveModel& drive) {
-  const PlanarPose start{start_m_deg[0], start_m_deg[1],
-                         start_m_deg[2] * std::numbers::pi / 180.0};
+  const PlanarPose start{start_m_deg[0], start_m_deg[1], start_m_deg[2] * std::numbers::pi / 180.0};
   sim::Clearance clearance(drive);
   if (const auto obstacle = clearance.obstacle_at(start))
     throw Error(fmt::format(
@@ -153,9 +152,8 @@ std::string cloud_name(const Scene& scene, const Study& config,
                        const std::vector<Eigen::Vector2d>& places, double cell_m) {
   Study deciding;
   deciding.cameras = config.cameras;
-  std::string text =
-      fmt::format("{}\n{}\n{}\n{}\n", scene.world.hash(), sim::mujoco_version(), cell_m,
-                  to_yaml(deciding));
+  std::string text = fmt::format("{}\n{}\n{}\n{}\n", scene.world.hash(), sim::mujoco_version(),
+                                 cell_m, to_yaml(deciding));
   for (const Eigen::Vector2d& p : places) text += fmt::format("{} {}\n", p.x(), p.y());
   return hash_of(text).substr(0, 16) + ".cloud";
 }
@@ -209,8 +207,8 @@ struct ExplorationScenes::State {
     });
   }
 
-  Surface surface(const Scene& scene, const Study& config, const ClassTable& table,
-                  int seed_index, const PlanarPose& start) {
+  Surface surface(const Scene& scene, const Study& config, const ClassTable& table, int seed_index,
+                  const PlanarPose& start) {
     const MapFrame frame = map_frame(config, seed_index);
     const Cloud points = cloud(scene, config, start);
     std::string key = fmt::format("{} {} {} {} {} {} {}", static_cast<const void*>(points.get()),
@@ -243,10 +241,9 @@ ExplorationScenes::Ready ExplorationScenes::ready(const PlannedExploration& plan
   deciding.name.clear();
   deciding.seeds = 1;
   deciding.methods.front().name = "method";
-  const std::string text =
-      fmt::format("{}\n{}\n{}\n{}\n{}\n{}", scene->world.hash(), sim::mujoco_version(),
-                  build_identity(), planned.spec.seed_index, records ? "recorded" : "scored",
-                  to_yaml(without_titles(deciding)));
+  const std::string text = fmt::format(
+      "{}\n{}\n{}\n{}\n{}\n{}", scene->world.hash(), sim::mujoco_version(), build_identity(),
+      planned.spec.seed_index, records ? "recorded" : "scored", to_yaml(without_titles(deciding)));
   const auto& given = config.exploration.start_m_deg;
   return {hash_of(text),
           given ? given_start(*given, scene->drive)
@@ -260,8 +257,7 @@ void ExplorationScenes::run(const PlannedExploration& planned, const Ready& read
   const Study& config = planned.config;
   const std::shared_ptr<const Scene> scene = state_->scene(config);
   const ClassTable table = detected_table(config, scene->world.classes());
-  const auto surface =
-      state_->surface(*scene, config, table, planned.spec.seed_index, ready.start);
+  const auto surface = state_->surface(*scene, config, table, planned.spec.seed_index, ready.start);
   const Task task = task_of(planned, scene->world.hash());
   std::optional<RecordingWriter> writer;
   if (ready.records) {

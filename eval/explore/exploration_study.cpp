@@ -45,8 +45,7 @@ void check_explorable(const Study& config) {
     throw Error(path + ": " + problem);
   };
   if (config.recording)
-    refuse("recording",
-           "is replayed, and exploring makes one; leave it out, and name the scene");
+    refuse("recording", "is replayed, and exploring makes one; leave it out, and name the scene");
   if (std::holds_alternative<NoExploration>(config.exploration.planner))
     refuse("exploration.planner",
            "is none: nobody chooses the way; write exploration: {planner: next_best_view}, or "

@@ -24,17 +24,18 @@ void summarise_group(ExplorationGroup& group) {
   constexpr ValueLimits kShare{0.0, 1.0}, kPositive{.low = 0.0};
   using Scores = ExplorationScores;
   using Kept = KeptExploration;
-  group.metres_at_most =
-      summary_of(group, [](const Scores& s, const Kept&) { return s.metres_at_most; }, kPositive);
-  group.area_metres =
-      summary_of(group, [](const Scores& s, const Kept&) { return s.area_metres; }, kShare);
-  group.area_seconds =
-      summary_of(group, [](const Scores& s, const Kept&) { return s.area_seconds; }, kShare);
-  group.coverage =
-      summary_of(group, [](const Scores& s, const Kept&) { return s.coverage; }, kShare);
-  group.f1 = summary_of(group, [](const Scores& s, const Kept&) { return s.f1; }, kShare);
-  group.driven_m =
-      summary_of(group, [](const Scores&, const Kept& k) { return k.driven_m; }, kPositive);
+  group.metres_at_most = summary_of(
+      group, [](const Scores& s, const Kept&) { return s.metres_at_most; }, kPositive);
+  group.area_metres = summary_of(
+      group, [](const Scores& s, const Kept&) { return s.area_metres; }, kShare);
+  group.area_seconds = summary_of(
+      group, [](const Scores& s, const Kept&) { return s.area_seconds; }, kShare);
+  group.coverage = summary_of(
+      group, [](const Scores& s, const Kept&) { return s.coverage; }, kShare);
+  group.f1 = summary_of(
+      group, [](const Scores& s, const Kept&) { return s.f1; }, kShare);
+  group.driven_m = summary_of(
+      group, [](const Scores&, const Kept& k) { return k.driven_m; }, kPositive);
   group.views = summary_of(
       group, [](const Scores&, const Kept& k) { return static_cast<double>(k.views); }, kPositive);
   for (std::size_t n = 0; n < group.runs.size(); ++n) {
@@ -94,7 +95,8 @@ std::vector<ExplorationGroup> groups_of(const std::vector<FinishedExploration>& 
       return other.doses == spec.cell.doses && other.method == spec.method;
     });
     if (group == groups.end()) {
-      groups.push_back({spec.cell.doses, spec.method, {}, {}, {}, 0, 0, {}, {}, {}, {}, {}, {}, {}});
+      groups.push_back(
+          {spec.cell.doses, spec.method, {}, {}, {}, 0, 0, {}, {}, {}, {}, {}, {}, {}});
       group = std::prev(groups.end());
     }
     const ExplorationSettings& settings = run.planned.config.exploration;
@@ -113,11 +115,11 @@ std::string exploration_csv(const std::vector<FinishedExploration>& finished) {
     const std::vector<std::string> keys = key_cells(run.planned);
     for (const CoveragePoint& point : run.kept.curve) {
       if (!point.map) continue;
-      text += line_of(keys, {number(point.stamp_s), number(point.driven_m),
-                             fmt::format("{}", point.views), number(point.coverage),
-                             number(point.coverage_detected), number(point.map->precision),
-                             number(point.map->recall), number(point.map->f1),
-                             number(point.map->known_m3)});
+      text += line_of(
+          keys,
+          {number(point.stamp_s), number(point.driven_m), fmt::format("{}", point.views),
+           number(point.coverage), number(point.coverage_detected), number(point.map->precision),
+           number(point.map->recall), number(point.map->f1), number(point.map->known_m3)});
     }
   }
   return text;
@@ -132,12 +134,12 @@ std::string runs_csv(const std::vector<FinishedExploration>& finished) {
     const ExplorationSettings& settings = run.planned.config.exploration;
     const KeptExploration& kept = run.kept;
     const ExplorationScores s = scores_of(kept.curve, settings.budget_m, settings.budget_s);
-    text += line_of(key_cells(run.planned),
-                    {kept.end, number(s.metres), number(s.seconds), number(s.area_metres),
-                     number(s.area_seconds), number(s.coverage), number(s.coverage_detected),
-                     number(s.f1), number(kept.driven_m), number(kept.duration_s),
-                     fmt::format("{}", kept.views), fmt::format("{}", kept.frames),
-                     fmt::format("{}", kept.bump_contacts)});
+    text += line_of(
+        key_cells(run.planned),
+        {kept.end, number(s.metres), number(s.seconds), number(s.area_metres),
+         number(s.area_seconds), number(s.coverage), number(s.coverage_detected), number(s.f1),
+         number(kept.driven_m), number(kept.duration_s), fmt::format("{}", kept.views),
+         fmt::format("{}", kept.frames), fmt::format("{}", kept.bump_contacts)});
   }
   return text;
 }

@@ -22,7 +22,7 @@ inline constexpr double kCoveredShare = 0.9;
 struct ExplorationScores {
   std::optional<double> metres, seconds;  ///< to kCoveredShare; none where it was not reached
   double metres_at_most = 0.0;            ///< the same, or the budget where it was not reached
-  double area_metres = 0.0, area_seconds = 0.0;  ///< mean coverage up to the budgets
+  double area_metres = 0.0, area_seconds = 0.0;              ///< mean coverage up to the budgets
   double coverage = 0.0, coverage_detected = 0.0, f1 = 0.0;  ///< at the end
 };
 

@@ -45,9 +45,9 @@ class LiveFloor {
   sim::Lidar lidar_;
   ScanGrid seen_;
   std::vector<Eigen::Vector2d> blocked_;
-  std::vector<sim::StampedPose> poses_;        ///< of all turns
-  std::vector<PlanarPose> T_map_base_;         ///< as believed, likewise
-  std::vector<sim::LidarRanges> ranges_;       ///< exact, of those that were cast
+  std::vector<sim::StampedPose> poses_;   ///< of all turns
+  std::vector<PlanarPose> T_map_base_;    ///< as believed, likewise
+  std::vector<sim::LidarRanges> ranges_;  ///< exact, of those that were cast
 };
 
 }  // namespace mapscore::eval

@@ -124,9 +124,9 @@ Sights::Sights(const Task& task, const Recording& recording, const ClassTable& t
       depth_of_(paired_depth(recording, task.config)),
       faults_(task.config.faults) {
   if (const auto* settings = std::get_if<SimulatedPerception>(&task.config.perception))
-    simulated_ = std::make_shared<const SimulatedLabels>(
-        *settings, task.config, recording.info().calibration, table,
-        [&] { return true_shapes(recording); });
+    simulated_ = std::make_shared<const SimulatedLabels>(*settings, task.config,
+                                                         recording.info().calibration, table,
+                                                         [&] { return true_shapes(recording); });
   if (const auto images = network_images(task.config, recording)) {
     const auto read = [&] {
       return std::make_shared<const NetworkLabels>(*images, recording, table);
@@ -150,8 +150,9 @@ Sights::Sights(const Task& task, const Calibration& truth, const std::vector<Sha
         "without it, and replay the recording with it");
   const auto* settings = std::get_if<SimulatedPerception>(&task.config.perception);
   if (settings != nullptr)
-    simulated_ = std::make_shared<const SimulatedLabels>(*settings, task.config, truth, table,
-                                                         [&] { return RecordedShapes{shapes, {}}; });
+    simulated_ = std::make_shared<const SimulatedLabels>(*settings, task.config, truth, table, [&] {
+      return RecordedShapes{shapes, {}};
+    });
   else if (!std::holds_alternative<LabelPerception>(task.config.perception))
     throw Error(
         "perception: networks and their images need a recording, and there is none yet; explore "

@@ -122,7 +122,8 @@ ScanGeometry scan_geometry(const sim::LidarSettings& settings, const sim::Lidar&
 StudyDrive drive_of(const Study& study, const sim::World& world,
                     const std::function<void(int, int)>& progress) {
   const sim::Drive way = way_of(study.trajectory, world.motion());
-  if (!std::holds_alternative<WheelDrive>(study.trajectory.drive)) return drive_by_poses(study, way);
+  if (!std::holds_alternative<WheelDrive>(study.trajectory.drive))
+    return drive_by_poses(study, way);
   const sim::DriveLog log =
       sim::simulate_drive(world, robot_path(study), way, drive_settings(study), progress);
   return drive_on_wheels(study, log, way.until_s);

@@ -36,6 +36,7 @@ struct ExplorationSettings {
   double budget_m = 60, budget_s = 1200;
   int budget_views = 500;
   double floor_cell_m = 0.05;
+  double look_again_voxels = 0;
   double score_every_m = 2;
 
   static void fields(auto& s, auto&& visit) {
@@ -49,8 +50,14 @@ struct ExplorationSettings {
     visit(s.budget_views, later({"budget_views", "and after so many views", {1, 1000000}}));
     visit(s.floor_cell_m,
           later({"floor_cell_m", "edge of a cell of the lidar's grid of the floor", {0.01, 1}}));
+    visit(s.look_again_voxels,
+          later({"look_again_voxels",
+                 "worth of a look at an object that should have been seen and was not, in unknown "
+                 "voxels, for next_best_view; 0: the robot keeps no objects",
+                 {0, 1e6}}));
     visit(s.score_every_m,
-          later({"score_every_m", "the map is scored so often along the way", above(0, 1e5)}));
+          later({"score_every_m", "the map is scored at each view, and so often along the way",
+                 above(0, 1e5)}));
   }
   bool operator==(const ExplorationSettings&) const = default;
 };

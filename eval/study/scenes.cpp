@@ -62,7 +62,9 @@ void read_scenes(const YamlValue& at, Scenes& scenes) {
     };
     if (probe.recording && std::ranges::any_of(scene.leaves, renders))
       entry.at("recording")
-          .fail("is replayed as it is; leave trajectory, cameras, lidar and exploration out of this scene");
+          .fail(
+              "is replayed as it is; leave trajectory, cameras, lidar and exploration out of this "
+              "scene");
     scenes.push_back(std::move(scene));
   }
 }

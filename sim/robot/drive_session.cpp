@@ -16,7 +16,8 @@ namespace {
 constexpr double kReactionS = 0.1;  ///< from a command to the wheels' speed
 constexpr double kStuckS = 4.0;     ///< without getting anywhere
 constexpr double kStuckM = 0.005, kStuckRad = 0.01;
-constexpr double kPatience = 5.0;  ///< times the time that a waypoint should take
+constexpr double kPatience = 5.0;     ///< times the time that a waypoint should take
+constexpr double kEdgeSensorM = 0.2;  ///< before and behind the axle, beyond the casters
 constexpr double kBackMps = 0.1, kTurningRoomM = 0.03;
 
 int share_of(double hz, double of_hz, const char* name) {
@@ -158,7 +159,11 @@ bool DriveSession::blocked_ahead() {
 
 bool DriveSession::blocked_at(const PlanarPose& place) {
   obstacle_ = clearance_.obstacle_at(place, physics_.T_world_base().translation().z());
-  return obstacle_ || (minds_edges_ && !clearance_.floor_at(place));
+  if (obstacle_ || !minds_edges_) return obstacle_.has_value();
+  const double dx = kEdgeSensorM * std::cos(place.yaw_rad);
+  const double dy = kEdgeSensorM * std::sin(place.yaw_rad);
+  return !clearance_.floor_at({place.x_m + dx, place.y_m + dy, place.yaw_rad}) ||
+         !clearance_.floor_at({place.x_m - dx, place.y_m - dy, place.yaw_rad});
 }
 
 bool DriveSession::lost_patience() {

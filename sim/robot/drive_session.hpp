@@ -81,7 +81,7 @@ class DriveSession {
   /// Brakes, and stands until a time of the drive.
   void rest_until(double time_s);
 
-  /// From now on a place without floor under the wheels blocks, as an edge sensor has it.
+  /// From now on a way blocks where the floor ends, within 0.2 m before or behind the axle.
   void mind_edges() { minds_edges_ = true; }
 
   [[nodiscard]] double time_s() const { return physics_.time_s(); }

@@ -40,11 +40,10 @@ DriveSettings settings_of(const Drive& drive, DriveSettings settings) {
                                                      : "was touched, standing");
   if (const auto touched = drive.touched())
     refuse_blocked(drive.way(), drive.target(), *touched, "holds the robot up");
-  throw Error(
-      fmt::format("trajectory: {} cannot be reached: the robot is stuck at ({:.2f}, {:.2f} m); "
-                  "lead it around",
-                  waypoint_text(drive.way(), drive.target()), drive.place().x_m,
-                  drive.place().y_m));
+  throw Error(fmt::format(
+      "trajectory: {} cannot be reached: the robot is stuck at ({:.2f}, {:.2f} m); "
+      "lead it around",
+      waypoint_text(drive.way(), drive.target()), drive.place().x_m, drive.place().y_m));
 }
 
 }  // namespace

@@ -101,8 +101,8 @@ TEST(VisibleSurface, ScoresTheDetectedClassesOfAMap) {
                                two_classes(), Pose::Identity());
   SemanticMap map(kEdge);
   // Right in voxel 0, wrong in voxel 3, of a class that is not detected in voxel 2; 1 is missing.
-  const std::vector<VoxelHit> hits{{{0, 0, 0}, 1, 1, 1.0}, {{2, 0, 0}, 2, 1, 1.0},
-                                   {{3, 0, 0}, 1, 1, 1.0}};
+  const std::vector<VoxelHit> hits{
+      {{0, 0, 0}, 1, 1, 1.0}, {{2, 0, 0}, 2, 1, 1.0}, {{3, 0, 0}, 1, 1, 1.0}};
   map.fuse(hits, 1, BlendRule{}, 3);
   const MapState state = surface.state_of(map, 0.25);
   EXPECT_DOUBLE_EQ(state.precision, 0.5);
