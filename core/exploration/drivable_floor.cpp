@@ -17,6 +17,7 @@ constexpr double kLeastObstacle_m = 0.05, kLowSpace_m = 0.2;
 constexpr double kSeenShare = 0.15;
 
 constexpr int kLeastCubes = 5;
+constexpr double kWithinCell = 0.5;  ///< cells that a surface may lie before the centre of its own
 constexpr double kSameSurface_m = 0.125;
 
 /// What the map says of the space above a place.
@@ -155,7 +156,8 @@ void DrivableFloor::find_clear(double radius_m) {
     for (cell.column = 0; cell.column < grid_.frame().width; ++cell.column)
       if (grid_.at(cell) != kFreeCell) blocked.set(cell, kOccupiedCell);
   clearance_ = squared_distances(blocked);
-  const double cells = radius_m / grid_.frame().resolution_m + 0.5 * std::numbers::sqrt2;
+  const double cells =
+      radius_m / grid_.frame().resolution_m + 0.5 * std::numbers::sqrt2 + kWithinCell;
   const auto wanted = static_cast<std::int64_t>(std::ceil(cells * cells - 1e-9));
   clear_.assign(clearance_.size(), 0);
   for (std::size_t n = 0; n < clear_.size(); ++n) clear_[n] = clearance_[n] >= wanted ? 1 : 0;

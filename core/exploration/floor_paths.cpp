@@ -3,7 +3,7 @@
 
 #include "core/exploration/floor_paths.hpp"
 
-#include "core/exploration/cell_walk.hpp"
+#include "core/exploration/floor_cells.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include "core/exploration/floor_cells.hpp"
 #include "core/exploration/frontiers.hpp"
-#include "core/exploration/lattice_cell.hpp"
-#include "core/exploration/look_around.hpp"
 #include "core/exploration/planners.hpp"
 #include "core/exploration/surroundings.hpp"
 
@@ -34,7 +33,7 @@ class LawnMowerExplorer : public Explorer {
     ExplorationStep step;
     step.frontiers = find_frontiers(now.floor.grid(), 0.3);
     if (std::exchange(first_, false)) {
-      step.view = look_around(now);
+      step.view = now.turn_on_the_spot();
       return step;
     }
     // The nearest end of a run; ties to the lower lane, then to the lower column.

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include "core/exploration/floor_cells.hpp"
 #include "core/exploration/frontiers.hpp"
-#include "core/exploration/lattice_cell.hpp"
-#include "core/exploration/look_around.hpp"
 #include "core/exploration/planners.hpp"
 #include "core/exploration/surroundings.hpp"
 #include "core/exploration/view_search.hpp"
@@ -37,7 +36,7 @@ class NearestFrontierExplorer : public Explorer {
       return looks != looks_.end() && looks->second >= kMostLooks;
     });
     if (std::exchange(first_, false)) {
-      step.view = look_around(now);
+      step.view = now.turn_on_the_spot();
       return step;
     }
     const double near_m = robot_.radius_m + 3.0 * grid.frame().resolution_m;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/exploration/frontiers.hpp"
-#include "core/exploration/look_around.hpp"
 #include "core/exploration/planners.hpp"
 #include "core/exploration/surroundings.hpp"
 #include "core/exploration/view_search.hpp"
@@ -26,7 +25,7 @@ class RandomViewExplorer : public Explorer {
     ExplorationStep step;
     step.frontiers = find_frontiers(now.floor.grid(), 0.3);
     if (std::exchange(first_, false)) {
-      step.view = look_around(now);
+      step.view = now.turn_on_the_spot();
       return step;
     }
     if (const auto end = search_.end(state, now)) {

@@ -4,7 +4,7 @@
 #include "core/exploration/scan_grid.hpp"
 
 #include "core/error.hpp"
-#include "core/exploration/cell_walk.hpp"
+#include "core/exploration/floor_cells.hpp"
 #include "core/space/occupancy.hpp"
 
 #include <algorithm>

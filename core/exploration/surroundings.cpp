@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace mapscore {
@@ -68,6 +69,15 @@ Surroundings::Surroundings(const ExplorationState& state, const ExploringRobot& 
       floor(state, robot, space),
       paths(floor),
       radius_m_(robot.radius_m) {}
+
+NextView Surroundings::turn_on_the_spot() const {
+  const PlanarPose& here = floor.T_map_base();
+  NextView view;
+  for (int third = 0; third <= 3; ++third)
+    view.way.push_back(
+        {here.x_m, here.y_m, wrapped_angle(here.yaw_rad + third * 2.0 / 3.0 * std::numbers::pi)});
+  return view;
+}
 
 bool Surroundings::stuck() const {
   const PlanarPose& T = floor.T_map_base();

@@ -39,6 +39,8 @@ struct Surroundings {
   [[nodiscard]] std::vector<Lookout> places_out_of_reach(double step_m) const;
   /// The view from a place that is reached.
   [[nodiscard]] NextView view(const GridCell& cell, double yaw_rad) const;
+  /// A whole turn: how planners begin that choose places by what is known of the floor.
+  [[nodiscard]] NextView turn_on_the_spot() const;
   /// Whether the robot can get no farther than its own radius.
   [[nodiscard]] bool stuck() const;
 
