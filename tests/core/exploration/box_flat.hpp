@@ -86,7 +86,7 @@ inline ExploringRobot flat_robot() {
   robot.radius_m = 0.25;
   robot.height_m = 1.2;
   Calibration& cameras = robot.cameras;
-  cameras.depth = CameraModel::from_hfov(160, 120, 58.4 * std::numbers::pi / 180.0);
+  cameras.depth = CameraModel::from_hfov(112, 84, 58.4 * std::numbers::pi / 180.0);
   cameras.color = cameras.depth;
   Eigen::Matrix3d R_link_optical;
   R_link_optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;

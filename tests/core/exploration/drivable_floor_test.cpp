@@ -73,7 +73,7 @@ TEST(DrivableFloor, OnTheHandWorkedGridCellsAreClearByDistance) {
                                          "#.....#",  //
                                          "#.....#",  //
                                          "#######"});
-  // The radius of 1.5 cells and the diagonal of one make 2.91 cells: the middle alone.
+  // The radius of 1.5 cells, half a diagonal and half an edge make 2.71 cells: the middle alone.
   const DrivableFloor floor(grid, {0.35, 0.35, 0.0}, 0.15);
   for (GridCell cell; cell.row < 7; ++cell.row)
     for (cell.column = 0; cell.column < 7; ++cell.column)

@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(Exploration, EachPlanner, ::testing::Range<std::size_t>
 
 // The robot is 0.5 m wide: a door of 0.4 m shows a room that it cannot get to.
 TEST(Exploration, ADoorThatIsTooNarrowIsSaidAndNotDrivenThrough) {
-  for (const Exploration& planner : {Exploration(NextBestView{}), Exploration(RandomView{})}) {
+  for (const Exploration& planner : {Exploration(NextBestView{}), Exploration(NearestFrontier{})}) {
     const FlatRun::Result result = run(planner, two_rooms(0.4), 2);
     ASSERT_TRUE(result.end.has_value()) << kind_of(planner);
     EXPECT_EQ(*result.end, ExplorationEnd::nothing_reachable) << kind_of(planner);
@@ -92,7 +92,7 @@ TEST(Exploration, WhoStartsWithinFurnitureEndsSoon) {
     int views = 0;
     ExplorationStep step = explorer->next({map, grid.grid(), kStart});
     for (; step.view && views < 300; ++views) {
-      EXPECT_EQ(step.view->way_m, 0.0);
+      EXPECT_LT(step.view->way_m, flat_robot().radius_m);
       step = explorer->next({map, grid.grid(), step.view->way.back()});
     }
     EXPECT_LT(views, 300) << kind_of(planner);

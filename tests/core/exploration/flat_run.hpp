@@ -17,8 +17,8 @@
 
 namespace mapscore::testing {
 
-/// A robot that explores a flat of boxes: it stands where it believes, sees a frame every 0.2 m and
-/// every 20 degrees of its way, and maps it.
+/// A robot that explores a flat of boxes: it stands where it believes, sees a frame every 0.3 m and
+/// every 26 degrees of its way, and maps it.
 class FlatRun {
  public:
   /// What there is to see: voxels.
@@ -83,7 +83,7 @@ class FlatRun {
       const double length = leg.norm();
       if (length > 0.02) {
         turn_to(std::atan2(leg.y(), leg.x()));
-        const int steps = static_cast<int>(std::ceil(length / 0.2));
+        const int steps = static_cast<int>(std::ceil(length / 0.3));
         for (int n = 1; n <= steps; ++n) {
           const Eigen::Vector2d at = from + leg * n / steps;
           here_.x_m = at.x(), here_.y_m = at.y();
@@ -100,7 +100,7 @@ class FlatRun {
  private:
   void turn_to(double yaw_rad) {
     const double turn = wrapped_angle(yaw_rad - here_.yaw_rad);
-    const int steps = static_cast<int>(std::ceil(std::abs(turn) / 0.35 - 1e-9));
+    const int steps = static_cast<int>(std::ceil(std::abs(turn) / 0.45 - 1e-9));
     const double from = here_.yaw_rad;
     for (int n = 1; n <= steps; ++n) {
       here_.yaw_rad = wrapped_angle(from + turn * n / steps);

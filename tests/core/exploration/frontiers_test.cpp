@@ -63,12 +63,12 @@ TEST(Frontiers, AreApproachedByTheShortestWay) {
   const FloorPaths paths(floor);
   const auto frontiers = find_frontiers(grid, 0.0);
   ASSERT_EQ(frontiers.size(), 1u);
-  // Free cells that are two away from the unknown are clear: column 5, of which row 2 is nearest.
+  // Column 5 is two cells and a half at most from the frontier, and its row 2 nearest to the robot.
   const auto way = approach(frontiers[0], grid, paths, 0.25);
   ASSERT_TRUE(way.has_value());
   EXPECT_EQ(way->place, (GridCell{5, 2}));
   EXPECT_NEAR(way->way_m, 0.3, 1e-12);
-  EXPECT_FALSE(approach(frontiers[0], grid, paths, 0.1).has_value());
+  EXPECT_FALSE(approach(frontiers[0], grid, paths, 0.05).has_value());
 }
 
 }  // namespace
