@@ -6,7 +6,7 @@
 
 # All rooms whose code decides a trial's counts, or the recording they come from.
 set(mapscore_deciding_rooms core files sim eval/recording eval/foreign eval/networks eval/map_files eval/truth
-    eval/localization eval/score eval/objects eval/study eval/results eval/lab eval/render)
+    eval/localization eval/score eval/objects eval/study eval/results eval/lab eval/render eval/explore)
 
 # mapscore_build_identity(TARGET ROOMS...): adds a source with the identity of the sources below ROOMS to TARGET.
 function(mapscore_build_identity target)

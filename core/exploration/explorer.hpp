@@ -21,12 +21,20 @@ struct ExploringRobot {
   Calibration cameras;  ///< as the robot believes them; the depth camera sees
 };
 
+/// A point to be looked at again, such as an object that should have been seen and was missed [N].
+struct LookAgain {
+  Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< metres
+  double priority_voxels = 1.0;  ///< what a first look at it is worth, in unknown voxels
+};
+
 /// What the robot knows when it decides where to look next, in frame map. The references must stay
 /// valid during the call only.
 struct ExplorationState {
-  const SemanticMap& map;      ///< carved
-  const OccupancyGrid& floor;  ///< what the lidar has seen so far: free, occupied, unknown cells
-  PlanarPose T_map_base;       ///< where the robot believes it stands
+  const SemanticMap& map;             ///< carved
+  const OccupancyGrid& floor;         ///< what the lidar has seen so far (ScanGrid)
+  PlanarPose T_map_base;              ///< where the robot believes it stands
+  double floor_m = 0.0;               ///< height of the floor in frame map, z of the base
+  std::vector<LookAgain> again = {};  ///< what else is worth a look
 };
 
 /// A connected piece of the border between free floor and floor that nobody has seen.
@@ -66,6 +74,7 @@ class Explorer {
   Explorer& operator=(const Explorer&) = delete;
   virtual ~Explorer() = default;
 
+  /// Throws Error when the map does not carve, or pose or floor height are not finite.
   [[nodiscard]] virtual ExplorationStep next(const ExplorationState& state) = 0;
 };
 

@@ -26,6 +26,7 @@ template <class Flags>
 /// when the input is wrong; `exit_code` is set to 1 when the answer is no: scores fell, trials
 /// failed, counts of a repeated trial differ.
 void add_record(CLI::App& program);
+void add_explore(CLI::App& program);
 void add_run(CLI::App& program, int& exit_code);
 void add_trial(CLI::App& program);
 void add_frames(CLI::App& program);
@@ -49,6 +50,7 @@ void add_info(CLI::App& program);
 /// All of them, in the order of the help.
 inline void add_verbs(CLI::App& program, int& exit_code) {
   add_record(program);
+  add_explore(program);
   add_run(program, exit_code);
   add_trial(program);
   add_frames(program);

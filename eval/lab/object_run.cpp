@@ -32,13 +32,13 @@ void ObjectRun::start_from(const ObjectFile& known) {
   }
 }
 
-std::vector<ObjectDetection> ObjectRun::detect(const Sight& sight, const Pose& T_map_depth) const {
-  const std::vector<Segment> segments = segment(sight, segmentation_, map_frame_.edge_m, false);
+std::vector<ObjectDetection> object_detections(const std::vector<Segment>& segments,
+                                               const Pose& T_map_depth,
+                                               const ObjectRunOptions& options) {
   std::vector<ObjectDetection> found;
   for (const Segment& segment : segments) {
-    const std::vector<Eigen::Vector3d> solid =
-        largest_solid_piece(segment.points, options_.piece_m);
-    if (solid.size() < static_cast<std::size_t>(options_.min_points)) continue;
+    const std::vector<Eigen::Vector3d> solid = largest_solid_piece(segment.points, options.piece_m);
+    if (solid.size() < static_cast<std::size_t>(options.min_points)) continue;
     Eigen::AlignedBox3d bounds;
     for (const Eigen::Vector3d& p : solid) bounds.extend(T_map_depth * p);
     found.push_back({segment.class_id, oriented(bounds), segment.score, {}});
@@ -56,7 +56,8 @@ ObjectChanges ObjectRun::advance(const Frame& frame) {
                         sight.depth()};
   if (!frame.depth_label.empty())
     seen_.add(frame, truth, map_frame_.T_map_world() * frame.T_world_base);
-  return map_.integrate(detect(sight, T_map_depth), frame.stamp_s, &view);
+  const std::vector<Segment> segments = segment(sight, segmentation_, map_frame_.edge_m, false);
+  return map_.integrate(object_detections(segments, T_map_depth, options_), frame.stamp_s, &view);
 }
 
 ObjectFile ObjectRun::file() const {

@@ -22,6 +22,12 @@ struct ObjectRunOptions {
   double piece_m = 0.05;  ///< cells of the lattice that tells pieces apart (solid_piece.hpp)
 };
 
+/// What a frame's segments say of objects: of each, the box about its largest solid piece, along
+/// the map's axes. T_map_depth: where the depth camera is believed to be.
+[[nodiscard]] std::vector<ObjectDetection> object_detections(const std::vector<Segment>& segments,
+                                                             const Pose& T_map_depth,
+                                                             const ObjectRunOptions& options);
+
 /// One object map under way over the frames of a recording: what TrialRun does for voxels, under
 /// the same faults. Used by one thread at a time; `recording` and `table` must outlive it.
 class ObjectRun {
@@ -49,9 +55,6 @@ class ObjectRun {
   [[nodiscard]] std::vector<TrueObject> truth(bool seen) const;
 
  private:
-  [[nodiscard]] std::vector<ObjectDetection> detect(const Sight& sight,
-                                                    const Pose& T_map_depth) const;
-
   const Recording& recording_;
   const ClassTable& table_;
   Sights sights_;

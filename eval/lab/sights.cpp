@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
+#include <functional>
 #include <limits>
 #include <variant>
 
@@ -41,6 +42,14 @@ std::vector<PerceivedModel> models_of_file(const std::filesystem::path& path, Cl
   return models;
 }
 
+/// The truth of a recording, which simulated perception then knows.
+RecordedShapes true_shapes(const Recording& recording) {
+  if (recording.info().has_truth) return shapes_of(recording);
+  throw Error(recording.folder().string() +
+              ": has no truth to simulate perception of; name an object map as "
+              "perception.simulated.objects");
+}
+
 /// The depth image of every frame under the time offset.
 std::vector<int> paired_depth(const Recording& recording, const Study& config) {
   std::vector<int> depth;
@@ -56,20 +65,17 @@ std::vector<int> paired_depth(const Recording& recording, const Study& config) {
 /// safe to share between threads.
 class Sights::SimulatedLabels {
  public:
-  /// Throws Error when the file of the objects is refused, holds too many, or there is neither file
-  /// nor truth.
+  /// `shapes()`: the scene's surfaces, asked for where no file names the objects. Throws Error when
+  /// the file of the objects is refused or holds too many.
   SimulatedLabels(const SimulatedPerception& settings, const Study& config,
-                  const Recording& recording, const ClassTable& table)
-      : settings_(settings), calibration_(recording.info().calibration), table_(table) {
+                  const Calibration& calibration, const ClassTable& table,
+                  const std::function<RecordedShapes()>& shapes)
+      : settings_(settings), calibration_(calibration), table_(table) {
     if (settings.objects) {
       models_ = models_of_file(resolve_path(config, *settings.objects), table_);
       return;
     }
-    if (!recording.info().has_truth)
-      throw Error(recording.folder().string() +
-                  ": has no truth to simulate perception of; name an object map as "
-                  "perception.simulated.objects");
-    shapes_ = shapes_of(recording);
+    shapes_ = shapes();
     if (!shapes_.poses.empty()) return;
     models_ = models_of(shapes_.shapes, Pose::Identity(), table_,
                         settings_.boxes == PerceivedBoxes::surfaces);
@@ -118,13 +124,39 @@ Sights::Sights(const Task& task, const Recording& recording, const ClassTable& t
       depth_of_(paired_depth(recording, task.config)),
       faults_(task.config.faults) {
   if (const auto* settings = std::get_if<SimulatedPerception>(&task.config.perception))
-    simulated_ = std::make_shared<const SimulatedLabels>(*settings, task.config, recording, table);
+    simulated_ = std::make_shared<const SimulatedLabels>(*settings, task.config,
+                                                         recording.info().calibration, table,
+                                                         [&] { return true_shapes(recording); });
   if (const auto images = network_images(task.config, recording)) {
     const auto read = [&] {
       return std::make_shared<const NetworkLabels>(*images, recording, table);
     };
     network_ = networks ? networks->get(*images, read) : read();
   }
+}
+
+Sights::Sights(const Task& task, const Calibration& truth, const std::vector<Shape>& shapes,
+               const ClassTable& table)
+    : table_(table),
+      labels_(task.labels),
+      seed_(trial_seed(task)),
+      depth_camera_(truth.depth),
+      believed_(believed_calibration(truth, task)),
+      is_live_(true),
+      faults_(task.config.faults) {
+  if (task.config.faults.time_offset_ms != 0.0)
+    throw Error(
+        "faults.time_offset_ms: pairs images of a recording, and there is none yet; explore "
+        "without it, and replay the recording with it");
+  const auto* settings = std::get_if<SimulatedPerception>(&task.config.perception);
+  if (settings != nullptr)
+    simulated_ = std::make_shared<const SimulatedLabels>(*settings, task.config, truth, table, [&] {
+      return RecordedShapes{shapes, {}};
+    });
+  else if (!std::holds_alternative<LabelPerception>(task.config.perception))
+    throw Error(
+        "perception: networks and their images need a recording, and there is none yet; explore "
+        "with labels or simulated, and replay the recording with the network");
 }
 
 std::string Sights::key(const Study& config, Labels labels) {

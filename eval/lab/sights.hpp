@@ -6,6 +6,7 @@
 #include "core/classes.hpp"
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
+#include "core/geometry/shape.hpp"
 #include "core/segmentation/sight.hpp"
 #include "eval/foreign/network_labels.hpp"
 #include "eval/lab/shared_cache.hpp"
@@ -34,6 +35,11 @@ class Sights {
   /// `networks`: of this recording and table; without them it reads its own.
   Sights(const Task& task, const Recording& recording, const ClassTable& table,
          Networks* networks = nullptr);
+  /// Of a camera that has recorded nothing yet, among `shapes` that do not move: each colour image
+  /// is read with the depth image of its number. `table` must outlive it. Throws Error when a
+  /// network, or a time offset, would need a recording, or as above.
+  Sights(const Task& task, const Calibration& truth, const std::vector<Shape>& shapes,
+         const ClassTable& table);
 
   /// Equal for tasks of one plan and seed where their sights are: what of a configuration decides
   /// them.
@@ -41,7 +47,7 @@ class Sights {
 
   /// The depth image that a frame is paired with under the trial's time offset.
   [[nodiscard]] int depth_of(int frame) const {
-    return depth_of_.at(static_cast<std::size_t>(frame));
+    return is_live_ ? frame : depth_of_.at(static_cast<std::size_t>(frame));
   }
   [[nodiscard]] const std::vector<int>& depth_of_frames() const { return depth_of_; }
   /// The table of the instances in the detections: the recording's, or that of simulated
@@ -77,7 +83,8 @@ class Sights {
   std::uint64_t seed_;
   CameraModel depth_camera_;   ///< true
   Calibration believed_;       ///< what the method believes of the cameras
-  std::vector<int> depth_of_;  ///< by frame
+  std::vector<int> depth_of_;  ///< by frame, of a recording
+  bool is_live_ = false;       ///< no recording
   FaultSettings faults_;
   std::shared_ptr<const SimulatedLabels> simulated_;  ///< in place of the recording's labels
   std::shared_ptr<const NetworkLabels> network_;      ///< likewise

@@ -53,37 +53,6 @@ StudyDrive drive_by_poses(const Study& study, sim::Drive way) {
   return drive;
 }
 
-sim::DriveSettings settings_of(const WheelDrive& wheels) {
-  sim::DriveSettings settings;
-  settings.controller.acceleration_mps2 = wheels.acceleration_mps2;
-  settings.controller.turn_acceleration_radps2 = wheels.turn_acceleration_dps2 * kRadiansPerDegree;
-  settings.encoder_ticks_per_turn = wheels.encoder_ticks_per_turn;
-  settings.radius_error = wheels.wheel_radius_error_percent / 100.0;
-  settings.track_error = wheels.track_error_percent / 100.0;
-  settings.clearance_m = wheels.clearance_m;
-  return settings;
-}
-
-/// The odometry up to its first line that is not before `end_s`.
-std::vector<OdometryPose> odometry_of(const sim::DriveLog& log, double end_s) {
-  std::vector<OdometryPose> odometry;
-  for (const sim::DriveSample& sample : log.samples) {
-    odometry.push_back({sample.stamp_s, sample.T_odom_base});
-    if (sample.stamp_s >= end_s) break;
-  }
-  return odometry;
-}
-
-std::vector<TrajectoryPose> truth_of(const sim::DriveLog& log, const StudyDrive& drive) {
-  std::map<double, Pose> poses;
-  for (const OdometryPose& pose : drive.odometry)
-    poses.emplace(pose.stamp_s, sim::pose_at(log, pose.stamp_s));
-  for (const sim::StampedPose& pose : drive.scans) poses.emplace(pose.stamp_s, pose.T_world_base);
-  std::vector<TrajectoryPose> truth;
-  for (const auto& [stamp_s, pose] : poses) truth.push_back({stamp_s, pose});
-  return truth;
-}
-
 StudyDrive drive_on_wheels(const Study& study, const sim::DriveLog& log, double until_s) {
   StudyDrive drive;
   const int most = study.trajectory.max_frames;
@@ -95,32 +64,76 @@ StudyDrive drive_on_wheels(const Study& study, const sim::DriveLog& log, double 
     end_s = drive.streams.color.back().stamp_s;
   drive.scans = sim::poses_along(log, study.lidar.scans_per_s, end_s);
   drive.odometry = odometry_of(log, end_s);
-  drive.truth = truth_of(log, drive);
+  drive.truth = truth_of(log, drive.odometry, drive.scans);
   return drive;
 }
 
 }  // namespace
 
+sim::DriveSettings drive_settings(const Study& study) {
+  const auto* given = std::get_if<WheelDrive>(&study.trajectory.drive);
+  const WheelDrive wheels = given ? *given : WheelDrive{};
+  sim::DriveSettings settings;
+  settings.controller.speed_mps = study.trajectory.speed_mps;
+  settings.controller.turn_rate_radps = study.trajectory.turn_rate_dps * kRadiansPerDegree;
+  settings.controller.acceleration_mps2 = wheels.acceleration_mps2;
+  settings.controller.turn_acceleration_radps2 = wheels.turn_acceleration_dps2 * kRadiansPerDegree;
+  settings.encoder_ticks_per_turn = wheels.encoder_ticks_per_turn;
+  settings.radius_error = wheels.wheel_radius_error_percent / 100.0;
+  settings.track_error = wheels.track_error_percent / 100.0;
+  settings.clearance_m = wheels.clearance_m;
+  return settings;
+}
+
+sim::LidarSettings lidar_settings(const Study& study) {
+  sim::LidarSettings settings;
+  settings.beams = study.lidar.beams;
+  settings.range_min_m = study.lidar.range_min_m;
+  settings.range_max_m = study.lidar.range_max_m;
+  return settings;
+}
+
+std::vector<OdometryPose> odometry_of(const sim::DriveLog& log, double end_s) {
+  std::vector<OdometryPose> odometry;
+  for (const sim::DriveSample& sample : log.samples) {
+    odometry.push_back({sample.stamp_s, sample.T_odom_base});
+    if (sample.stamp_s >= end_s) break;
+  }
+  return odometry;
+}
+
+std::vector<TrajectoryPose> truth_of(const sim::DriveLog& log,
+                                     const std::vector<OdometryPose>& odometry,
+                                     const std::vector<sim::StampedPose>& scans) {
+  std::map<double, Pose> poses;
+  for (const OdometryPose& pose : odometry)
+    poses.emplace(pose.stamp_s, sim::pose_at(log, pose.stamp_s));
+  for (const sim::StampedPose& pose : scans) poses.emplace(pose.stamp_s, pose.T_world_base);
+  std::vector<TrajectoryPose> truth;
+  for (const auto& [stamp_s, pose] : poses) truth.push_back({stamp_s, pose});
+  return truth;
+}
+
+ScanGeometry scan_geometry(const sim::LidarSettings& settings, const sim::Lidar& lidar) {
+  return {settings.first_angle_rad, lidar.angle_step_rad(), settings.range_min_m,
+          settings.range_max_m, lidar.T_base_lidar()};
+}
+
 StudyDrive drive_of(const Study& study, const sim::World& world,
                     const std::function<void(int, int)>& progress) {
   const sim::Drive way = way_of(study.trajectory, world.motion());
-  const auto* wheels = std::get_if<WheelDrive>(&study.trajectory.drive);
-  if (!wheels) return drive_by_poses(study, way);
+  if (!std::holds_alternative<WheelDrive>(study.trajectory.drive))
+    return drive_by_poses(study, way);
   const sim::DriveLog log =
-      sim::simulate_drive(world, robot_path(study), way, settings_of(*wheels), progress);
+      sim::simulate_drive(world, robot_path(study), way, drive_settings(study), progress);
   return drive_on_wheels(study, log, way.until_s);
 }
 
 ScanLog scans_of(const Study& study, const sim::World& world,
                  const std::vector<sim::StampedPose>& poses, int jobs) {
-  sim::LidarSettings settings;
-  settings.beams = study.lidar.beams;
-  settings.range_min_m = study.lidar.range_min_m;
-  settings.range_max_m = study.lidar.range_max_m;
+  const sim::LidarSettings settings = lidar_settings(study);
   const sim::Lidar lidar(world, settings);
-  ScanLog log{{settings.first_angle_rad, lidar.angle_step_rad(), settings.range_min_m,
-               settings.range_max_m, lidar.T_base_lidar()},
-              {}};
+  ScanLog log{scan_geometry(settings, lidar), {}};
   std::vector<sim::LidarRanges> turns = lidar.scans(poses, jobs);
   for (std::size_t i = 0; i < poses.size(); ++i)
     log.scans.push_back({poses[i].stamp_s, std::move(turns[i])});

@@ -8,6 +8,8 @@
 #include "eval/study/study.hpp"
 #include "sim/recorder/recorded_drive.hpp"
 #include "sim/recorder/recorder.hpp"
+#include "sim/robot/drive_session.hpp"
+#include "sim/sensors/lidar.hpp"
 #include "sim/world/world.hpp"
 
 #include <functional>
@@ -30,6 +32,22 @@ struct StudyDrive {
 /// sim::poses_along and sim::simulate_drive.
 [[nodiscard]] StudyDrive drive_of(const Study& study, const sim::World& world,
                                   const std::function<void(int, int)>& progress = {});
+
+/// How the wheels of a study's robot drive; those of a study that says nothing of them are as
+/// WheelDrive has them.
+[[nodiscard]] sim::DriveSettings drive_settings(const Study& study);
+[[nodiscard]] sim::LidarSettings lidar_settings(const Study& study);
+
+/// The odometry of a log up to its first line that is not before `end_s`.
+[[nodiscard]] std::vector<OdometryPose> odometry_of(const sim::DriveLog& log, double end_s);
+/// True poses at the stamps of odometry and scans.
+[[nodiscard]] std::vector<TrajectoryPose> truth_of(const sim::DriveLog& log,
+                                                   const std::vector<OdometryPose>& odometry,
+                                                   const std::vector<sim::StampedPose>& scans);
+
+/// What the turns of the study's lidar share.
+[[nodiscard]] ScanGeometry scan_geometry(const sim::LidarSettings& settings,
+                                         const sim::Lidar& lidar);
 
 /// The exact turns of the study's lidar; the same bytes for any number of jobs. Throws Error as
 /// sim::Lidar.

@@ -44,6 +44,14 @@ Recording replayed(const Study& study, const fs::path& results) {
   return recording;
 }
 
+/// A robot that explores needs maps to choose its way by, which trials have only afterwards.
+[[maybe_unused]] void refuse_exploring(const Study& study) {
+  if (explores(study))
+    throw Error(
+        "exploration.planner: only `mapscore explore` lets the robot choose its way; run that, and "
+        "name what it recorded as recording, or write planner: none");
+}
+
 /// With the label images that the study's networks give of it.
 Recording inferred(const Study& study, Recording recording, int jobs,
                    const RecordingProgress& progress) {
@@ -80,24 +88,6 @@ double rate_of(const std::vector<sim::StampedPose>& poses) {
   return seconds > 0.0 ? static_cast<double>(poses.size() - 1) / seconds : 1.0;
 }
 
-RecordingInfo info_of(const Study& study, const sim::World& world, const sim::Streams& streams) {
-  RecordingInfo info;
-  info.calibration = world.calibration();
-  info.color_rate_hz = rate_of(streams.color);
-  info.depth_rate_hz = rate_of(streams.depth);
-  info.table = world.classes();
-  info.scene = fs::path(study.scene.value()).filename().string();
-  info.scene_hash = world.hash();
-  info.mujoco_version = sim::mujoco_version();
-  if (const sim::Motion* motion = world.motion()) {
-    info.motion = motion->file;
-    info.motion_hash = motion->hash;
-  }
-  info.seed = study.seed;
-  info.frame_count = static_cast<int>(streams.color.size());
-  return info;
-}
-
 /// Where the shapes that move are at each stamp.
 ShapePoses poses_of_shapes(const sim::World& world, const std::vector<sim::StampedPose>& poses) {
   if (!world.motion()) return {};
@@ -124,7 +114,10 @@ void record_world(const Study& study, const sim::World& world, const StudyDrive&
                   const fs::path& folder, int jobs, const FrameProgress& progress,
                   const BakedFrames* baked = nullptr) {
   const sim::Streams& streams = drive.streams;
-  RecordingInfo info = info_of(study, world, streams);
+  RecordingInfo info = info_of(study, world);
+  info.color_rate_hz = rate_of(streams.color);
+  info.depth_rate_hz = rate_of(streams.depth);
+  info.frame_count = static_cast<int>(streams.color.size());
   if (baked) info.baked = baked->faults();
   RecordingWriter writer(folder, std::move(info));
   write_logs(study, world, drive, jobs, writer);
@@ -185,8 +178,24 @@ sim::World world_of(const Study& study) {
   return study.motion ? world.moving(sim::read_motion(resolve_path(study, *study.motion))) : world;
 }
 
+RecordingInfo info_of(const Study& study, const sim::World& world) {
+  RecordingInfo info;
+  info.calibration = world.calibration();
+  info.table = world.classes();
+  info.scene = fs::path(study.scene.value()).filename().string();
+  info.scene_hash = world.hash();
+  info.mujoco_version = sim::mujoco_version();
+  if (const sim::Motion* motion = world.motion()) {
+    info.motion = motion->file;
+    info.motion_hash = motion->hash;
+  }
+  info.seed = study.seed;
+  return info;
+}
+
 void record_study(const Study& study, const fs::path& folder, int jobs,
                   const RecordingProgress& progress, const fs::path& trajectory, bool bake) {
+  if (trajectory.empty()) refuse_exploring(study);
   if (!study.scene) throw Error("scene: nothing to record; name an MJCF file");
   const sim::World world = world_of(study);
   StudyDrive drive;
@@ -204,6 +213,7 @@ Recording recording_of(const Study& study, const fs::path& results, int jobs,
                        const RecordingProgress& progress) {
   check_input_files(study);
   if (study.recording) return inferred(study, replayed(study, results), jobs, progress);
+  refuse_exploring(study);
   const sim::World world = world_of(study);
   const fs::path folder = rendered_folder(study, world, results);
   const FolderLock lock(folder.parent_path());  // of several shards one records, the others wait
@@ -218,6 +228,7 @@ Recording recording_of(const Study& study, const fs::path& results, int jobs,
 std::optional<Recording> recording_there(const Study& study, const fs::path& results) {
   check_input_files(study);
   if (study.recording) return replayed(study, results);
+  refuse_exploring(study);
   const fs::path folder = rendered_folder(study, world_of(study), results);
   return fs::exists(folder) ? std::optional(opened(study, folder, results)) : std::nullopt;
 }

@@ -31,6 +31,10 @@ struct RecordingProgress {
 /// A scene by itself, with the class file beside it and without a robot. Throws Error as world_of.
 [[nodiscard]] sim::World world_of_scene(const std::filesystem::path& scene);
 
+/// What recording.yaml says of a study's drive through a world, but for the rates and the number of
+/// its frames.
+[[nodiscard]] RecordingInfo info_of(const Study& study, const sim::World& world);
+
 /// Renders the drive of a study and writes it as a recording, with odometry and scans where it
 /// drives on wheels. A `trajectory` file (TUM lines: poses of the colour camera's optical frame in
 /// the world) takes the place of the drive, without odometry and scans. `bake`: with the study's

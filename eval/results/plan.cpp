@@ -33,6 +33,7 @@ Study determining(Study config, InputFiles& files) {
   config.trajectory = none.trajectory;
   config.cameras = none.cameras;
   config.lidar = none.lidar;
+  config.exploration = none.exploration;
   config.sweep.clear();
   config.sampling = {};
   config.picture_view.reset();

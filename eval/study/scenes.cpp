@@ -58,11 +58,13 @@ void read_scenes(const YamlValue& at, Scenes& scenes) {
     }
     const auto renders = [](const auto& leaf) {
       const std::string_view key = split_path(leaf.first).first;
-      return key == "trajectory" || key == "cameras" || key == "lidar";
+      return key == "trajectory" || key == "cameras" || key == "lidar" || key == "exploration";
     };
     if (probe.recording && std::ranges::any_of(scene.leaves, renders))
       entry.at("recording")
-          .fail("is replayed as it is; leave trajectory, cameras and lidar out of this scene");
+          .fail(
+              "is replayed as it is; leave trajectory, cameras, lidar and exploration out of this "
+              "scene");
     scenes.push_back(std::move(scene));
   }
 }

@@ -79,7 +79,14 @@ Place place_of(const Study& study, const MethodSettings& method) {
 }
 
 bool on_wheels(const Study& study) {
-  return std::holds_alternative<WheelDrive>(study.trajectory.drive);
+  return std::holds_alternative<WheelDrive>(study.trajectory.drive) || explores(study);
+}
+
+bool explores(const Study& study) {
+  const bool swept = std::ranges::any_of(study.sweep, [](const SweepAxis& axis) {
+    return axis.path.starts_with("exploration.planner");
+  });
+  return swept || !std::holds_alternative<NoExploration>(study.exploration.planner);
 }
 
 double depth_rate(const Study& study) {

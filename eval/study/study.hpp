@@ -5,6 +5,7 @@
 
 #include "core/space/occupancy.hpp"
 #include "eval/study/drive_settings.hpp"
+#include "eval/study/exploration_settings.hpp"
 #include "eval/study/localization_settings.hpp"
 #include "eval/study/sampling.hpp"
 #include "eval/study/trial_settings.hpp"
@@ -106,6 +107,7 @@ struct Study {
   TrajectorySettings trajectory;
   CameraSettings cameras;
   LidarStudySettings lidar;
+  ExplorationSettings exploration;
   double voxel_m = 0.05;
   Place place = Place::points;
   std::optional<std::array<double, 3>> map_origin_m;  ///< empty: drawn by the seed, within a voxel
@@ -154,6 +156,7 @@ struct Study {
     recorded(s.cameras, "cameras", "the RGB-D camera");
     recorded(s.lidar, "lidar", "the lidar, with trajectory.drive wheels; exact ranges are recorded",
              true);
+    recorded(s.exploration, "exploration", "how the robot chooses its own way, on wheels", true);
     visit(s.voxel_m, Field{"voxel_m", "edge of a voxel of the map", above(0, 10), "voxel (mm)"});
     visit(s.place,
           Field{"place", "voxelise moved points, or move the centres of sensor-frame voxels"});
@@ -270,8 +273,11 @@ void check(const Study& study);
 /// their stamps agree, else those of the colour camera.
 [[nodiscard]] double depth_rate(const Study& study);
 
-/// True when the study's robot drives on wheels.
+/// True when the study's robot drives on wheels, as one that explores does.
 [[nodiscard]] bool on_wheels(const Study& study);
+
+/// True when the study's robot chooses its own way, in some cell of the sweep at least.
+[[nodiscard]] bool explores(const Study& study);
 
 /// The robot's MJCF: `robot`, or robot.xml beside the scene. Needs `scene` or `robot`.
 [[nodiscard]] std::filesystem::path robot_path(const Study& study);

@@ -51,7 +51,7 @@ void check_input(const Study& study, const Blame& blame) {
   if (study.recording) return;
   if (!study.scene)
     blame("scene", "is missing; write scene: PATH, or recording: PATH to replay one");
-  if (study.trajectory.waypoints_m_deg.empty())
+  if (study.trajectory.waypoints_m_deg.empty() && !explores(study))
     blame("trajectory.waypoints_m_deg",
           "the trajectory is empty; write at least one waypoint, [[x, y, yaw], ...]");
 }
@@ -105,6 +105,15 @@ void check_ascending(const std::vector<T>& list, std::string_view path, const Bl
     if (list[i] <= list[i - 1])
       blame(path, fmt::format("{} stands after {}; write them ascending, each once", list[i],
                               list[i - 1]));
+}
+
+/// Of an exploration that drives drawn waypoints.
+void check_exploration(const Study& study, const Blame& blame) {
+  if (std::holds_alternative<DrawnWaypoints>(study.exploration.planner) &&
+      study.trajectory.waypoints_m_deg.empty())
+    blame("trajectory.waypoints_m_deg",
+          "is empty, and exploration.planner drives its waypoints; write at least one, or choose "
+          "another planner");
 }
 
 /// The controller creeps no slower (sim::WaypointController).
@@ -187,6 +196,7 @@ void check_leaves(const Study& study, const Blame& blame) {
   if (study.detect) check_distinct(study.detect->classes, "detect", blame);
   check_faults(study.faults, blame);
   check_wheels(study, blame);
+  check_exploration(study, blame);
   check_localization(study, blame);
   check_perception(study, blame);
   check_time(study.score, blame);

@@ -130,7 +130,7 @@ void refuse_beside_recording(const Study& study, const YamlValue& root,
   const bool in_file = root.has("recording");
   if (!in_file && std::ranges::find(overrides, "recording", &Override::path) == overrides.end())
     return;
-  for (const std::string key : {"trajectory", "cameras", "lidar"}) {
+  for (const std::string key : {"trajectory", "cameras", "lidar", "exploration"}) {
     constexpr const char* kWhy =
         "cannot act beside recording, which is replayed as it is; remove it";
     for (const Override& change : overrides)

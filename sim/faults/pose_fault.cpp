@@ -38,20 +38,26 @@ Covariance6 reported_covariance(const PoseNoise& noise) {
   return noise.reported_scale * covariance_of(noise);
 }
 
+PoseErrors::PoseErrors(const Covariance6& covariance, PoseNoiseKind kind, std::uint64_t seed)
+    : root_(covariance_root(covariance)), kind_(kind), seed_(seed) {}
+
+Pose PoseErrors::next() {
+  if (root_.isZero(0.0)) return error_;
+  const bool constant = kind_ == PoseNoiseKind::constant;
+  const Pose drawn = draw_error(root_, seed_, constant ? 0 : frame_);
+  ++frame_;
+  error_ = kind_ == PoseNoiseKind::walk ? error_ * drawn : drawn;
+  return error_;
+}
+
 std::vector<Pose> believe_poses(const std::vector<Pose>& T_world_base,
                                 const Covariance6& covariance, PoseNoiseKind kind,
                                 std::uint64_t seed) {
-  const Covariance6 root = covariance_root(covariance);
-  if (root.isZero(0.0)) return T_world_base;
+  if (covariance_root(covariance).isZero(0.0)) return T_world_base;
+  PoseErrors errors(covariance, kind, seed);
   std::vector<Pose> believed;
   believed.reserve(T_world_base.size());
-  Pose walked = Pose::Identity();
-  for (std::size_t frame = 0; frame < T_world_base.size(); ++frame) {
-    const bool constant = kind == PoseNoiseKind::constant;
-    const Pose error = draw_error(root, seed, constant ? 0 : frame);
-    walked = kind == PoseNoiseKind::walk ? walked * error : error;
-    believed.push_back(T_world_base[frame] * walked);
-  }
+  for (const Pose& pose : T_world_base) believed.push_back(pose * errors.next());
   return believed;
 }
 

@@ -78,10 +78,27 @@ struct PoseNoise {
 /// Covariance that is reported to the mapper: reported_scale times the true one.
 [[nodiscard]] Covariance6 reported_covariance(const PoseNoise& noise);
 
-/// Believed poses T_world_base = T_true * Exp(xi) of a drive. Frame n draws from the stream (seed,
-/// "pose", n), and draws scale with the root of the covariance, so that a fault's direction does
-/// not depend on its dose. A zero covariance returns the true poses bit for bit. Throws Error when
-/// the covariance is not positive semi-definite.
+/// The error of a drive's believed poses, frame after frame: T_believed = T_true * Exp(xi). Frame n
+/// draws from the stream (seed, "pose", n), and draws scale with the root of the covariance, so
+/// that a fault's direction does not depend on its dose.
+class PoseErrors {
+ public:
+  /// Throws Error when the covariance is not positive semi-definite.
+  PoseErrors(const Covariance6& covariance, PoseNoiseKind kind, std::uint64_t seed);
+
+  /// Exp(xi) of the next frame; exactly the identity where the covariance is zero.
+  [[nodiscard]] Pose next();
+
+ private:
+  Covariance6 root_;
+  PoseNoiseKind kind_;
+  std::uint64_t seed_;
+  std::size_t frame_ = 0;
+  Pose error_ = Pose::Identity();
+};
+
+/// Believed poses T_world_base of a drive, by PoseErrors. A zero covariance returns the true poses
+/// bit for bit. Throws likewise.
 [[nodiscard]] std::vector<Pose> believe_poses(const std::vector<Pose>& T_world_base,
                                               const Covariance6& covariance, PoseNoiseKind kind,
                                               std::uint64_t seed);

@@ -137,6 +137,12 @@ void Renderer::render_color(const StampedPose& instant, Frame& frame) {
   frame.label = state_->ids(camera, T_world_color, nullptr);
 }
 
+void Renderer::render_label(const StampedPose& instant, Frame& frame) {
+  state_->move_to(instant.stamp_s);
+  frame.label = state_->ids(state_->world.calibration().color,
+                            state_->T_world_color(instant.T_world_base), nullptr);
+}
+
 void Renderer::render_depth(const StampedPose& instant, Frame& frame) {
   const Calibration& calibration = state_->world.calibration();
   state_->move_to(instant.stamp_s);

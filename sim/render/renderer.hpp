@@ -53,6 +53,8 @@ class Renderer {
   /// The colour camera's side of a frame, the robot and the scene as they stand at an instant:
   /// fills `color` and `label` (instance ids).
   void render_color(const StampedPose& instant, Frame& frame);
+  /// `label` of it alone, the same bytes.
+  void render_label(const StampedPose& instant, Frame& frame);
   /// The depth camera's side: fills `depth` (16-bit, out of range = 0) and `depth_label` (instance
   /// ids), stamp and pose.
   void render_depth(const StampedPose& instant, Frame& frame);

@@ -4,9 +4,7 @@
 #pragma once
 
 #include "sim/recorder/recorded_drive.hpp"
-#include "sim/robot/drive_physics.hpp"
-#include "sim/robot/odometry.hpp"
-#include "sim/robot/waypoint_controller.hpp"
+#include "sim/robot/drive_session.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -14,41 +12,6 @@
 #include <vector>
 
 namespace mapscore::sim {
-
-/// How a drive is simulated. Speed and turn rate of the controller are those of the Drive.
-struct DriveSettings {
-  ControllerParams controller;
-  double control_hz = 50.0;  ///< of commands; a whole share of 500, the physics' rate
-  double log_hz = 50.0;      ///< of samples and of the odometry; a whole share of control_hz
-  int encoder_ticks_per_turn = 4096;
-  /// Of the wheels that the odometry believes, as shares of the true radius and track; above -1.
-  double radius_error = 0.0, track_error = 0.0;
-  double clearance_m = 0.02;    ///< kept between bumper and furniture
-  bool check_way_first = true;  ///< look for obstacles along all legs before driving
-};
-
-/// State at one instant of a drive.
-struct DriveSample {
-  double stamp_s = 0.0;                  ///< from 0, settled on the floor
-  Pose T_world_base = Pose::Identity();  ///< base_footprint, with the tilt that physics gave it
-  WheelTicks ticks;
-  Pose T_odom_base = Pose::Identity();  ///< odom: base_footprint at stamp 0
-  VelocityCommand command;
-};
-
-/// When and how well a waypoint was reached; waypoint 0 is the start.
-struct WaypointArrival {
-  std::size_t waypoint = 0;
-  double stamp_s = 0.0, position_error_m = 0.0, yaw_error_rad = 0.0;
-};
-
-struct DriveLog {
-  std::vector<DriveSample> samples;  ///< at i / log_hz
-  std::vector<WaypointArrival> arrivals;
-  DriveHealth health;
-  double distance_m = 0.0;  ///< driven, of the true base
-  double end_s = 0.0;       ///< when the last waypoint was reached
-};
 
 /// Drives along the waypoints with wheels, motors and contacts (see DriveModel), the controller fed
 /// with the true pose, as by a perfect localisation. Ends a little after the last waypoint, at

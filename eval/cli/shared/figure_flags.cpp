@@ -21,7 +21,8 @@ void FigureFlags::add_to(CLI::App& verb) {
       verb.add_flag("--grey", style_.grey, "No colours; line styles, marks and patterns instead")};
   for (CLI::Option* flag : flags) {
     flag->group("Figures");
-    if (auto* figure = verb.get_option_no_throw("--figure")) flag->needs(figure);
+    for (const char* name : {"--figure", "--figures"})
+      if (auto* figure = verb.get_option_no_throw(name)) flag->needs(figure);
   }
   if (auto* interim = verb.get_option_no_throw("--interim"))
     verb.get_option("--no_caption")->excludes(interim);  // which the caption tells

@@ -14,7 +14,7 @@ namespace mapscore::eval {
 
 /// Flags of verbs that draw figures: how these are set.
 struct FigureFlags {
-  /// Where the verb has --figure already, they need it.
+  /// Where the verb has --figure or --figures already, they need it.
   void add_to(CLI::App& verb);
   /// Throws Error as FigureStyle::check. Says on standard error when the font is not installed.
   [[nodiscard]] FigureStyle style() const;

@@ -33,14 +33,15 @@ Progress::~Progress() {
   if (open_line_) std::fputs("\n", stderr);
 }
 
-void Progress::show(std::int64_t done, std::int64_t total) {
+void Progress::show(std::int64_t done, std::int64_t total, const std::string& note) {
   if (quiet_) return;
   const std::scoped_lock lock(mutex_);
   const Clock::time_point now = Clock::now();
   const auto pause = terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(10);
   if (done < total && now - (terminal_ ? shown_ : std::max(shown_, started_)) < pause) return;
   shown_ = now;
-  const std::string text = line(done, total, std::chrono::duration<double>(now - started_).count());
+  std::string text = line(done, total, std::chrono::duration<double>(now - started_).count());
+  if (!note.empty()) text += "; " + note;
   // Not through std::cerr, whose guard would show the codes that renew the line.
   std::fputs((terminal_ ? '\r' + text + "\x1b[K" : text + '\n').c_str(), stderr);
   open_line_ = terminal_;

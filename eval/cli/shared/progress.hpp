@@ -28,7 +28,8 @@ class Progress {
   Progress(std::string what, std::string unit, bool quiet);
   ~Progress();
 
-  void show(std::int64_t done, std::int64_t total);
+  /// `note`: what else there is to say of the moment.
+  void show(std::int64_t done, std::int64_t total, const std::string& note = "");
 
  private:
   using Clock = std::chrono::steady_clock;

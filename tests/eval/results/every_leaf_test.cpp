@@ -33,6 +33,7 @@ const std::map<std::string, std::string> kReasons{
     {"trajectory.", "the recording's hash stands for it"},
     {"cameras.", "the recording's hash stands for it"},
     {"lidar.", "the recording's hash stands for it"},
+    {"exploration.", "the recording's hash stands for it"},
     {"methods.NAME.title", "of figures and tables, which only show"},
     {"methods.NAME.timeout_s", "a trial that takes longer fails, and has no result"},
     {"methods.NAME.threads", "of the sweep's own work"},
@@ -120,11 +121,13 @@ Study study_for(const std::string& path, const std::string& base) {
   return parse_study(
       fmt::format(
           "recording: tiny\nmap_yaw_deg: 1\nmethods: {{NAME: {{segmentation: {}, fusion: {}, "
-          "refinement: {}}}}}\nfusion: {}\nperception: {}\ntrajectory: {{drive: {}}}\n{}",
+          "refinement: {}}}}}\nfusion: {}\nperception: {}\ntrajectory: {{drive: {}}}\n"
+          "exploration: {{planner: {}}}\n{}",
           kind_at(path, "methods.NAME.segmentation", "direct"),
           kind_at(path, "methods.NAME.fusion", "study"),
           kind_at(path, "methods.NAME.refinement", "none"), kind_at(path, "fusion", "blend"),
           perception_at(path), kind_at(path, "trajectory.drive", "wheels"),
+          kind_at(path, "exploration.planner", "none"),
           path.starts_with("perception.network") ? kBases[1] : base),  // it scores its detections
       "study.yaml");
 }

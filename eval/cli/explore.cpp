@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/error.hpp"
+#include "core/whole_file.hpp"
+#include "eval/cli/shared/figure_flags.hpp"
+#include "eval/cli/shared/options.hpp"
+#include "eval/cli/shared/progress.hpp"
+#include "eval/cli/verbs.hpp"
+#include "eval/explore/exploration_study.hpp"
+#include "eval/explore/exploration_summary.hpp"
+#include "eval/report/figures/exploration_figure.hpp"
+#include "eval/report/pictures/caption.hpp"
+#include "eval/report/pictures/exploration_strip.hpp"
+#include "eval/report/table_formats.hpp"
+#include "files/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mapscore::eval {
+namespace {
+
+struct ExploreFlags {
+  StudyFlags study;
+  WorkFlags work;
+  std::optional<int> seed;
+  bool scores_only = false, figures = false;
+  FigureFlags style;
+  std::string format = "text";
+};
+
+/// Metres driven of all explorations; one that has ended counts as its budget.
+class ExploreDisplay {
+ public:
+  ExploreDisplay(const std::vector<PlannedExploration>& planned, bool quiet)
+      : planned_(planned), driven_m_(planned.size()), progress_("explore", "m", quiet) {
+    for (const PlannedExploration& exploration : planned)
+      budget_m_ += exploration.config.exploration.budget_m;
+  }
+
+  /// All have ended.
+  void finish() {
+    const auto budget = static_cast<std::int64_t>(budget_m_);
+    progress_.show(budget, budget, "all of them ended");
+  }
+
+  void show(std::size_t position, double driven_m, double coverage) {
+    if (const int signal = stop_.taken())
+      throw StoppedRecording(signal, "an exploration ran", "it");
+    const std::scoped_lock lock(mutex_);
+    driven_m_[position] = driven_m;
+    double all_m = 0.0;
+    for (const double one_m : driven_m_) all_m += one_m;
+    progress_.show(static_cast<std::int64_t>(all_m), static_cast<std::int64_t>(budget_m_),
+                   fmt::format("{}: {:.1f} m, {:.0f} % of the surface seen",
+                               planned_[position].name, driven_m, 100.0 * coverage));
+  }
+
+ private:
+  const std::vector<PlannedExploration>& planned_;
+  StopSignal stop_;
+  std::mutex mutex_;
+  std::vector<double> driven_m_;
+  double budget_m_ = 0.0;
+  Progress progress_;
+};
+
+std::vector<PlannedExploration> chosen(const Study& study, const ExploreFlags& flags) {
+  std::vector<PlannedExploration> planned = explorations(study);
+  if (!flags.seed) return planned;
+  if (*flags.seed < 0 || *flags.seed >= study.seeds)
+    throw Error(fmt::format("--seed: {} is none of the study; seeds: 0 to {}", *flags.seed,
+                            study.seeds - 1));
+  std::erase_if(planned,
+                [&](const PlannedExploration& one) { return one.spec.seed_index != *flags.seed; });
+  return planned;
+}
+
+std::string spread_text(const SeedSummary& summary, const char* format) {
+  if (!summary.mean) return "-";
+  std::string text = fmt::format(fmt::runtime(format), *summary.mean);
+  if (summary.low && summary.high)
+    text += fmt::format(" [{}, {}]", fmt::format(fmt::runtime(format), *summary.low),
+                        fmt::format(fmt::runtime(format), *summary.high));
+  return text;
+}
+
+std::string ends_text(const ExplorationGroup& group) {
+  std::string text;
+  for (const auto& [end, count] : group.ends)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, end);
+  return text;
+}
+
+/// A group of the same scene and other doses, for which the first planner is the measure.
+std::string ratio_text(const ExplorationGroup& first, const ExplorationGroup& group) {
+  const auto &a = first.metres_at_most.mean, &b = group.metres_at_most.mean;
+  return a && b && *b > 0.0 ? fmt::format("{:.2f}", *a / *b) : "-";
+}
+
+std::string scene_name(const ExplorationGroup& group) {
+  for (const auto& [path, value] : group.doses)
+    if (path == kSceneAxis) return value;
+  return "";
+}
+
+Table table_of(const Study& study, const std::vector<ExplorationGroup>& groups) {
+  Table table;
+  table.caption = {fmt::format(
+      "{}: metres to {:.0f} % of the visible surface, budget where it is not reached; area under "
+      "the coverage up to the budget; mean [{}]",
+      study.name, 100.0 * kCoveredShare,
+      groups.empty() ? "" : name_of(groups.front().metres_at_most.kind))};
+  if (!groups.empty())
+    for (const auto& [path, value] : groups.front().doses)
+      table.columns.push_back(path.substr(path.find_last_of('.') + 1));
+  if (study.methods.size() > 1) table.columns.emplace_back("method");
+  table.keys = table.columns.size();
+  for (const char* column :
+       {"metres to 90 %", "reached", "first / this", "area (metres)", "area (seconds)", "coverage",
+        "F1", "driven (m)", "views", "bumps", "ends"})
+    table.columns.emplace_back(column);
+  for (const ExplorationGroup& group : groups) {
+    const auto first = std::ranges::find_if(groups, [&](const ExplorationGroup& other) {
+      return scene_name(other) == scene_name(group) && other.method == group.method;
+    });
+    std::vector<std::string> row;
+    for (const auto& [path, value] : group.doses) row.push_back(value);
+    if (study.methods.size() > 1) row.push_back(group.method);
+    row.insert(row.end(),
+               {spread_text(group.metres_at_most, "{:.1f}"),
+                fmt::format("{}/{}", group.reached, group.runs.size()), ratio_text(*first, group),
+                spread_text(group.area_metres, "{:.3f}"), spread_text(group.area_seconds, "{:.3f}"),
+                spread_text(group.coverage, "{:.3f}"), spread_text(group.f1, "{:.3f}"),
+                spread_text(group.driven_m, "{:.1f}"), spread_text(group.views, "{:.0f}"),
+                fmt::format("{}", group.bump_contacts), ends_text(group)});
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+void print_single(const FinishedExploration& run) {
+  const KeptExploration& kept = run.kept;
+  std::cout << fmt::format(
+      "# {}: ended: {} ({}); {:.1f} m, {:.0f} s, {} views, {} frames, {} bumps\n", run.planned.name,
+      kept.end, kept.reason, kept.driven_m, kept.duration_s, kept.views, kept.frames,
+      kept.bump_contacts);
+}
+
+/// Curves of all, and for the first start of each group its moments and its film strip.
+void draw_figures(const Study& study, const std::vector<ExplorationGroup>& groups,
+                  const FigureStyle& style, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files = draw(exploration_curves(study, groups, style), folder);
+  for (const ExplorationGroup& group : groups) {
+    const FinishedExploration& run = *group.runs.front();
+    const auto moments = draw(exploration_moments(run, style), folder);
+    files.insert(files.end(), moments.begin(), moments.end());
+    if (const auto strip = exploration_strip(run))
+      files.push_back(write_picture(folder / ("strip_" + run.planned.name + ".png"), *strip));
+  }
+  for (const std::filesystem::path& file : files)
+    if (file.extension() == ".png") std::cout << shown(file) << '\n';
+}
+
+void explore_study(const ExploreFlags& flags) {
+  const FigureStyle style = flags.style.style();  // refused before the work
+  const Study study = flags.study.load();
+  const std::filesystem::path folder = flags.study.results_folder(study);
+  const std::vector<PlannedExploration> planned = chosen(study, flags);
+  std::vector<FinishedExploration> finished;
+  {
+    ExploreDisplay display(planned, flags.work.quiet);
+    finished = explore_all(planned, {folder, flags.work.jobs, !flags.scores_only},
+                           [&](std::size_t position, double driven_m, double coverage) {
+                             display.show(position, driven_m, coverage);
+                           });
+    display.finish();
+  }
+  const FolderLock lock(folder);
+  write_whole_file(folder / "study.yaml", to_yaml(study));
+  write_whole_file(folder / "exploration.csv", exploration_csv(finished));
+  write_whole_file(folder / "runs.csv", runs_csv(finished));
+  if (flags.format == "text")
+    for (const FinishedExploration& run : finished) print_single(run);
+  const std::vector<ExplorationGroup> groups = groups_of(finished);
+  std::cout << formatted(table_of(study, groups), flags.format);
+  if (flags.figures) draw_figures(study, groups, style, folder / "figures");
+  if (flags.format != "text") return;
+  for (const char* file : {"exploration.csv", "runs.csv"})
+    std::cout << shown(folder / file) << '\n';
+}
+
+}  // namespace
+
+void add_explore(CLI::App& program) {
+  const auto [verb, flags] = add_verb<ExploreFlags>(
+      program, "explore", "The robot chooses its own way: drive, map, plan, record, score",
+      explore_study);
+  flags->study.add_to(*verb);
+  verb->add_option("--seed", flags->seed, "Only the exploration of this seed's index [all]");
+  verb->add_flag("--scores_only", flags->scores_only,
+                 "Keep no recordings, which take a megabyte for ten frames and more");
+  verb->add_flag("--figures", flags->figures,
+                 "Draw curves, floors at four moments, and film strips where recordings are kept, "
+                 "below figures of the output folder");
+  flags->style.add_to(*verb);
+  flags->work.add_without_memory_to(*verb);
+  add_format_flag(*verb, flags->format, {"text", "csv", "json", "markdown", "tex"});
+  verb->footer(
+      "Each exploration ends for a reason: explored, nothing_reachable or budget. Below the "
+      "output\n"
+      "folder runs/NAME holds its files, among them `recording`, which every verb takes, and\n"
+      "map.ot. What is there already is not run again.\n"
+      "Examples:\n"
+      "  mapscore explore configs/explore.yaml --seed 0\n"
+      "  mapscore explore configs/explore.yaml --set exploration.budget_m=20 -o results/short\n"
+      "  mapscore explore configs/explore.yaml --scores_only --jobs 2\n"
+      "  mapscore info results/explore/runs/home-next_best_view-seed0/recording");
+}
+
+}  // namespace mapscore::eval

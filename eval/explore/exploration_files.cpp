@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/explore/exploration_files.hpp"
+
+#include "core/error.hpp"
+#include "eval/recording/grid_file.hpp"
+#include "files/csv.hpp"
+#include "files/file_bytes.hpp"
+#include "files/text_rows.hpp"
+#include "files/yaml_value.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace mapscore::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+constexpr const char* kCurveHead =
+    "stamp_s,driven_m,views,coverage,coverage_detected,precision,recall,f1,known_m3\n";
+constexpr std::size_t kCurveColumns = 9, kMapColumns = 4;
+
+std::string word_of(auto value) {
+  return std::string(names_of(value)[static_cast<std::size_t>(value)]);
+}
+
+std::string run_text(const ExplorationResult& result, const std::string& key) {
+  std::string text = fmt::format(
+      "key: {}\nend: {}\nreason: {}\ndriven_m: {}\nduration_s: {}\nviews: {}\nframes: {}\n"
+      "bump_contacts: {}\n",
+      key, word_of(result.end), yaml_text(result.reason), result.driven_m, result.duration_s,
+      result.views.size(), result.frames.size(), result.bump_contacts);
+  if (result.objects)
+    text += fmt::format("objects: {}\nobjects_missed: {}\nobjects_found_again: {}\n",
+                        result.objects->kept, result.objects->missed, result.objects->found_again);
+  return text;
+}
+
+std::string views_text(const std::vector<ChosenView>& views) {
+  std::string text =
+      "stamp_s,driven_m,x_m,y_m,yaw_deg,way_m,unknown_voxels,unsure_voxels,end,obstacle\n";
+  for (const ChosenView& view : views) {
+    const PlanarPose& T = view.T_world_base;
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", view.stamp_s, view.driven_m, T.x_m,
+                        T.y_m, T.yaw_rad * kDegreesPerRadian, view.way_m, view.unknown_voxels,
+                        view.unsure_voxels, word_of(view.end), csv_cell(view.obstacle));
+  }
+  return text;
+}
+
+std::string way_text(const std::vector<TrajectoryPose>& frames) {
+  std::string text = "stamp_s,x_m,y_m,yaw_deg\n";
+  for (const TrajectoryPose& frame : frames) {
+    const PlanarPose T = planar(frame.T_world_base);
+    text +=
+        fmt::format("{},{},{},{}\n", frame.stamp_s, T.x_m, T.y_m, T.yaw_rad * kDegreesPerRadian);
+  }
+  return text;
+}
+
+/// The last moment not beyond each share of the way.
+std::vector<const FloorMoment*> kept_moments(const ExplorationResult& result) {
+  std::vector<const FloorMoment*> kept;
+  for (std::size_t n = 1; n <= kKeptMoments && !result.moments.empty(); ++n) {
+    const double until_m =
+        result.driven_m * static_cast<double>(n) / static_cast<double>(kKeptMoments);
+    const FloorMoment* last = &result.moments.front();
+    for (const FloorMoment& moment : result.moments)
+      if (moment.driven_m <= until_m) last = &moment;
+    kept.push_back(last);
+  }
+  return kept;
+}
+
+void write_moments(const ExplorationResult& result, const fs::path& folder) {
+  std::string moments = "moment,stamp_s,driven_m\n", frontiers = "moment,x_map_m,y_map_m\n";
+  const std::vector<const FloorMoment*> kept = kept_moments(result);
+  for (std::size_t n = 0; n < kept.size(); ++n) {
+    save_grid(kept[n]->floor, folder / fmt::format("floor_{}.yaml", n + 1));
+    moments += fmt::format("{},{},{}\n", n + 1, kept[n]->stamp_s, kept[n]->driven_m);
+    for (const Eigen::Vector2d& p : kept[n]->frontier)
+      frontiers += fmt::format("{},{},{}\n", n + 1, p.x(), p.y());
+  }
+  write_file(folder / kMomentsFile, moments);
+  write_file(folder / kFrontiersFile, frontiers);
+}
+
+CoveragePoint point_of(const std::vector<std::string>& cells, const std::string& file,
+                       std::size_t line) {
+  std::vector<double> numbers;
+  for (const std::string& cell : cells)
+    if (const auto number = parse_number(cell)) numbers.push_back(*number);
+  const bool scored = numbers.size() == kCurveColumns;
+  if (!scored && numbers.size() != kCurveColumns - kMapColumns)
+    throw Error(fmt::format("{}:{}: is no line of a curve; explore again", file, line));
+  CoveragePoint point{numbers[0], numbers[1], static_cast<int>(numbers[2]),
+                      numbers[3], numbers[4], std::nullopt};
+  if (scored) point.map = MapState{numbers[5], numbers[6], numbers[7], numbers[8]};
+  return point;
+}
+
+}  // namespace
+
+std::string curve_text(const ExplorationCurve& curve) {
+  std::string text = kCurveHead;
+  for (const CoveragePoint& point : curve) {
+    text += fmt::format("{},{},{},{},{}", point.stamp_s, point.driven_m, point.views,
+                        point.coverage, point.coverage_detected);
+    text += point.map ? fmt::format(",{},{},{},{}\n", point.map->precision, point.map->recall,
+                                    point.map->f1, point.map->known_m3)
+                      : ",-,-,-,-\n";
+  }
+  return text;
+}
+
+ExplorationCurve curve_of_text(const std::string& text, const std::string& file) {
+  if (!text.starts_with(kCurveHead))
+    throw Error(fmt::format("{}: is no curve of an exploration; explore again", file));
+  ExplorationCurve curve;
+  TextLines lines(text);
+  static_cast<void>(lines.next());
+  while (const auto line = lines.next()) {
+    const auto cells = csv_cells(*line, kCurveColumns);
+    curve.push_back(point_of(cells.value_or(std::vector<std::string>{}), file, lines.number()));
+  }
+  if (curve.empty()) throw Error(fmt::format("{}: holds no point; explore again", file));
+  return curve;
+}
+
+void write_exploration(const ExplorationResult& result, const std::string& key,
+                       const fs::path& folder) {
+  write_file(folder / kCurveFile, curve_text(result.curve));
+  write_file(folder / kViewsFile, views_text(result.views));
+  write_file(folder / kWayFile, way_text(result.frames));
+  write_moments(result, folder);
+  write_file(folder / kTimesFile,
+             fmt::format("plans,plans_s,slowest_plan_s\n{},{},{}\n", result.moments.size(),
+                         result.plans_s, result.slowest_plan_s));
+  write_file(folder / kRunFile, run_text(result, key));
+}
+
+std::optional<KeptExploration> read_exploration(const fs::path& folder) {
+  if (!fs::exists(folder / kRunFile)) return std::nullopt;
+  const YamlValue run = load_yaml(folder / kRunFile);
+  constexpr std::uint64_t kMost = 1ULL << 40;
+  const auto count = [&](const char* key) {
+    return static_cast<std::size_t>(run.at(key).whole(0, kMost));
+  };
+  return KeptExploration{
+      run.at("key").text(),
+      run.at("end").text(),
+      run.at("reason").text(),
+      run.at("driven_m").number(),
+      run.at("duration_s").number(),
+      count("views"),
+      count("frames"),
+      count("bump_contacts"),
+      curve_of_text(read_file(folder / kCurveFile), (folder / kCurveFile).string())};
+}
+
+}  // namespace mapscore::eval
