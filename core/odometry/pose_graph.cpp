@@ -8,6 +8,7 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -54,10 +55,26 @@ struct EdgeError {
   }
 };
 
+/// Throws Error where the search would fail.
+void check(std::size_t nodes, const std::vector<PoseEdge>& edges) {
+  std::vector<char> hangs(nodes, 0);
+  if (nodes > 0) hangs.front() = 1;
+  for (bool more = true; std::exchange(more, false);)
+    for (const PoseEdge& edge : edges) {
+      if (edge.from >= nodes || edge.to >= nodes)
+        throw Error("pose graph: an edge names a node that is not there; add the node first");
+      if (Eigen::LLT<Covariance6>(edge.covariance).info() != Eigen::Success)
+        throw Error("pose graph: the covariance of an edge is singular; give each axis a variance");
+      if (hangs[edge.from] == hangs[edge.to]) continue;
+      hangs[edge.from] = hangs[edge.to] = 1;
+      more = true;
+    }
+  if (std::ranges::find(hangs, 0) != hangs.end())
+    throw Error("pose graph: a node hangs on no edge; connect each node with the first");
+}
+
 ceres::CostFunction* cost_of(const PoseEdge& edge) {
   const Eigen::LLT<Covariance6> llt(Covariance6(edge.covariance.inverse()));
-  if (llt.info() != Eigen::Success)
-    throw Error("pose graph: the covariance of an edge is singular; give each axis a variance");
   return new ceres::AutoDiffCostFunction<EdgeError, 6, 7, 7>(
       new EdgeError{edge.T_from_to.translation(), Eigen::Quaterniond(edge.T_from_to.linear()),
                     Covariance6(llt.matrixU())});
@@ -70,7 +87,7 @@ Covariance6 covariance_of(ceres::Problem& problem, const Node& node) {
   ceres::Covariance covariance(options);
   const double* block = node.data();
   if (!covariance.Compute({std::pair(block, block)}, &problem))
-    throw Error("pose graph: a node hangs on no edge; connect each node with the first");
+    throw Error("pose graph: its poses are not determined; give edges that are");
   Eigen::Matrix<double, 6, 6, Eigen::RowMajor> tangent;
   covariance.GetCovarianceBlockInTangentSpace(block, block, tangent.data());
   // Translation is in the map's axes; the quaternion's tangent is half a rotation vector there.
@@ -84,6 +101,7 @@ Covariance6 covariance_of(ceres::Problem& problem, const Node& node) {
 }  // namespace
 
 OptimisedPoses optimised(std::vector<Pose> nodes, const std::vector<PoseEdge>& edges) {
+  check(nodes.size(), edges);
   std::vector<Node> blocks(nodes.size());
   ceres::Problem problem;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -94,8 +112,6 @@ OptimisedPoses optimised(std::vector<Pose> nodes, const std::vector<PoseEdge>& e
         new ceres::ProductManifold<ceres::EuclideanManifold<3>, ceres::EigenQuaternionManifold>{});
   }
   for (const PoseEdge& edge : edges) {
-    if (edge.from >= nodes.size() || edge.to >= nodes.size())
-      throw Error("pose graph: an edge names a node that is not there; add the node first");
     problem.AddResidualBlock(cost_of(edge), edge.loop ? new ceres::CauchyLoss(3.0) : nullptr,
                              blocks[edge.from].data(), blocks[edge.to].data());
   }
@@ -105,6 +121,7 @@ OptimisedPoses optimised(std::vector<Pose> nodes, const std::vector<PoseEdge>& e
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
+  options.function_tolerance = 1e-10;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   for (std::size_t n = 1; n < nodes.size(); ++n) nodes[n] = pose_of(blocks[n]);

@@ -32,9 +32,13 @@ constexpr double kContradiction = 50.0, kDistrust = 100.0;
 constexpr double kSurelySeen = 0.8, kSlipGain = 0.15;
 /// Frames lost in a row after which a new map begins.
 constexpr int kMostLost = 5;
-/// The map's drift grows with a key frame by its covariance, times the share of it that is new
-/// (this at least), times a factor that was chosen so that the errors of a drive in `home` fit.
-constexpr double kLeastNew = 0.05, kDriftOfNew = 0.05;
+/// Share of a pose's uncertainty that the part of the map takes over which a key frame adds: all of
+/// it where everything is new, little where most is known. The power was chosen so that the errors
+/// of a drive in `home` fit.
+double taken_over(double new_share) {
+  constexpr double kLeast = 0.0025;
+  return std::max(kLeast, std::pow(new_share, 3));
+}
 
 Covariance6 diagonal(double xy_m, double z_m, double tilt_rad, double yaw_rad) {
   Vector6 sigmas;
@@ -147,7 +151,7 @@ Tracking VisualOdometry::track(const DepthScan& scan, const OdometryFrame& frame
   step.known_share = match.known_share;
   step.inlier_share = match.inlier_share;
   const double support = match.known_share * match.inlier_share;
-  if (support < kLeastSupport * seen_before) {
+  if (support < kLeastSupport * std::max(seen_before, kLittle)) {
     if (seen_before >= kLittle) return Tracking::lost;
     tracking = Tracking::beside;
   }
@@ -225,11 +229,11 @@ void VisualOdometry::keep(DepthScan scan, const OdometryFrame& frame, OdometrySt
   KeyFrame key{frame.stamp_s, state_.T_map_base, way_m_, std::move(scan),
                params_.loops ? small_depth_of(frame.depth, believed_.range_max_m) : cv::Mat1f()};
   if (!keys_.empty()) {
-    const bool fresh = step.tracking == Tracking::restarted;
-    const double share = fresh ? 1.0 : kDriftOfNew * std::max(kLeastNew, 1.0 - step.known_share);
+    const double share =
+        step.tracking == Tracking::restarted ? 1.0 : taken_over(1.0 - step.known_share);
     const Covariance6 growth = share * state_.relative + key_frame_floor();
     state_.drift += growth;
-    if (fresh) state_.relative = Covariance6::Zero();
+    state_.relative *= 1.0 - share;
     edges_.push_back({keys_.size() - 1, keys_.size(),
                       keys_.back().T_map_base.inverse() * key.T_map_base, growth, false});
   }

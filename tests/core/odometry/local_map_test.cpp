@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/odometry/local_map.hpp"
+
+#include "core/error.hpp"
+#include "core/odometry/depth_scan.hpp"
+#include "tests/core/odometry/flat_depth.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mapscore {
+namespace {
+
+using testing::BoxFlat;
+using testing::furnished_room;
+
+DepthScan scan_at(const BoxFlat& flat, const Pose& T_map_base, double noise = 0.0,
+                  std::uint64_t seed = 1) {
+  const Calibration camera = testing::odometry_camera();
+  return scan_of(testing::flat_depth(flat, T_map_base, camera, noise, seed), camera, {});
+}
+
+PosePrior prior_at(const Pose& mean, double sigma_m, double sigma_rad) {
+  Vector6 sigmas;
+  sigmas << sigma_m, sigma_m, sigma_m, sigma_rad, sigma_rad, sigma_rad;
+  return {mean, sigmas.cwiseAbs2().asDiagonal()};
+}
+
+Pose off_by(const Pose& pose, double forward_m, double left_m, double yaw_rad) {
+  return pose * planar_pose(forward_m, left_m, yaw_rad);
+}
+
+TEST(DepthScan, PointsLieOnTheirSurfacesAndNormalsLookBack) {
+  const BoxFlat room(6.0, 5.0);
+  const Pose T_map_base = planar_pose(2.0, 2.5, 0.0);
+  const DepthScan scan = scan_at(room, T_map_base);
+  ASSERT_GT(scan.size(), 1000U);
+  const double wall_x = testing::kFlatOrigin.x() + 5.9;
+  for (std::size_t n = 0; n < scan.size(); ++n) {
+    const Eigen::Vector3d p = T_map_base * scan.points[n];
+    const Eigen::Vector3d& normal = scan.normals[n];
+    if (normal.z() > 0.99) {
+      EXPECT_NEAR(p.z(), 0.0, 2e-3);
+    } else if (normal.x() < -0.99) {
+      EXPECT_NEAR(p.x(), wall_x, 2e-3);
+    }
+    EXPECT_LT(normal.dot(scan.points[n] - Eigen::Vector3d(0.05, 0.025, 1.15)), 0.0);
+  }
+}
+
+TEST(DepthScan, BlocksAcrossAnEdgeOfDepthGiveNone) {
+  const Calibration camera = testing::odometry_camera();
+  cv::Mat1w depth(camera.depth.height_px, camera.depth.width_px, std::uint16_t{10000});
+  depth.colRange(80, 160) = 20000;
+  const DepthScan scan = scan_of(depth, camera, {});
+  ASSERT_GT(scan.size(), 0U);
+  const Pose T_depth_base = camera.T_base_depth.inverse();
+  for (const Eigen::Vector3d& p : scan.points) {
+    const double z = (T_depth_base * p).z();
+    EXPECT_TRUE(std::abs(z - 2.0) < 1e-9 || std::abs(z - 4.0) < 1e-9) << z;
+  }
+}
+
+TEST(DepthScan, RefusesAnImageOfAnotherSize) {
+  EXPECT_THROW(static_cast<void>(scan_of(cv::Mat1w(10, 10), testing::odometry_camera(), {})),
+               Error);
+}
+
+TEST(LocalMap, FindsAPoseAgainFromCentimetresOff) {
+  const BoxFlat flat = furnished_room();
+  LocalMap map({}, 60);
+  for (const double y : {2.2, 2.5, 2.8})
+    map.insert(scan_at(flat, planar_pose(1.5, y, 0.0)), planar_pose(1.5, y, 0.0));
+  const Pose truth = planar_pose(1.7, 2.6, 0.1);
+  const ScanMatch match =
+      map.match(scan_at(flat, truth), prior_at(off_by(truth, 0.06, -0.05, 0.03), 0.1, 0.1));
+  const Vector6 error = log_pose(truth.inverse() * match.T_map_base);
+  EXPECT_LT(error.head<3>().norm(), 0.004);
+  EXPECT_LT(error.tail<3>().norm(), 0.003);
+  EXPECT_GT(match.known_share, 0.6);
+  EXPECT_GT(match.inlier_share, 0.9);
+}
+
+TEST(LocalMap, AlongABareWallThePriorStaysAsItIs) {
+  const BoxFlat hall(3.0, 200.0);
+  const Pose before = planar_pose(1.5, 100.0, 0.0), after = planar_pose(1.5, 100.3, 0.0);
+  LocalMap map({}, 60);
+  map.insert(scan_at(hall, before), before);
+  const PosePrior prior = prior_at(after, 0.1, 0.02);
+  const ScanMatch match = map.match(scan_at(hall, after), prior);
+  // y is along the wall; the wall before the robot and the floor fix all else.
+  EXPECT_NEAR(std::sqrt(match.covariance(1, 1)), 0.1, 0.005);
+  EXPECT_LT(std::sqrt(match.covariance(0, 0)), 0.01);
+  EXPECT_LT(std::sqrt(match.covariance(5, 5)), 0.01);
+  EXPECT_NEAR((after.inverse() * match.T_map_base).translation().y(), 0.0, 0.01);
+}
+
+TEST(LocalMap, OfAScanBesideItThePriorIsGiven) {
+  const BoxFlat flat = furnished_room();
+  LocalMap map({}, 60);
+  EXPECT_TRUE(map.empty());
+  const PosePrior prior = prior_at(planar_pose(1.5, 2.5, 0.0), 0.1, 0.1);
+  const DepthScan scan = scan_at(flat, prior.mean);
+  EXPECT_EQ(map.match(scan, prior).T_map_base.matrix(), prior.mean.matrix());
+  map.insert(scan, planar_pose(100.0, 100.0, 0.0));
+  const ScanMatch match = map.match(scan, prior);
+  EXPECT_EQ(match.known_share, 0.0);
+  EXPECT_EQ(match.covariance, prior.covariance);
+}
+
+TEST(LocalMap, RefusesParametersOutOfRange) {
+  EXPECT_THROW(LocalMap({.plane_voxel_m = 0.0}, 60), Error);
+  EXPECT_THROW(LocalMap({.correlation = -1.0}, 60), Error);
+}
+
+}  // namespace
+}  // namespace mapscore
