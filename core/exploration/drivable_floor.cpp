@@ -17,7 +17,6 @@ constexpr double kLeastObstacle_m = 0.05, kLowSpace_m = 0.2;
 constexpr double kSeenShare = 0.15;
 
 constexpr int kLeastCubes = 5;
-constexpr double kWithinCell = 0.5;  ///< cells that a surface may lie before the centre of its own
 constexpr double kSameSurface_m = 0.125;
 
 /// What the map says of the space above a place.
@@ -156,16 +155,20 @@ void DrivableFloor::find_clear(double radius_m) {
     for (cell.column = 0; cell.column < grid_.frame().width; ++cell.column)
       if (grid_.at(cell) != kFreeCell) blocked.set(cell, kOccupiedCell);
   clearance_ = squared_distances(blocked);
-  const double cells =
-      radius_m / grid_.frame().resolution_m + 0.5 * std::numbers::sqrt2 + kWithinCell;
-  const auto wanted = static_cast<std::int64_t>(std::ceil(cells * cells - 1e-9));
+  const auto squared_cells = [&](double more) {
+    const double cells = radius_m / grid_.frame().resolution_m + 0.5 * std::numbers::sqrt2 + more;
+    return static_cast<std::int64_t>(std::ceil(cells * cells - 1e-9));
+  };
+  const std::int64_t narrow = squared_cells(0.0), roomy = squared_cells(0.5);
   clear_.assign(clearance_.size(), 0);
-  for (std::size_t n = 0; n < clear_.size(); ++n) clear_[n] = clearance_[n] >= wanted ? 1 : 0;
+  for (std::size_t n = 0; n < clear_.size(); ++n)
+    clear_[n] = clearance_[n] >= roomy ? kRoomy : clearance_[n] >= narrow ? kNarrow : 0;
   if (!grid_.contains(robot_cell_) || clear(robot_cell_)) return;
   const std::int64_t here = squared_clearance(robot_cell_);
   for_each_cell_near(grid_, {T_map_base_.x_m, T_map_base_.y_m}, radius_m,
                      [&](const GridCell& cell) {
-                       if (squared_clearance(cell) >= here) clear_[grid_.index(cell)] = 1;
+                       std::uint8_t& clear = clear_[grid_.index(cell)];
+                       if (clear == 0 && squared_clearance(cell) >= here) clear = kNarrow;
                      });
 }
 

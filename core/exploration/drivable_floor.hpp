@@ -21,8 +21,9 @@ namespace mapscore {
 /// when it is not occupied, the lidar saw it free (gaps between beams count as free), and the map
 /// knows at least 15 % of the space above it from 0.2 m up to the robot's height; and where the
 /// robot stands. All else is *unknown*. A cell is *clear* when the centres of all cells that are
-/// not free lie at least the robot's radius and half the diagonal of a cell away. Immutable, safe
-/// to share between threads.
+/// not free lie at least the robot's radius and half the diagonal of a cell away, and *narrow* if
+/// that leaves less than half a cell more, by which a surface may lie before the centre of its
+/// cell. Immutable, safe to share between threads.
 class DrivableFloor {
  public:
   /// Throws Error when pose or floor height are not finite.
@@ -38,6 +39,10 @@ class DrivableFloor {
   [[nodiscard]] bool clear(const GridCell& cell) const {
     return grid_.contains(cell) && clear_[grid_.index(cell)] != 0;
   }
+  /// Of a clear cell.
+  [[nodiscard]] bool narrow(const GridCell& cell) const {
+    return clear_[grid_.index(cell)] == kNarrow;
+  }
   /// Distance between the centres of a cell of the grid and the nearest that is not free, in cells,
   /// squared.
   [[nodiscard]] std::int64_t squared_clearance(const GridCell& cell) const {
@@ -48,6 +53,7 @@ class DrivableFloor {
   [[nodiscard]] const PlanarPose& T_map_base() const { return T_map_base_; }
 
  private:
+  static constexpr std::uint8_t kNarrow = 1, kRoomy = 2;
   void find_clear(double radius_m);
 
   OccupancyGrid grid_;

@@ -21,13 +21,13 @@ namespace mapscore {
 struct NextBestView {
   static constexpr std::string_view kKind = "next_best_view";
   static constexpr std::string_view kMeaning = "the view that shows most for its way";
-  double place_step_m = 0.4;  ///< between places that are tried
+  double place_step_m = 0.5;  ///< between places that are tried
   Degrees heading_step{15}, ray_step{3};
-  double surface_per_m = 0.7;  ///< chance per metre that a ray in unknown space meets surface
-  double view_cost_m = 1.0;    ///< what a view costs besides its way
+  double surface_per_m = 1.5;  ///< chance per metre that a ray in unknown space meets surface
+  double view_cost_m = 0.5;    ///< what a view costs besides its way
   double turn_cost_m_per_rad = 0.05;
   double least_voxels = 40;  ///< views that show less are not worth it
-  double unsure_below = 0.6, unsure_weight = 0.02;
+  double unsure_below = 0.6, unsure_weight = 0.01;
 
   static void fields(auto& s, auto&& visit) {
     visit(s.place_step_m, Field{"place_step_m", "between places that are tried", {0.1, 2}});

@@ -69,7 +69,7 @@ std::optional<Approach> approach(const Frontier& frontier, const OccupancyGrid& 
       for (std::int32_t column = -reach; column <= reach; ++column) {
         const GridCell place{cell.column + column, cell.row + row};
         if (std::hypot(column, row) > near || !paths.reaches(place)) continue;
-        const double way_m = paths.length_m(place);
+        const double way_m = paths.cost_m(place);
         if (!best || way_m < best->way_m) best = Approach{place, cell, way_m};
       }
   return best;

@@ -41,8 +41,8 @@ class LawnMowerExplorer : public Explorer {
     double least_m = FloorPaths::kNoWay;
     for (const Run& run : runs(now))
       for (const Run& way : {run, Run{run.last, run.first}})
-        if (now.paths.length_m(way.first) < least_m)
-          least_m = now.paths.length_m(way.first), nearest = way;
+        if (now.paths.cost_m(way.first) < least_m)
+          least_m = now.paths.cost_m(way.first), nearest = way;
     if (nearest)
       step.view = drive(*nearest, now);
     else if (now.stuck())

@@ -73,7 +73,7 @@ class NextBestViewExplorer : public Explorer {
       const FloorPaths paths(now.floor, prospects[from].place.cell);
       std::vector<double>& between_m = stops.between_m.emplace_back();
       for (const std::size_t to : chosen)
-        between_m.push_back(paths.length_m(prospects[to].place.cell) + params_.view_cost_m);
+        between_m.push_back(paths.cost_m(prospects[to].place.cell) + params_.view_cost_m);
     }
     return {chosen, stops};
   }

@@ -90,9 +90,9 @@ std::vector<Lookout> Surroundings::places(double step_m) const {
   const PlanarPose& T = floor.T_map_base();
   std::vector<Lookout> places{{floor.robot_cell(), {T.x_m, T.y_m}, 0.0}};
   for (Lookout& place : one_a_square(floor, step_m, [&](const GridCell& cell) {
-         return paths.reaches(cell) && !(cell == floor.robot_cell());
+         return paths.reaches(cell) && !floor.narrow(cell) && !(cell == floor.robot_cell());
        })) {
-    place.way_m = paths.length_m(place.cell);
+    place.way_m = paths.cost_m(place.cell);
     places.push_back(place);
   }
   return places;

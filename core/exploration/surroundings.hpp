@@ -32,8 +32,8 @@ struct Surroundings {
   DrivableFloor floor;
   FloorPaths paths;
 
-  /// The robot's place, and of the cells that it reaches one in each square of edge `step_m`: the
-  /// one with most clearance, ties to the earlier; by square.
+  /// The robot's place, and of the roomy cells that it reaches one in each square of edge `step_m`:
+  /// the one with most clearance, ties to the earlier; by square.
   [[nodiscard]] std::vector<Lookout> places(double step_m) const;
   /// The same of clear cells that it does not reach.
   [[nodiscard]] std::vector<Lookout> places_out_of_reach(double step_m) const;

@@ -59,7 +59,7 @@ TEST(Frontiers, AreApproachedByTheShortestWay) {
                                          "#.......  ",  //
                                          "#.......  ",  //
                                          "########  "});
-  const DrivableFloor floor(grid, {0.25, 0.25, 0.0}, 0.01);
+  const DrivableFloor floor(grid, {0.25, 0.25, 0.0}, 0.05);
   const FloorPaths paths(floor);
   const auto frontiers = find_frontiers(grid, 0.0);
   ASSERT_EQ(frontiers.size(), 1u);

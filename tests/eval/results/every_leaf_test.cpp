@@ -84,7 +84,8 @@ const std::vector<std::string> kBases{
     "faults: {pose: {sigma_xy_m: 0.02}, depth: {preset: astra}, labels: {preset: typical}}\n",
     "localization: {source: odometry}\n",
     "localization: {source: particle_filter}\nfaults: {lidar: {preset: rplidar_a2}}\n",
-    "localization: {source: particle_filter, filter: {scan_model: beam}}\n"};
+    "localization: {source: particle_filter, filter: {scan_model: beam}}\n",
+    "localization: {source: visual_slam}\n"};
 
 /// A kind of perception; a network's needs files, whose content is in the key.
 std::string perception_at(const std::string& path) {
