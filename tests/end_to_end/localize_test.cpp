@@ -53,13 +53,16 @@ TEST_F(LocalizeRun, ComparesEverySourceOfARecording) {
                                  HasSubstr("odometry"), HasSubstr("particle_filter")));
   EXPECT_THAT(outcome.err, HasSubstr("not trajectory: no --set localization.trajectory=FILE"));
   const std::vector<std::string> scores = lines_of("localization_scores.csv");
-  ASSERT_EQ(scores.size(), 5u);  // two seeds of two sources
+  ASSERT_EQ(scores.size(), 9u);  // two seeds of four sources
   EXPECT_EQ(scores[0],
             "source,seed,frames,pairs,ate_m,ate_aligned_m,ate_deg,rpe_percent,rpe_deg_per_m,"
             "nees_share,nees_mean,nees6_share,nees6_mean");
   EXPECT_THAT(scores[1], StartsWith("odometry,0,4,0,0.0"));
   EXPECT_EQ(scores[2].substr(10), scores[1].substr(10)) << "odometry has no draw";
   EXPECT_THAT(scores[4], StartsWith("particle_filter,1,4,0,"));
+  EXPECT_THAT(scores[5], StartsWith("visual_odometry,0,4,0,"));
+  EXPECT_THAT(scores[8], StartsWith("visual_slam,1,4,0,"));
+  EXPECT_THAT(outcome.err, HasSubstr("visual_odometry, seed 0: "));
   EXPECT_EQ(lines_of("localization.csv").size(), 1u + 2 * 2 * 4);
   EXPECT_THAT(
       lines_of("localization.csv").front(),
