@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -16,7 +17,8 @@
 namespace mapscore {
 namespace {
 
-constexpr double kLeastRun_m = 0.2;
+constexpr double kLeastRun_m = 0.2, kArrived_m = 0.3;
+constexpr int kMostFailures = 2;
 
 /// A stretch of a lane that is clear and was not driven yet; from the lower column.
 struct Run {
@@ -36,6 +38,7 @@ class LawnMowerExplorer : public Explorer {
       step.view = now.turn_on_the_spot();
       return step;
     }
+    note_driven(now);
     // The nearest end of a run; ties to the lower lane, then to the lower column.
     std::optional<Run> nearest;
     double least_m = FloorPaths::kNoWay;
@@ -87,14 +90,24 @@ class LawnMowerExplorer : public Explorer {
     return runs;
   }
 
+  /// A run counts as driven when the robot got to its end, or was blocked on it twice.
+  void note_driven(const Surroundings& now) {
+    const PlanarPose& here = now.floor.T_map_base();
+    const bool arrived = (Eigen::Vector2d(here.x_m, here.y_m) - end_m_).norm() < kArrived_m;
+    for (const LatticeCell& cell : under_way_)
+      if (arrived || ++failures_[cell] >= kMostFailures) driven_.insert(cell);
+    under_way_.clear();
+  }
+
   NextView drive(const Run& run, const Surroundings& now) {
     const OccupancyGrid& grid = now.floor.grid();
     const std::int32_t step = run.last.column > run.first.column ? 1 : -1;
     for (GridCell cell = run.first;; cell.column += step) {
-      driven_.insert(lattice_cell(grid, cell));
+      under_way_.push_back(lattice_cell(grid, cell));
       if (cell == run.last) break;
     }
     const Eigen::Vector2d end = grid.centre_of(run.last);
+    end_m_ = end;
     const Eigen::Vector2d along = end - grid.centre_of(run.first);
     const double yaw = std::atan2(along.y(), along.x());
     NextView view = now.view(run.first, yaw);
@@ -106,6 +119,9 @@ class LawnMowerExplorer : public Explorer {
   LawnMower params_;
   ExploringRobot robot_;
   std::set<LatticeCell> driven_;
+  std::map<LatticeCell, int> failures_;
+  std::vector<LatticeCell> under_way_;  ///< cells of the run that was decided last
+  Eigen::Vector2d end_m_ = Eigen::Vector2d::Zero();
   bool first_ = true;
 };
 
