@@ -63,7 +63,7 @@ TEST_F(LocalizeRun, ComparesEverySourceOfARecording) {
   EXPECT_THAT(scores[5], StartsWith("visual_odometry,0,4,0,"));
   EXPECT_THAT(scores[8], StartsWith("visual_slam,1,4,0,"));
   EXPECT_THAT(outcome.err, HasSubstr("visual_odometry, seed 0: "));
-  EXPECT_EQ(lines_of("localization.csv").size(), 1u + 2 * 2 * 4);
+  EXPECT_EQ(lines_of("localization.csv").size(), 1u + 4 * 2 * 4);
   EXPECT_THAT(
       lines_of("localization.csv").front(),
       StartsWith("seed,stamp_s,position_error_m,heading_error_deg,nees,sigma_m,converged,"));
