@@ -22,6 +22,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -92,6 +93,10 @@ std::string missing_for(const std::string& source, const Study& study, const Rec
   return "";
 }
 
+std::string left_out(const std::string& source, const std::string& why) {
+  return fmt::format("localize: not {}: {}\n", source, why);
+}
+
 /// The source of the flags, or all that the recording has something for.
 std::vector<std::string> chosen_sources(const LocalizeFlags& flags, const Study& study,
                                         const Recording& recording) {
@@ -102,7 +107,7 @@ std::vector<std::string> chosen_sources(const LocalizeFlags& flags, const Study&
     if (missing.empty())
       sources.push_back(source);
     else
-      std::cerr << fmt::format("localize: not {}: {}\n", source, missing);
+      std::cerr << left_out(source, missing);
   }
   if (sources.empty())
     throw Error(
@@ -110,6 +115,23 @@ std::vector<std::string> chosen_sources(const LocalizeFlags& flags, const Study&
                     "{{wheels: {{}}}}, or give a trajectory",
                     shown(recording.folder())));
   return sources;
+}
+
+/// The grid that the filter localises on, or that was given. Of all sources the filter is taken out
+/// where no grid can be cut for it.
+std::optional<OccupancyGrid> filter_grid(const LocalizeFlags& flags, const Study& study,
+                                         const Recording& recording,
+                                         std::vector<std::string>& sources) {
+  const bool filter = std::ranges::find(sources, kFilter) != sources.end();
+  if (!filter && !study.localization.grid) return {};
+  try {
+    return grid_of(recording, study);
+  } catch (const Error& error) {
+    if (flags.source != kAll || study.localization.grid) throw;
+    std::cerr << left_out(kFilter, error.what());
+    std::erase(sources, kFilter);
+    return {};
+  }
 }
 
 /// What a believed trajectory says at each frame, in the format of TUM.
@@ -212,8 +234,7 @@ void localize(const LocalizeFlags& flags) {
   const Recording recording = Recording::open(flags.recording);
   Study study = study_of(flags);
   std::vector<std::string> sources = chosen_sources(flags, study, recording);
-  std::optional<OccupancyGrid> grid;
-  if (recording.has_scans() || study.localization.grid) grid = grid_of(recording, study);
+  const std::optional<OccupancyGrid> grid = filter_grid(flags, study, recording, sources);
   const fs::path folder = flags.output;
   const FolderLock lock(folder);
   fs::create_directories(folder);
@@ -224,7 +245,10 @@ void localize(const LocalizeFlags& flags) {
   if (flags.source != kAll && flags.source != kOdometry && recording.has_odometry())
     sources.emplace_back(kOdometry);  // drawn beside it
   study.sweep = {{"localization.source", sources}};
-  list_files(draw_believed(study, recording, {}, folder, style));
+  const Pictures pictures = draw_believed(study, recording, {}, folder, style);
+  list_files(pictures.files);
+  if (!pictures.skipped.empty())
+    std::cerr << fmt::format("localize: no trajectory_on_grid: {}\n", shown(pictures.skipped));
   if (flags.source == kAll) list_files(draw(pose_figure(summary, style).value(), folder));
   std::cout << converged_rows(scores) << '\n' << to_text(trajectory_scores_table(summary));
 }
@@ -265,13 +289,16 @@ void add_localize(CLI::App& program) {
   verb->add_flag("-q,--quiet", flags->quiet, "No progress");
   flags->style.add_to(*verb);
   verb->footer(
-      "Writes grid.yaml and .pgm where there are scans; of the first seed localization.txt, the "
-      "poses at the frames\n"
+      "Writes grid.yaml and .pgm of the filter; of the first seed localization.txt, the poses at "
+      "the "
+      "frames\n"
       "(truth_at_frames.txt, SOURCE_at_frames.txt: TUM), trajectory_on_grid and errors_over_time "
       "(.png, .pdf, .svg); of all\n"
       "seeds localization.csv (errors by frame) and localization_scores.csv (ATE, RPE, NEES); "
       "with --source all\n"
-      "localization_SOURCE.txt and poses_by_source (.png, .pdf, .svg). Prints the errors after "
+      "localization_SOURCE.txt and poses_by_source (.png, .pdf, .svg); with visual odometry "
+      "SOURCE_tracking.csv (how\n"
+      "each depth image was placed; counted on standard error). Prints the errors after "
       "convergence, then\n"
       "ATE, RPE and NEES of all frames (docs/metrics.md).\n"
       "Examples:\n"

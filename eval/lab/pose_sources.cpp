@@ -108,10 +108,14 @@ OccupancyGrid grid_of(const Recording& recording, const Study& config) {
         "localization.grid: is missing, and {} has no truth to cut one from; write grid: FILE.yaml",
         recording.folder().string()));
   const Pose lidar = start * recording.read_scans().geometry.T_base_lidar;
+  std::vector<Eigen::Vector2d> way_m;
+  for (int frame = 0; frame < recording.frame_count(); ++frame)
+    way_m.emplace_back(recording.T_world_base_of_color(frame).translation().head<2>());
   return floor_grid(recording.read_shapes(), Pose::Identity(),
                     {.height_m = lidar.translation().z(),
                      .resolution_m = grid_resolution_m(config.localization),
-                     .start_m = start.translation().head<2>()});
+                     .start_m = start.translation().head<2>(),
+                     .way_m = std::move(way_m)});
 }
 
 VisualTrajectory visual_trajectory(const Recording& recording, const Task& task,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mapscore::eval {
 namespace {
@@ -29,6 +30,11 @@ std::vector<GridCell> touched_cells(const std::vector<Shape>& shapes, const Pose
   return cells;
 }
 
+GridCell cell_at(const Eigen::Vector2d& point_m, double resolution_m) {
+  return {static_cast<int>(std::floor(point_m.x() / resolution_m)),
+          static_cast<int>(std::floor(point_m.y() / resolution_m))};
+}
+
 }  // namespace
 
 OccupancyGrid floor_grid(const std::vector<Shape>& shapes, const Pose& T_map_world,
@@ -37,10 +43,13 @@ OccupancyGrid floor_grid(const std::vector<Shape>& shapes, const Pose& T_map_wor
   if (touched.empty())
     throw Error(
         fmt::format("grid: no surface at height {} m; give another height", options.height_m));
-  const auto [west, east] = std::ranges::minmax(touched, {}, &GridCell::column);
-  const auto [south, north] = std::ranges::minmax(touched, {}, &GridCell::row);
-  const GridCell low{west.column - 1, south.row - 1};
   const double r = options.resolution_m;
+  std::vector<GridCell> held = touched;
+  held.push_back(cell_at(options.start_m, r));
+  for (const Eigen::Vector2d& point_m : options.way_m) held.push_back(cell_at(point_m, r));
+  const auto [west, east] = std::ranges::minmax(held, {}, &GridCell::column);
+  const auto [south, north] = std::ranges::minmax(held, {}, &GridCell::row);
+  const GridCell low{west.column - 1, south.row - 1};
   OccupancyGrid grid({.resolution_m = r,
                       .T_map_grid = {low.column * r, low.row * r, 0.0},
                       .width = east.column - west.column + 3,
@@ -48,10 +57,9 @@ OccupancyGrid floor_grid(const std::vector<Shape>& shapes, const Pose& T_map_wor
   for (const GridCell& cell : touched)
     grid.set({cell.column - low.column, cell.row - low.row}, kOccupiedCell);
   const GridCell start = grid.cell_of(options.start_m);
-  if (grid.at_or_unknown(start) != kUnknownCell || !grid.contains(start))
-    throw Error(fmt::format("grid: the start ({}, {}) m lies {}; give one on free floor",
-                            options.start_m.x(), options.start_m.y(),
-                            grid.contains(start) ? "in something" : "outside of the scene"));
+  if (grid.at_or_unknown(start) != kUnknownCell)
+    throw Error(fmt::format("grid: the start ({}, {}) m lies in something; give one on free floor",
+                            options.start_m.x(), options.start_m.y()));
   flood_free(grid, start);
   return grid;
 }

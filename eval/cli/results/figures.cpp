@@ -18,9 +18,12 @@
 #include "files/folder_lock.hpp"
 #include "files/text.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -60,6 +63,13 @@ void print(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) std::cout << shown(file) << std::endl;
 }
 
+/// Names the files, and what was left out of them for which reason.
+void print_all(const Pictures& pictures, std::string_view what) {
+  print(pictures.files);
+  if (!pictures.skipped.empty())
+    std::cerr << fmt::format("mapscore: no {}: {}\n", what, shown(pictures.skipped));
+}
+
 /// `path`: of the recording, from the folder of the store.
 void draw_scene(const StudyRecord& all, const std::string& scene, const std::string& path,
                 const fs::path& store, const PictureChoice& choice, const FigureStyle& style,
@@ -77,14 +87,12 @@ void draw_scene(const StudyRecord& all, const std::string& scene, const std::str
   const Recording& drawn = recording;
   fs::create_directories(folder);
   print({write_picture(folder / "contact_sheet.png", contact_sheet(study, table, drawn))});
-  print(draw_believed(study, drawn, choice, folder, style));
+  print_all(draw_believed(study, drawn, choice, folder, style), "trajectory_on_grid");
   const Pictures pictures = draw_pictures(study, table, drawn, choice, folder, [&] {
     Bench bench(drawn, table, reads_colour(study), choice.memory_bytes);
     return map_trials(study, bench, choice);
   });
-  print(pictures.files);
-  if (!pictures.skipped.empty())
-    std::cerr << "mapscore: no pictures of the map: " << shown(pictures.skipped) << '\n';
+  print_all(pictures, "pictures of the map");
 }
 
 /// Pictures of the recording, or of each scene in a folder of its own.

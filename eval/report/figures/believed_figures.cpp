@@ -3,6 +3,7 @@
 
 #include "eval/report/figures/believed_figures.hpp"
 
+#include "core/error.hpp"
 #include "eval/lab/pose_sources.hpp"
 #include "eval/localization/localization_score.hpp"
 #include "eval/report/figures/pose_errors_figure.hpp"
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -78,12 +80,25 @@ std::string errors_text(const std::string& name, const LocalizationScore& score)
   return text + ". ";
 }
 
+/// The grid under the trajectories; none, and why, where none can be cut and no filter needs one.
+std::optional<OccupancyGrid> background(const Recording& recording,
+                                        const std::vector<Study>& configs, std::string& why_not) {
+  try {
+    return grid_of(recording, configs.front());
+  } catch (const Error& error) {
+    const auto filters = [](const Study& config) {
+      return config.localization.source == PoseSource::particle_filter;
+    };
+    if (std::ranges::any_of(configs, filters)) throw;
+    why_not = error.what();
+    return {};
+  }
+}
+
 }  // namespace
 
-std::vector<std::filesystem::path> draw_believed(const Study& study, const Recording& recording,
-                                                 const PictureChoice& choice,
-                                                 const std::filesystem::path& folder,
-                                                 const FigureStyle& style) {
+Pictures draw_believed(const Study& study, const Recording& recording, const PictureChoice& choice,
+                       const std::filesystem::path& folder, const FigureStyle& style) {
   const std::vector<Study> configs = sources_of(study, choice);
   if (configs.empty()) return {};
   std::vector<PoseErrors> errors;
@@ -104,18 +119,20 @@ std::vector<std::filesystem::path> draw_believed(const Study& study, const Recor
     notes.caption += errors_text(name, score);
     errors.push_back({std::move(name), std::move(score.frames)});
   }
-  std::vector<std::filesystem::path> files =
+  Pictures pictures{
       draw(pose_errors_figure(errors, fmt::format("{}: seed {}. ", study.name, choice.seed_index),
                               style),
-           folder);
-  if (!recording.has_scans()) return files;
+           folder),
+      {}};
+  if (!recording.has_scans()) return pictures;
+  const std::optional<OccupancyGrid> grid = background(recording, configs, pictures.skipped);
+  if (!grid) return pictures;
   if (study.scene)
     for (const auto& [x, y, yaw] : study.trajectory.waypoints_m_deg)
       notes.waypoints_map.emplace_back(x, y);
-  for (std::filesystem::path& file :
-       draw(trajectory_figure(grid_of(recording, configs.front()), lines, notes, style), folder))
-    files.push_back(std::move(file));
-  return files;
+  for (std::filesystem::path& file : draw(trajectory_figure(*grid, lines, notes, style), folder))
+    pictures.files.push_back(std::move(file));
+  return pictures;
 }
 
 }  // namespace mapscore::eval

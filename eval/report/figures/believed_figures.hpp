@@ -9,7 +9,6 @@
 #include "eval/study/study.hpp"
 
 #include <filesystem>
-#include <vector>
 
 namespace mapscore::eval {
 
@@ -18,12 +17,11 @@ namespace mapscore::eval {
 /// to be, on the grid used for localisation, with each source's errors in the caption. Sources: all
 /// values of a sweep over `localization.source`, else the study's own; `gaussian` and `truth` are
 /// not drawn. Other swept leaves and the seed: as in `choice`. Draws and returns nothing when no
-/// source is left. Throws Error as PoseSources, trajectory_figure,
-/// draw.
-[[nodiscard]] std::vector<std::filesystem::path> draw_believed(const Study& study,
-                                                               const Recording& recording,
-                                                               const PictureChoice& choice,
-                                                               const std::filesystem::path& folder,
-                                                               const FigureStyle& style = {});
+/// source is left; skips `trajectory_on_grid` alone where no grid can be cut and no filter needs
+/// one. Throws Error as PoseSources, trajectory_figure, draw.
+[[nodiscard]] Pictures draw_believed(const Study& study, const Recording& recording,
+                                     const PictureChoice& choice,
+                                     const std::filesystem::path& folder,
+                                     const FigureStyle& style = {});
 
 }  // namespace mapscore::eval

@@ -29,7 +29,7 @@ std::vector<Shape> room() {
 }
 
 FloorGridOptions options() {
-  return {.height_m = 0.2, .resolution_m = kCell_m, .start_m = {0.5, 0.5}, .jobs = 1};
+  return {.height_m = 0.2, .resolution_m = kCell_m, .start_m = {0.5, 0.5}, .way_m = {}, .jobs = 1};
 }
 
 std::ptrdiff_t count(const OccupancyGrid& grid, Occupancy value) {
@@ -91,8 +91,18 @@ TEST(FloorGrid, RefusesWhatHasNoFloor) {
   wrong = options();
   wrong.start_m = {1.05, 0.65};
   refused(wrong, "lies in something");
-  wrong.start_m = {9.0, 0.0};
-  refused(wrong, "outside of the scene");
+}
+
+TEST(FloorGrid, ReachesToAStartAndAWayBesideAllSurfaces) {
+  FloorGridOptions beside = options();
+  beside.start_m = {2.95, 0.55};
+  beside.way_m = {{2.95, 1.75}, {-0.55, 0.55}};
+  const OccupancyGrid grid = floor_grid(room(), Pose::Identity(), beside);
+  EXPECT_EQ(grid.frame().width, 36 + 2);   // columns -6 to 29, and one more on either side
+  EXPECT_EQ(grid.frame().height, 19 + 2);  // rows -1 to 17, and one more
+  EXPECT_EQ(grid.at(grid.cell_of({2.95, 1.75})), kFreeCell);
+  EXPECT_EQ(grid.at(grid.cell_of({-0.55, 0.55})), kFreeCell);  // around the room
+  EXPECT_EQ(grid.at(grid.cell_of({0.5, 0.5})), kUnknownCell);  // the walls are closed
 }
 
 }  // namespace
