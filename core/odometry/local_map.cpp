@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
 namespace mapscore {
 namespace {
@@ -24,6 +24,10 @@ constexpr std::size_t kPlanePoints = 6;
 constexpr double kFlatness = 0.25;
 /// Least cosine between the normals of a point and of its plane.
 constexpr double kFacing = 0.7;
+/// Of a base that stands on a floor: standard deviations of its height (m) and tilt (rad). Where
+/// either is this many times as far off, as on a rug's edge or a sill, it weighs a quarter, and
+/// soon nothing (S. Geman and D. McClure, 1987).
+constexpr double kFloorZ_m = 0.004, kFloorTilt = 0.1 * std::numbers::pi / 180.0, kFloorSigmas = 2.0;
 /// Of a plane's place: what no number of points takes away (m^2).
 constexpr double kPlaneFloor = 1e-6;
 
@@ -174,6 +178,7 @@ struct PlaneFactor {
 struct PriorFactor {
   Pose T_prior_map;
   Covariance6 information;  ///< rotation first
+  bool on_floor = false;
   mutable Covariance6 of_scan = Covariance6::Zero();
 
   void update_linearized_system(const auto&, const auto&, const auto&, const Eigen::Isometry3d& T,
@@ -183,6 +188,23 @@ struct PriorFactor {
     *H += information;
     *b += information * xi;
     *e += 0.5 * xi.dot(information * xi);
+    if (on_floor) add_floor(T, *H, *b);
+  }
+
+  /// What z = 0, roll 0 and pitch 0 say, each by its own weight.
+  static void add_floor(const Eigen::Isometry3d& T, Covariance6& H, Vector6& b) {
+    const auto information = [](double squared, double sigma) {
+      const double kept = 1.0 / (1.0 + squared / std::pow(kFloorSigmas * sigma, 2));
+      return std::pow(kept / sigma, 2);
+    };
+    const Eigen::Vector3d up = T.linear().row(2);
+    const Eigen::Vector2d tilt(up.y(), -up.x());
+    const double level = information(tilt.squaredNorm(), kFloorTilt);
+    H.topLeftCorner<2, 2>() += level * Eigen::Matrix2d::Identity();
+    b.head<2>() += level * tilt;
+    const double z_m = T.translation().z(), low = information(z_m * z_m, kFloorZ_m);
+    H.bottomRightCorner<3, 3>() += low * up * up.transpose();
+    b.tail<3>() += low * z_m * up;
   }
 };
 
@@ -224,6 +246,7 @@ ScanMatch LocalMap::match(const DepthScan& scan, const PosePrior& prior) const {
   std::vector<PlaneFactor> factors;
   for (const double blur : {kFirstBlur, 0.0}) {
     factors.assign(scan.size(), PlaneFactor{params_.correlation, blur});
+    expected.on_floor = prior.on_floor && blur == 0.0;  // weighed where the scan alone has led
     result = optimizer.optimize(planes_->map, scan, planes_->map, small_gicp::NullRejector{},
                                 criteria, reduction, result.T_target_source, factors, expected);
   }

@@ -33,6 +33,8 @@ struct PlaneMapParams {
 struct PosePrior {
   Pose mean = Pose::Identity();
   Covariance6 covariance = Covariance6::Identity();
+  /// The base stands level on z = 0 for the most part: a robust prior of its own, in the sum.
+  bool on_floor = false;
 };
 
 /// What a scan says of a pose, together with its prior.

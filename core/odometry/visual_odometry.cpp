@@ -34,10 +34,10 @@ constexpr double kSurelySeen = 0.8, kSlipGain = 0.15;
 constexpr int kMostLost = 5;
 /// Share of a pose's uncertainty that the part of the map takes over which a key frame adds: all of
 /// it where everything is new, little where most is known. The power was chosen so that the errors
-/// of a drive in `home` fit.
+/// of three drives fit (docs/odometry.md).
 double taken_over(double new_share) {
-  constexpr double kLeast = 0.0025;
-  return std::max(kLeast, std::pow(new_share, 3));
+  constexpr double kLeast = 0.0005;
+  return std::max(kLeast, std::pow(new_share, 5));
 }
 
 Covariance6 diagonal(double xy_m, double z_m, double tilt_rad, double yaw_rad) {
@@ -70,7 +70,7 @@ Covariance6 acceleration(double dt_s) {
 }
 
 /// On the floor z = 0 the base stands level, but for rugs and springs: the prior given z, roll and
-/// pitch of 0 with these standard deviations (a Kalman update).
+/// pitch of 0 with these standard deviations (a Kalman update), which hold on rugs as well.
 PosePrior on_floor(const PosePrior& prior) {
   constexpr std::array kAxes{2, 3, 4};
   const Covariance6 noise = diagonal(1.0, 0.01, 1.0 * kDegree, 1.0);
@@ -80,7 +80,7 @@ PosePrior on_floor(const PosePrior& prior) {
   const Eigen::Matrix3d sum = prior.covariance(kAxes, kAxes) + noise(kAxes, kAxes);
   const Eigen::Matrix<double, 6, 3> gain = cross * sum.inverse();
   const Covariance6 left = prior.covariance - gain * cross.transpose();
-  return {prior.mean * exp_pose(gain * off), 0.5 * (left + left.transpose())};
+  return {prior.mean * exp_pose(gain * off), 0.5 * (left + left.transpose()), true};
 }
 
 /// A covariance in the base's axes after a motion.

@@ -9,6 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 namespace mapscore {
 namespace {
 
@@ -94,6 +98,43 @@ TEST(LocalMap, AlongABareWallThePriorStaysAsItIs) {
   EXPECT_LT(std::sqrt(match.covariance(0, 0)), 0.01);
   EXPECT_LT(std::sqrt(match.covariance(5, 5)), 0.01);
   EXPECT_NEAR((after.inverse() * match.T_map_base).translation().y(), 0.0, 0.01);
+}
+
+Pose tilted(const Pose& pose, double roll_deg, double pitch_deg, double z_m) {
+  Vector6 xi = Vector6::Zero();
+  xi[2] = z_m;
+  xi[3] = roll_deg * std::numbers::pi / 180.0;
+  xi[4] = pitch_deg * std::numbers::pi / 180.0;
+  return pose * exp_pose(xi);
+}
+double tilt_deg(const Pose& pose) {
+  return std::acos(std::min(1.0, pose.linear()(2, 2))) * 180.0 / std::numbers::pi;
+}
+
+TEST(LocalMap, ABaseOnTheFloorStandsLevelInAMapThatLeans) {
+  const BoxFlat flat = furnished_room();
+  const Pose truth = planar_pose(1.7, 2.6, 0.1);
+  const DepthScan scan = scan_at(flat, truth);
+  LocalMap map({}, 60);
+  map.insert(scan, tilted(truth, 0.0, 0.15, 0.0));
+  PosePrior prior = prior_at(truth, 0.1, 0.02);
+  EXPECT_NEAR(tilt_deg(map.match(scan, prior).T_map_base), 0.15, 0.02);
+  prior.on_floor = true;
+  EXPECT_LT(tilt_deg(map.match(scan, prior).T_map_base), 0.13);
+}
+
+TEST(LocalMap, ABaseOnASillMayLean) {
+  const BoxFlat flat = furnished_room();
+  const Pose level = planar_pose(1.7, 2.6, 0.1);
+  LocalMap map({}, 60);
+  map.insert(scan_at(flat, level), level);
+  const Pose truth = tilted(level, 1.5, -1.5, 0.03);
+  PosePrior prior = prior_at(truth, 0.1, 0.05);
+  prior.on_floor = true;
+  const Vector6 error =
+      log_pose(truth.inverse() * map.match(scan_at(flat, truth), prior).T_map_base);
+  EXPECT_LT(error.head<3>().norm(), 0.004);
+  EXPECT_LT(error.tail<3>().norm(), 0.05 * std::numbers::pi / 180.0);
 }
 
 TEST(LocalMap, OfAScanBesideItThePriorIsGiven) {
