@@ -34,6 +34,7 @@ struct MapVerbFlags {
   std::string study, method, frames, masks{kMasks.front()};
   /// As the authors' released code has it, where neither a study nor flags say otherwise.
   ChoiceFlags<Segmentation> segmentation{"--segmentation", RegionGrowing{.radius_factor = 0.5}};
+  ChoiceFlags<MappedFrames> mapped{"--mapped", AllFrames{}};
   std::vector<std::string> detect, overrides;
   std::optional<double> voxel_m, K, threshold;
   std::vector<double> origin_m{0, 0, 0};
@@ -89,6 +90,7 @@ FolderMapping folder_mapping(const std::optional<Study>& study, const MapVerbFla
   }
   if (!study || flags.segmentation.given())
     mapping.mapping.segmentation = flags.segmentation.value();
+  if (!study || flags.mapped.given()) mapping.mapping.frames = flags.mapped.value();
   if (flags.voxel_m) mapping.mapping.voxel_m = *flags.voxel_m;
   if (flags.K) {
     auto* blend = std::get_if<BlendRule>(&mapping.mapping.fusion.rule);
@@ -103,7 +105,9 @@ FolderMapping folder_mapping(const std::optional<Study>& study, const MapVerbFla
 }
 
 std::string counts_text(const LabelledFolderCounts& labels, const MappedCounts& counts) {
-  std::string text = fmt::format("{} of {} label images mapped", counts.frames, labels.labels);
+  std::string text =
+      fmt::format("{} of {} label images mapped", counts.frames - counts.left_out, labels.labels);
+  if (counts.left_out > 0) text += fmt::format("; {} left out as no key frames", counts.left_out);
   if (labels.no_depth > 0)
     text += fmt::format("; {} without a depth image near in time", labels.no_depth);
   if (labels.no_pose > 0) text += fmt::format("; {} without a pose", labels.no_pose);
@@ -281,6 +285,7 @@ void add_map(CLI::App& program) {
       program, "map", "Map a recording of any origin, truth or not", map_recording);
   flags->verb = verb;
   flags->segmentation.add_to(*verb, "Mapping");
+  flags->mapped.add_to(*verb, "Mapping");
   verb->add_option("FOLDER", flags->folder,
                    "Folder with depth.txt, groundtruth.txt, color.txt or rgb.txt, and label/ or "
                    "label.txt; or one of `mapscore trial`")
