@@ -69,12 +69,12 @@ TEST_F(TrialVerb, KeyFramesAreMappedFromAFolderAsByRunAndAsTheyAreNamed) {
   const Outcome mapped = map("keys", "keys.ot");
   expect_done(mapped);
   EXPECT_THAT(mapped.out, HasSubstr("2 of 4 label images mapped; 2 left out as no key frames"));
-  EXPECT_EQ(bytes_of(path("keys.ot")), map_of_run(keys));
+  EXPECT_TRUE(bytes_of(path("keys.ot")) == map_of_run(keys));
   expect_done(trial("all", all));
   expect_done(map("all", "named.ot", {"--frames", "0,2"}));
-  EXPECT_EQ(bytes_of(path("keys.ot")), bytes_of(path("named.ot")));
+  EXPECT_TRUE(bytes_of(path("keys.ot")) == bytes_of(path("named.ot")));
   expect_done(map("all", "all.ot"));
-  EXPECT_NE(bytes_of(path("keys.ot")), bytes_of(path("all.ot")));
+  EXPECT_TRUE(bytes_of(path("keys.ot")) != bytes_of(path("all.ot")));
 }
 
 TEST_F(TrialVerb, CellIsOneOfTheSweep) {

@@ -29,7 +29,7 @@ class FrameChoiceTest : public ::testing::Test {
                         .toRotationMatrix();
     return pose;
   }
-  [[nodiscard]] static cv::Mat1w wall() { return {48, 64, std::uint16_t{10000}}; }
+  [[nodiscard]] static cv::Mat1w wall() { return cv::Mat1w(48, 64, std::uint16_t{10000}); }
 
   bool takes(FrameChoice& choice, const Pose& T_map_base) const {
     return choice.takes(wall(), camera_, T_map_base);
@@ -44,7 +44,7 @@ TEST_F(FrameChoiceTest, AllTakesEveryFrameOfNoDepthToo) {
   EXPECT_TRUE(choice.takes(cv::Mat1w::zeros(48, 64), camera_, at(0.0)));
 }
 
-// The wayside counts from the last key frame, not from the last frame.
+// The way counts from the last key frame, not from the last frame.
 TEST_F(FrameChoiceTest, KeyFramesAreAWayOrATurnFromTheLastOne) {
   KeyFramesAlone rule;
   rule.key_overlap = 0.0;
