@@ -141,11 +141,14 @@ TEST_F(MapWithoutPoses, WithoutTheFlagTheErrorSaysHow) {
   EXPECT_FALSE(fs::exists(folder() / "map.ot"));
 }
 
+// Into another corner, lower, and looking up: not even the floor is where it was.
 TEST_F(MapWithoutPoses, ATeleportIsSaid) {
-  Pose elsewhere = hand(20);
-  elsewhere = Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitZ()) * elsewhere;
-  elsewhere.translation() = Eigen::Vector3d(4.2, 2.4, 1.2);
   Calibration camera = odometry_camera();
+  Pose elsewhere = Pose::Identity();
+  elsewhere.linear() =
+      (Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitZ()) *
+       Eigen::AngleAxisd(-0.5, Eigen::Vector3d::UnitY()) * camera.T_base_depth.linear());
+  elsewhere.translation() = Eigen::Vector3d(4.2, 2.4, 0.7);
   camera.T_base_depth = Pose::Identity();
   for (int n = 20; n < kImages; ++n) put(n, flat_depth(furnished_room(), elsewhere, camera));
   const Outcome outcome = found();
@@ -177,6 +180,7 @@ TEST_F(MapWithoutPoses, OneImageIsItsOwnMap) {
 
 TEST_F(MapWithoutPoses, StampsThatJumpBackAreRefusedAndAGapIsNoSilentLoss) {
   list([](int n) { return n < 15 ? 0.1 * n : 0.1 * n - 1.0; });
+  write_text(folder() / "hand/label.txt", "0 label/" + name(0) + "\n");
   expect_refused(found(), {"depth.txt:16", "does not come after"});
   list([](int n) { return n < 15 ? 0.1 * n : 0.1 * n + 60.0; });
   const Outcome outcome = found();
