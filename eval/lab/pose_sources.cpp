@@ -124,14 +124,11 @@ VisualTrajectory visual_trajectory(const Recording& recording, const Task& task,
                                    const std::function<void(int, int)>& progress) {
   const LocalizationSettings& settings = task.config.localization;
   if (settings.visual.visual.wheels) check_logs(recording, settings.source);
-  const Pose start = recording.T_world_base_of_depth(0);
-  const Pose level =
-      Eigen::Translation3d(0.0, 0.0, start.translation().z()) * spatial(planar(start));
   return run_visual(recording,
                     {visual_of(settings), settings.visual.visual,
                      believed_calibration(recording.info().calibration, task),
                      task.config.faults.depth.dose(), trial_seed(task)},
-                    level, progress);
+                    recording.T_world_base_of_depth(0), progress);
 }
 
 BelievedTrajectory believed_trajectory(const Recording& recording, const Task& task,

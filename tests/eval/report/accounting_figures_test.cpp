@@ -43,9 +43,8 @@ TEST(AccountingFigures, AreTheMeanOverTheSeedsAndTheirRange) {
 }
 
 TEST(AccountingFigures, StandInTablesBesideOtherFigures) {
-  const Table table = pivot_table(tracked_summary(),
-                                  {.metrics = {"frames_mapped", "images_lost", "f1"}},
-                                  Reader::person);
+  const Table table = pivot_table(
+      tracked_summary(), {.metrics = {"frames_mapped", "images_lost", "f1"}}, Reader::terminal);
   EXPECT_THAT(table.columns, Contains("images_lost"));
   ASSERT_FALSE(table.rows.empty());
   EXPECT_THAT(table.rows.front(), Contains("6.5"));
@@ -58,7 +57,7 @@ TEST(AccountingFigures, GuessedPosesAreNotedBelowATable) {
   EXPECT_THAT(tracking_note(tracked_summary()),
               HasSubstr("the pose of 2 of 100 depth images is a guess (unsure, blind, lost or "
                         "restarted), in 1 of the 2 trials"));
-  EXPECT_THAT(pivot_table(tracked_summary(), {.metrics = {"f1"}}, Reader::person).caption,
+  EXPECT_THAT(pivot_table(tracked_summary(), {.metrics = {"f1"}}, Reader::terminal).caption,
               Contains(HasSubstr("note: the pose of 2 of 100")));
 }
 
