@@ -156,6 +156,20 @@ TEST_F(KeyFramesInTheMap, DependOnTheRobotsBeliefs) {
   EXPECT_LT(left_out("odometry"), left_out("truth")) << "the wheels make every way longer";
 }
 
+TEST_F(KeyFramesInTheMap, CanBeSwept) {
+  const Study study =
+      study_of("sweep: {methods.direct.frames: [all, key_frames], voxel_m: [0.05]}\n",
+               {"methods.direct.frames={key_frames: {key_way_m: 0.5}}"});
+  const LazyList<TrialSpec> specs = trials(study);
+  ASSERT_EQ(specs.size(), 2u);
+  const auto frames_of = [&](std::size_t n) {
+    return task_of(study, specs[n], Labels::detected, "recording").config.methods.front().frames;
+  };
+  EXPECT_TRUE(std::holds_alternative<AllFrames>(frames_of(0)));
+  ASSERT_TRUE(std::holds_alternative<KeyFramesAlone>(frames_of(1)));
+  EXPECT_EQ(std::get<KeyFramesAlone>(frames_of(1)).key_way_m, 0.5) << "as the study has it";
+}
+
 TEST_F(KeyFramesInTheMap, TheLatticeCeilingMapsEveryFrame) {
   const Recording whole = recording_of("whole", all());
   const Study study = study_of("", {"methods.direct.frames=key_frames"});
