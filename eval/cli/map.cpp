@@ -302,7 +302,8 @@ void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
     return verb.add_option(name, value, text)->group("Mapping");
   };
   add("--study", flags.study,
-      "Takes voxel size, detected classes, segmentation, place, fusion, occupancy, frames and refinement "
+      "Takes voxel size, detected classes, segmentation, place, fusion, occupancy, frames and "
+      "refinement "
       "of this study, no faults; a frame is drawn once, at its pose");
   add("--set", flags.overrides, "A key of the study, path=value; may be repeated")
       ->allow_extra_args(false);

@@ -157,9 +157,12 @@ TEST_F(KeyFramesInTheMap, DependOnTheRobotsBeliefs) {
 }
 
 TEST_F(KeyFramesInTheMap, CanBeSwept) {
-  const Study study =
-      study_of("sweep: {methods.direct.frames: [all, key_frames], voxel_m: [0.05]}\n",
-               {"methods.direct.frames={key_frames: {key_way_m: 0.5}}"});
+  const Study study = parse_study(
+      "recording: tiny\n"
+      "methods:\n"
+      "  direct: {segmentation: {direct: {}}, frames: {key_frames: {key_way_m: 0.5}}}\n"
+      "sweep: {methods.direct.frames: [all, key_frames]}\n",
+      "study.yaml");
   const LazyList<TrialSpec> specs = trials(study);
   ASSERT_EQ(specs.size(), 2u);
   const auto frames_of = [&](std::size_t n) {
