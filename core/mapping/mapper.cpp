@@ -36,8 +36,15 @@ std::vector<Eigen::Vector3d> points_of(const PosedDepth& seen) {
 }  // namespace
 
 Mapper::Mapper(const Mapping& mapping, std::size_t class_count)
-    : mapping_(mapping), class_count_(class_count), map_(mapping.voxel_m, mapping.occupancy) {
+    : mapping_(mapping),
+      class_count_(class_count),
+      map_(mapping.voxel_m, mapping.occupancy),
+      choice_(mapping.frames) {
   check(mapping.fusion.rule);
+}
+
+bool Mapper::takes(const Sight& sight, const PoseBelief& belief) {
+  return choice_.takes(sight.depth(), sight.believed(), belief.T_map_odom * belief.T_odom_base);
 }
 
 std::vector<Segment> Mapper::integrate(const Sight& sight, const PoseBelief& belief,

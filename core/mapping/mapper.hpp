@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/fusion/fusion_rule.hpp"
+#include "core/mapping/mapped_frames.hpp"
 #include "core/mapping/semantic_map.hpp"
 #include "core/placement/placement.hpp"
 #include "core/placement/pose_belief.hpp"
@@ -34,6 +35,7 @@ struct Mapping {
   Place place = Place::points;
   Fusion fusion{};
   Carving occupancy{};
+  MappedFrames frames{};
 };
 
 /// Processor time that a method spent on one frame, in seconds. Measured, so not the same twice.
@@ -50,6 +52,10 @@ class Mapper {
  public:
   /// `class_count`: size of the class table. Throws Error when a parameter is out of range.
   Mapper(const Mapping& mapping, std::size_t class_count);
+
+  /// Whether a frame is one that this map is made of (FrameChoice). Ask once a frame, in their
+  /// order; the others are not to be integrated. Throws Error as FrameChoice.
+  [[nodiscard]] bool takes(const Sight& sight, const PoseBelief& belief);
 
   /// Takes one frame into the map: segments its detections, places the segments by draws from the
   /// belief, carves free space and lets voxels in view decay where the map does so, and fuses
@@ -75,6 +81,7 @@ class Mapper {
   Mapping mapping_;
   std::size_t class_count_;
   SemanticMap map_;
+  FrameChoice choice_;
   FrameTimes times_;
 };
 

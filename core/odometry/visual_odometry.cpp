@@ -62,6 +62,23 @@ Covariance6 map_bias() {
 Covariance6 lost_jump() {
   return diagonal(0.5, 0.05, 2.0 * kDegree, 30.0 * kDegree);
 }
+Covariance6 alike(double m, double rad) {
+  return diagonal(m, m, rad, rad);
+}
+/// A camera in a hand forgets its speed within a tenth of a second, so that what the images do not
+/// show of its motion comes to rest: the part of the last motion that goes on.
+double speed_kept(double last_step_s, double dt_s) {
+  constexpr double kMemory_s = 0.1;
+  return kMemory_s * (1.0 - std::exp(-dt_s / kMemory_s)) / last_step_s;
+}
+/// It may have sped up by 3 m/s^2 and 300 degrees/s^2, within a second at most, and may as well
+/// have kept the speed that it was not expected to.
+Covariance6 free_motion(double dt_s, const Vector6& forgotten) {
+  const double half = 0.5 * std::min(dt_s, 1.0) * std::min(dt_s, 1.0);
+  Covariance6 noise = alike(3.0 * half + 0.002, 300.0 * kDegree * half + 0.2 * kDegree);
+  noise.diagonal() += forgotten.cwiseAbs2();
+  return noise;
+}
 /// A robot that goes on as it went may have sped up by 0.5 m/s^2 and 85 degrees/s^2.
 Covariance6 acceleration(double dt_s) {
   const double half = 0.5 * dt_s * dt_s;
@@ -121,9 +138,15 @@ VisualOdometry::Expected VisualOdometry::expect(const OdometryFrame& frame) cons
         spatial_covariance(motion_covariance(motion, motion_sigmas(motion, params_.wheel_noise))) +
         wheel_jitter();
   } else {
-    if (last_step_s_ > 0.0)
-      T_last_base = exp_pose(log_pose(T_before_last_base_) * (dt_s / last_step_s_));
+    const Vector6 last = log_pose(T_before_last_base_);
+    double kept = last_step_s_ > 0.0 ? dt_s / last_step_s_ : 0.0;
     noise = acceleration(dt_s);
+    if (!params_.on_floor) {
+      const double going_on = std::min(kept, 1.0);
+      if (kept > 0.0) kept = speed_kept(last_step_s_, dt_s);
+      noise = free_motion(dt_s, last * (going_on - std::min(kept, going_on)));
+    }
+    T_last_base = exp_pose(last * kept);
   }
   PosePrior prior{state_.T_map_base * T_last_base, moved(state_.relative, T_last_base) + noise};
   if (wheels) prior = on_floor(prior);
@@ -186,7 +209,7 @@ OdometryStep VisualOdometry::add(const OdometryFrame& frame) {
     T_before_last_base_ = T_map_last.inverse() * state_.T_map_base;
     last_step_s_ = frame.stamp_s - last_->stamp_s;
     const bool lost = step.tracking == Tracking::lost;
-    if (lost && ++lost_for_ == 1) state_.relative += lost_jump();
+    if (lost && ++lost_for_ == 1) state_.relative += jump_when_lost();
     if (lost && relocate(scan, frame)) {
       step.tracking = Tracking::relocated;
       step.key_frame = step.closed_loop = true;
@@ -204,6 +227,10 @@ OdometryStep VisualOdometry::add(const OdometryFrame& frame) {
   }
   last_ = {frame.stamp_s, {}, frame.T_odom_base};
   return placed(step, state_);
+}
+
+Covariance6 VisualOdometry::jump_when_lost() const {
+  return params_.on_floor ? lost_jump() : alike(0.5, 30.0 * kDegree);
 }
 
 bool VisualOdometry::hardly_moved(const OdometryFrame& frame) const {
@@ -250,7 +277,7 @@ bool VisualOdometry::close_loop(bool anywhere) {
     if (n + 1 == keys_.size()) continue;
     const PosePrior prior =
         anywhere
-            ? PosePrior{keys_[n].T_map_base, lost_jump()}
+            ? PosePrior{keys_[n].T_map_base, jump_when_lost()}
             : PosePrior{current.T_map_base, state_.drift + state_.relative + key_frame_floor()};
     const auto match = verified_loop(keys_, n, current, prior, params_.map, *params_.loops);
     if (!match) continue;

@@ -23,13 +23,15 @@
 
 namespace mapscore {
 
-/// Visual odometry of a wheeled robot's depth camera.
+/// Visual odometry of a depth camera, on a wheeled robot or free.
 struct VisualOdometryParams {
   DepthSampling sampling;
   PlaneMapParams map;
   KeyFrameRule key;
   OdometryNoise wheel_noise;         ///< of the wheels' increments, where they are given
   std::optional<LoopClosure> loops;  ///< with them it is visual SLAM
+  /// False: the camera is in a hand, or nobody knows, and may move in all six axes alike.
+  bool on_floor = true;
 };
 
 /// One depth image, in the order of stamps.
@@ -114,6 +116,7 @@ class VisualOdometry {
 
   [[nodiscard]] Expected expect(const OdometryFrame& frame) const;
   [[nodiscard]] bool hardly_moved(const OdometryFrame& frame) const;
+  [[nodiscard]] Covariance6 jump_when_lost() const;
   OdometryStep placed(OdometryStep step, const State& state);
   [[nodiscard]] Tracking track(const DepthScan& scan, const OdometryFrame& frame,
                                const Expected& expected, OdometryStep& step);

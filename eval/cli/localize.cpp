@@ -156,18 +156,6 @@ std::string tracking_csv(const VisualTrajectory& visual) {
   return text;
 }
 
-/// The same, counted: `visual_slam, seed 0: 2433 tracked, 2 slipped of 2436 images; 4 loops
-/// closed`.
-std::string tracking_text(const std::string& source, int seed, const VisualTrajectory& visual) {
-  std::string text;
-  const auto frames = visual.frames_by_tracking();
-  for (std::size_t n = 0; n < frames.size(); ++n)
-    if (frames[n] > 0)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", frames[n], names_of(Tracking{})[n]);
-  return fmt::format("{}, seed {}: {} of {} depth images; {} loops closed\n", source, seed, text,
-                     visual.steps.size(), visual.loops);
-}
-
 /// Of one repetition; says how visual odometry fared.
 BelievedTrajectory believed_by(const Recording& recording, const Task& task,
                                const OccupancyGrid* grid, const fs::path& folder,
@@ -178,7 +166,8 @@ BelievedTrajectory believed_by(const Recording& recording, const Task& task,
   const std::string name = leaf_text(task.config, "localization.source");
   if (task.seed_index == 0)
     write_whole_file(folder / (name + "_tracking.csv"), tracking_csv(visual));
-  std::cerr << tracking_text(name, task.seed_index, visual);
+  std::cerr << fmt::format("{}, seed {}: {}\n", name, task.seed_index,
+                           TrackingCounts::of(visual).text());
   return visual.believed;
 }
 

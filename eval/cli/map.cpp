@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/error.hpp"
+#include "core/whole_file.hpp"
 #include "eval/cli/shared/choice_flags.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/folder_mapping.hpp"
+#include "eval/lab/folder_poses.hpp"
 #include "eval/lab/map_frame.hpp"
 #include "eval/map_files/clouds/cloud_file.hpp"
 #include "eval/recording/frame_selection.hpp"
@@ -27,13 +29,19 @@ namespace {
 
 constexpr auto kMasks = names_of(ClassMasks{});
 
+/// Where poses come from: groundtruth.txt, or the depth images.
+constexpr const char* kPosesOfFile = "file";
+constexpr const char* kVisualOdometry = "visual_odometry";
+constexpr const char* kVisualSlam = "visual_slam";
+
 struct MapVerbFlags {
   std::string folder, file, color_file, ply_file;
   LabelledFolderOptions reading;
   std::vector<double> range_m;
-  std::string study, method, frames, masks{kMasks.front()};
+  std::string study, method, frames, masks{kMasks.front()}, poses{kPosesOfFile};
   /// As the authors' released code has it, where neither a study nor flags say otherwise.
   ChoiceFlags<Segmentation> segmentation{"--segmentation", RegionGrowing{.radius_factor = 0.5}};
+  ChoiceFlags<MappedFrames> mapped{"--mapped", AllFrames{}};
   std::vector<std::string> detect, overrides;
   std::optional<double> voxel_m, K, threshold;
   std::vector<double> origin_m{0, 0, 0};
@@ -89,6 +97,7 @@ FolderMapping folder_mapping(const std::optional<Study>& study, const MapVerbFla
   }
   if (!study || flags.segmentation.given())
     mapping.mapping.segmentation = flags.segmentation.value();
+  if (!study || flags.mapped.given()) mapping.mapping.frames = flags.mapped.value();
   if (flags.voxel_m) mapping.mapping.voxel_m = *flags.voxel_m;
   if (flags.K) {
     auto* blend = std::get_if<BlendRule>(&mapping.mapping.fusion.rule);
@@ -103,7 +112,9 @@ FolderMapping folder_mapping(const std::optional<Study>& study, const MapVerbFla
 }
 
 std::string counts_text(const LabelledFolderCounts& labels, const MappedCounts& counts) {
-  std::string text = fmt::format("{} of {} label images mapped", counts.frames, labels.labels);
+  std::string text =
+      fmt::format("{} of {} label images mapped", counts.frames - counts.left_out, labels.labels);
+  if (counts.left_out > 0) text += fmt::format("; {} left out as no key frames", counts.left_out);
   if (labels.no_depth > 0)
     text += fmt::format("; {} without a depth image near in time", labels.no_depth);
   if (labels.no_pose > 0) text += fmt::format("; {} without a pose", labels.no_pose);
@@ -124,12 +135,32 @@ std::string class_lines(const SemanticMap& map, const ClassTable& table, double 
   return text;
 }
 
+/// Where the poses that were found are written.
+std::filesystem::path poses_file(const MapVerbFlags& flags) {
+  const std::filesystem::path map = flags.file;
+  return map.parent_path() / (map.stem().string() + "_poses.txt");
+}
+
+/// Finds the poses of a folder in its depth images, and warns where they are guessed.
+FolderPoses found_poses(const MapVerbFlags& flags, LabelledFolder& folder) {
+  Progress progress("map", "poses", flags.quiet);
+  FolderPoses found = find_poses(folder, flags.poses == kVisualSlam,
+                                 [&](int done, int all) { progress.show(done, all); });
+  folder.place(found.trajectory);
+  if (found.tracking.untracked() > 0)
+    std::cerr << fmt::format(
+        "mapscore: warning: of {} depth images the pose is a guess, the first at {} s; what was "
+        "mapped from there on may lie beside the rest\n",
+        found.tracking.untracked(), found.first_untracked_s.value_or(0.0));
+  return found;
+}
+
 /// A map and what is told of it.
 struct Mapped {
   SemanticMap map;
   ClassTable table;
   double threshold;
-  std::string text;
+  std::string text, poses = {};  ///< poses that were found, as TUM has them; else empty
 };
 
 std::vector<int> chosen_frames(const MapVerbFlags& flags, int count) {
@@ -187,6 +218,7 @@ Mapped mapped_folder(const MapVerbFlags& flags, const FramesDone& shown_done) {
   LabelledFolderOptions reading = flags.reading;
   reading.masks = static_cast<ClassMasks>(std::ranges::find(kMasks, flags.masks) - kMasks.begin());
   if (!flags.range_m.empty()) reading.range_m = std::pair(flags.range_m.at(0), flags.range_m.at(1));
+  reading.poses = flags.poses == kPosesOfFile;
   LabelledFolder folder(flags.folder, reading);
   if (!flags.detect.empty())
     folder.detect_as(detected_table(flags.detect, folder.table()).classes);
@@ -194,11 +226,18 @@ Mapped mapped_folder(const MapVerbFlags& flags, const FramesDone& shown_done) {
     folder.detect_as(detected_table(*study, folder.table()).classes);
   const FolderMapping mapping = folder_mapping(study, flags, folder.table());
   MappedCounts counts;
+  std::string poses, poses_text;
+  if (!reading.poses) {
+    const FolderPoses found = found_poses(flags, folder);
+    poses_text = fmt::format("{}: {}; positions believed to {:.2g} m and better\n", flags.poses,
+                             found.tracking.text(), found.sigma_m);
+    poses = trajectory_text(found.trajectory);
+  }
   SemanticMap map =
       map_folder(folder, chosen_frames(flags, folder.frame_count()), mapping, counts, shown_done);
   return {std::move(map), folder.table(),
           flags.threshold.value_or(default_threshold(mapping.mapping.fusion.rule)),
-          counts_text(folder.counts(), counts)};
+          poses_text + counts_text(folder.counts(), counts), std::move(poses)};
 }
 
 void map_recording(const MapVerbFlags& flags) {
@@ -207,18 +246,20 @@ void map_recording(const MapVerbFlags& flags) {
                  {"--ply", flags.ply_file, ".ply"}});
   Progress progress("map", "frames", flags.quiet);
   const auto shown_done = [&](int done, int all) { progress.show(done, all); };
-  const auto [map, table, threshold, text] = is_trial_folder(flags.folder)
-                                                 ? mapped_trial(flags, shown_done)
-                                                 : mapped_folder(flags, shown_done);
+  const auto [map, table, threshold, text, poses] = is_trial_folder(flags.folder)
+                                                        ? mapped_trial(flags, shown_done)
+                                                        : mapped_folder(flags, shown_done);
   if (map.voxels().empty() && !flags.quiet)
     std::cerr << "mapscore: note: the map has no voxel; do the classes occur in the labels, and do "
                  "poses, depth and --origin_m fit?\n";
-  const auto together = lock_outputs({flags.file, flags.color_file, flags.ply_file});
+  const std::string found_file = poses.empty() ? "" : poses_file(flags).string();
+  const auto together = lock_outputs({flags.file, flags.color_file, flags.ply_file, found_file});
+  if (!poses.empty()) write_whole_file(found_file, poses);
   map.save(flags.file);
   if (!flags.color_file.empty()) map.export_color(flags.color_file, table, threshold);
   if (!flags.ply_file.empty()) write_voxel_ply(flags.ply_file, map, table, threshold);
   std::cout << text << class_lines(map, table, threshold) << shown(flags.file) << '\n';
-  for (const std::string& file : {flags.color_file, flags.ply_file})
+  for (const std::string& file : {flags.color_file, flags.ply_file, found_file})
     if (!file.empty()) std::cout << shown(file) << '\n';
 }
 
@@ -246,6 +287,10 @@ void add_reading_flags(CLI::App& verb, MapVerbFlags& flags) {
   add("--max_offset_s", reading.max_offset_s,
       "Images and poses whose stamps are farther apart do not belong together [0.02]")
       ->check(finite_within(1e-6, 10));
+  add("--poses", flags.poses,
+      "groundtruth.txt (file), or found in the depth images, from the first one's camera or base: "
+      "visual_odometry, or visual_slam, which closes loops too [file]")
+      ->check(CLI::IsMember({kPosesOfFile, kVisualOdometry, kVisualSlam}));
   add("--frames", flags.frames, "Of the frames: 3,7,9 or first:end:step, from 0 [all]");
   verb.add_flag("--follow", reading.follow,
                 "Images may lie outside of FOLDER: links and paths in its lists are followed")
@@ -257,7 +302,8 @@ void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
     return verb.add_option(name, value, text)->group("Mapping");
   };
   add("--study", flags.study,
-      "Takes voxel size, detected classes, segmentation, place, fusion, occupancy and refinement "
+      "Takes voxel size, detected classes, segmentation, place, fusion, occupancy, frames and "
+      "refinement "
       "of this study, no faults; a frame is drawn once, at its pose");
   add("--set", flags.overrides, "A key of the study, path=value; may be repeated")
       ->allow_extra_args(false);
@@ -281,6 +327,7 @@ void add_map(CLI::App& program) {
       program, "map", "Map a recording of any origin, truth or not", map_recording);
   flags->verb = verb;
   flags->segmentation.add_to(*verb, "Mapping");
+  flags->mapped.add_to(*verb, "Mapping");
   verb->add_option("FOLDER", flags->folder,
                    "Folder with depth.txt, groundtruth.txt, color.txt or rgb.txt, and label/ or "
                    "label.txt; or one of `mapscore trial`")

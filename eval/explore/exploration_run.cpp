@@ -234,6 +234,7 @@ class ExplorationRun {
   void map_frame_into(const Frame& frame) {
     const Sight sight = sights_.of(frame);
     const PoseBelief belief = belief_.at_next_frame(drive_.log(), frame.stamp_s);
+    if (!mapper_.takes(sight, belief)) return;
     RandomStream draws(trial_seed(task_), "belief", {static_cast<std::uint64_t>(frame.index)});
     const std::vector<Segment> segments = mapper_.integrate(sight, belief, draws);
     if (objects_) objects_->add(segments, sight, belief, frame.stamp_s);

@@ -168,24 +168,44 @@ std::optional<Pose> LabelledFolder::pose_near(const std::vector<TrajectoryPose>&
 
 void LabelledFolder::pair_frames() {
   const std::vector<StampedImage> labels = label_images();
-  const std::vector<StampedImage> depth = read_stamp_list(folder_ / "depth.txt");
-  const std::vector<TrajectoryPose> trajectory = read_trajectory(folder_ / "groundtruth.txt");
+  depth_ = read_stamp_list(folder_ / "depth.txt");
   const std::vector<Association> pairs =
-      associate(stamps_of(labels), stamps_of(depth), options_.max_offset_s);
+      associate(stamps_of(labels), stamps_of(depth_), options_.max_offset_s);
   counts_.labels = static_cast<int>(labels.size());
   counts_.no_depth = static_cast<int>(labels.size() - pairs.size());
-  for (const Association& pair : pairs) {
-    const StampedImage& image = depth[pair.second];
-    if (const auto pose = pose_near(trajectory, image.stamp_s))
-      frames_.push_back({labels[pair.first].path, image, *pose});
-    else
-      ++counts_.no_pose;
+  for (const Association& pair : pairs)
+    frames_.push_back({labels[pair.first].path, depth_[pair.second], Pose::Identity()});
+  if (options_.poses) {
+    const fs::path poses = folder_ / "groundtruth.txt";
+    if (!fs::is_regular_file(poses))
+      refuse(poses,
+             "is missing; give --poses visual_odometry, or visual_slam, which finds them in "
+             "the depth images");
+    place(read_trajectory(poses));
+  } else if (frames_.empty()) {
+    place({});
   }
+  check_images();
+}
+
+void LabelledFolder::place(const std::vector<TrajectoryPose>& trajectory) {
+  std::vector<LabelledDepth> placed;
+  for (LabelledDepth& frame : frames_)
+    if (const auto pose = pose_near(trajectory, frame.depth.stamp_s)) {
+      frame.T_map_base = *pose;
+      placed.push_back(std::move(frame));
+    } else {
+      ++counts_.no_pose;
+    }
+  frames_ = std::move(placed);
   if (frames_.empty())
     refuse(folder_,
            "no frame left: of {} label images {} have no depth image within {} s, {} no pose; mend "
            "the stamps or give --max_offset_s",
            counts_.labels, counts_.no_depth, options_.max_offset_s, counts_.no_pose);
+}
+
+void LabelledFolder::check_images() const {
   for (const LabelledDepth& frame : frames_)
     for (const std::string& path : {frame.label, frame.depth.path}) {
       if (!options_.follow) check_inside(folder_, path, kMendOutside);
@@ -233,8 +253,8 @@ void LabelledFolder::check_cameras() const {
 
 Frame LabelledFolder::read(int index, ClassTable& table) const {
   const LabelledDepth& source = at(index);
-  const CameraModel &color = calibration_.color, &depth = calibration_.depth;
-  const fs::path label_file = folder_ / source.label, depth_file = folder_ / source.depth.path;
+  const CameraModel& color = calibration_.color;
+  const fs::path label_file = folder_ / source.label;
   Frame frame;
   frame.index = frame.depth_index = index;
   frame.stamp_s = source.depth.stamp_s;
@@ -244,11 +264,17 @@ Frame LabelledFolder::read(int index, ClassTable& table) const {
   LabelledImage labelled = instances_of(label, classes_, options_.masks);
   frame.label = labelled.instances;
   table = std::move(labelled.table);
-  frame.depth =
-      in_our_units(decode_grey16_png(read_sized(depth_file, depth, "depth"),
-                                     {depth.width_px, depth.height_px}, depth_file.string()),
-                   options_.depth_units_per_m);
+  frame.depth = read_depth(source.depth);
   return frame;
+}
+
+cv::Mat1w LabelledFolder::read_depth(const StampedImage& image) const {
+  const CameraModel& camera = calibration_.depth;
+  if (!options_.follow) check_inside(folder_, image.path, kMendOutside);
+  const fs::path file = folder_ / image.path;
+  return in_our_units(decode_grey16_png(read_sized(file, camera, "depth"),
+                                        {camera.width_px, camera.height_px}, file.string()),
+                      options_.depth_units_per_m);
 }
 
 }  // namespace mapscore::eval

@@ -25,6 +25,7 @@ struct LabelledFolderOptions {
   double max_offset_s = 0.02;    ///< stamps farther apart do not belong together
   bool follow = false;           ///< images may lie outside of the folder: links, `..`
   double max_pose_gap_s = 0.25;  ///< poses are interpolated between lines at most this far apart
+  bool poses = true;             ///< read groundtruth.txt; else `place` gives the poses
 };
 
 /// Frames that a folder holds, and why the others are left out.
@@ -51,6 +52,15 @@ class LabelledFolder {
   void detect_as(const std::vector<SemanticClass>& classes) { classes_.table.classes = classes; }
   [[nodiscard]] double stamp_s(int index) const { return at(index).depth.stamp_s; }
 
+  /// Gives the frames of a folder that is read without poses theirs; those that the trajectory does
+  /// not reach are left out. Throws Error where none is left.
+  void place(const std::vector<TrajectoryPose>& trajectory);
+
+  /// All depth images of the folder by their stamps, which ascend, also those without labels.
+  [[nodiscard]] const std::vector<StampedImage>& depth_images() const { return depth_; }
+  /// One of them, in 1/5000 m. Throws Error where it is missing, damaged or of another size.
+  [[nodiscard]] cv::Mat1w read_depth(const StampedImage& image) const;
+
   /// A frame with label and depth (in 1/5000 m); instances of the frame go to `table`. Throws Error
   /// where an image is damaged or of another size.
   [[nodiscard]] Frame read(int index, ClassTable& table) const;
@@ -69,6 +79,7 @@ class LabelledFolder {
   [[nodiscard]] std::optional<Pose> pose_near(const std::vector<TrajectoryPose>& trajectory,
                                               double stamp_s) const;
   void pair_frames();
+  void check_images() const;
   void size_cameras();
   void check_cameras() const;
 
@@ -76,6 +87,7 @@ class LabelledFolder {
   LabelledFolderOptions options_;
   Calibration calibration_;
   LabelClasses classes_;
+  std::vector<StampedImage> depth_;
   std::vector<LabelledDepth> frames_;
   LabelledFolderCounts counts_;
 };

@@ -19,18 +19,26 @@ struct Given {
   cv::Mat3b color = {};  ///< empty where no refinement reads it
 };
 
+void take_into(Given& given, Mapper& mapper, MappedCounts& counts) {
+  if (!mapper.takes(given.sight, given.belief)) {
+    ++counts.left_out;
+    return;
+  }
+  for (const Segment& found : mapper.integrate(given.sight, given.belief, given.draws)) {
+    ++counts.detections;
+    counts.points += static_cast<std::int64_t>(found.points.size());
+    counts.empty += found.skipped == SkipReason::none ? 0 : 1;
+  }
+  if (!given.color.empty()) mapper.add_colours(given.sight, given.color, given.belief);
+}
+
 SemanticMap map_frames(const std::vector<int>& frames, const std::function<Given(int)>& give,
                        std::size_t class_count, const FolderMapping& mapping, MappedCounts& counts,
                        const FramesDone& shown) {
   Mapper mapper(mapping.mapping, class_count);
   for (const int position : frames) {
     Given given = give(position);
-    for (const Segment& found : mapper.integrate(given.sight, given.belief, given.draws)) {
-      ++counts.detections;
-      counts.points += static_cast<std::int64_t>(found.points.size());
-      counts.empty += found.skipped == SkipReason::none ? 0 : 1;
-    }
-    if (!given.color.empty()) mapper.add_colours(given.sight, given.color, given.belief);
+    take_into(given, mapper, counts);
     ++counts.frames;
     shown(static_cast<int>(counts.frames), static_cast<int>(frames.size()));
   }

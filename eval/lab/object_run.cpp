@@ -19,6 +19,7 @@ ObjectRun::ObjectRun(const Task& task, const Recording& recording, const ClassTa
       sights_(task, recording, table),
       beliefs_(poses.beliefs(task, sights_.depth_of_frames())),
       segmentation_(task.config.methods.front().segmentation),
+      choice_(task.config.methods.front().frames),
       map_frame_(map_frame(task.config, task.seed_index)),
       options_(options),
       map_(table.classes.size(), options.map),
@@ -50,12 +51,13 @@ ObjectChanges ObjectRun::advance(const Frame& frame) {
   const Calibration& truth = recording_.info().calibration;
   const Sight sight = sights_.of(frame);
   const Calibration& believed = sight.believed();
-  const Pose T_map_depth =
-      mean_sensor_pose(beliefs_.at(static_cast<std::size_t>(frame.index)), believed);
+  const PoseBelief& belief = beliefs_.at(static_cast<std::size_t>(frame.index));
+  const Pose T_map_depth = mean_sensor_pose(belief, believed);
   const PosedDepth view{believed.depth, T_map_depth, believed.range_min_m, believed.range_max_m,
                         sight.depth()};
   if (!frame.depth_label.empty())
     seen_.add(frame, truth, map_frame_.T_map_world() * frame.T_world_base);
+  if (!choice_.takes(sight.depth(), believed, belief.T_map_odom * belief.T_odom_base)) return {};
   const std::vector<Segment> segments = segment(sight, segmentation_, map_frame_.edge_m, false);
   return map_.integrate(object_detections(segments, T_map_depth, options_), frame.stamp_s, &view);
 }

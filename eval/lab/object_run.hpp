@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "core/mapping/mapped_frames.hpp"
 #include "core/objects/object_map.hpp"
 #include "core/placement/pose_belief.hpp"
 #include "core/segmentation/segmentation.hpp"
@@ -60,6 +61,7 @@ class ObjectRun {
   Sights sights_;
   std::vector<PoseBelief> beliefs_;  ///< by frame
   Segmentation segmentation_;
+  FrameChoice choice_;
   MapFrame map_frame_;
   ObjectRunOptions options_;
   ObjectMap map_;

@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace mapscore::eval {
 namespace {
 
@@ -122,14 +124,11 @@ VisualTrajectory visual_trajectory(const Recording& recording, const Task& task,
                                    const std::function<void(int, int)>& progress) {
   const LocalizationSettings& settings = task.config.localization;
   if (settings.visual.visual.wheels) check_logs(recording, settings.source);
-  const Pose start = recording.T_world_base_of_depth(0);
-  const Pose level =
-      Eigen::Translation3d(0.0, 0.0, start.translation().z()) * spatial(planar(start));
   return run_visual(recording,
                     {visual_of(settings), settings.visual.visual,
                      believed_calibration(recording.info().calibration, task),
                      task.config.faults.depth.dose(), trial_seed(task)},
-                    level, progress);
+                    recording.T_world_base_of_depth(0), progress);
 }
 
 BelievedTrajectory believed_trajectory(const Recording& recording, const Task& task,
@@ -153,28 +152,34 @@ BelievedTrajectory believed_trajectory(const Recording& recording, const Task& t
   return believed;
 }
 
-std::vector<PoseBelief> PoseSources::beliefs(const Task& task, const std::vector<int>& depth_of) {
+TrialPoses PoseSources::poses(const Task& task, const std::vector<int>& depth_of) {
   const Pose T_map_world = map_frame(task.config, task.seed_index).T_map_world();
   const PoseSource source = task.config.localization.source;
   if (source == PoseSource::gaussian || source == PoseSource::truth)
-    return gaussian(recording_, task, depth_of, T_map_world);
-  std::vector<PoseBelief> beliefs = *beliefs_.get(poses_key(task), [&] {
-    return std::make_shared<const std::vector<PoseBelief>>(believed_at(task, depth_of));
+    return {gaussian(recording_, task, depth_of, T_map_world)};
+  TrialPoses poses = *beliefs_.get(poses_key(task), [&] {
+    return std::make_shared<const TrialPoses>(believed_at(task, depth_of));
   });
-  for (PoseBelief& belief : beliefs) belief.T_map_odom = T_map_world * belief.T_map_odom;
-  return beliefs;
+  for (PoseBelief& belief : poses.beliefs) belief.T_map_odom = T_map_world * belief.T_map_odom;
+  return poses;
 }
 
-std::vector<PoseBelief> PoseSources::believed_at(const Task& task,
-                                                 const std::vector<int>& depth_of) try {
-  const BelievedTrajectory believed = believed_trajectory(recording_, task, grid(task).get());
-  const double reported_scale = task.config.faults.pose.reported_scale;
-  std::vector<PoseBelief> beliefs;
-  for (const double stamp_s : stamps_of(recording_, task, depth_of)) {
-    beliefs.push_back(believed.at(stamp_s));
-    beliefs.back().covariance *= reported_scale;
+TrialPoses PoseSources::believed_at(const Task& task, const std::vector<int>& depth_of) try {
+  TrialPoses poses;
+  BelievedTrajectory believed;
+  if (is_visual(task.config.localization.source)) {
+    VisualTrajectory visual = visual_trajectory(recording_, task);
+    poses.tracking = TrackingCounts::of(visual);
+    believed = std::move(visual.believed);
+  } else {
+    believed = believed_trajectory(recording_, task, grid(task).get());
   }
-  return beliefs;
+  const double reported_scale = task.config.faults.pose.reported_scale;
+  for (const double stamp_s : stamps_of(recording_, task, depth_of)) {
+    poses.beliefs.push_back(believed.at(stamp_s));
+    poses.beliefs.back().covariance *= reported_scale;
+  }
+  return poses;
 } catch (const Error& error) {
   const LocalizationSettings& settings = task.config.localization;
   if (settings.source != PoseSource::trajectory) throw;

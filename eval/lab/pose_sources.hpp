@@ -10,13 +10,21 @@
 #include "eval/localization/visual_run.hpp"
 #include "eval/recording/recording.hpp"
 #include "eval/results/plan.hpp"
+#include "eval/results/tracking_counts.hpp"
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace mapscore::eval {
+
+/// What a trial's source of poses says.
+struct TrialPoses {
+  std::vector<PoseBelief> beliefs;              ///< by frame
+  std::optional<TrackingCounts> tracking = {};  ///< of a source that looks at depth images
+};
 
 /// Computes the pose beliefs of a recording's trials. Beliefs that several trials share, such as a
 /// particle filter's, are computed once; the last kHeld are kept. Safe to use from several threads:
@@ -31,19 +39,22 @@ class PoseSources {
   /// covariances are those that are reported. Of a Gaussian source, which has no odometry, odom is
   /// map. `depth_of`: the depth image of every frame. Throws Error when the recording has no
   /// odometry or scans for the source, or a file is refused or does not reach a frame.
-  [[nodiscard]] std::vector<PoseBelief> beliefs(const Task& task, const std::vector<int>& depth_of);
+  [[nodiscard]] TrialPoses poses(const Task& task, const std::vector<int>& depth_of);
+  [[nodiscard]] std::vector<PoseBelief> beliefs(const Task& task,
+                                                const std::vector<int>& depth_of) {
+    return poses(task, depth_of).beliefs;
+  }
 
   /// How many are kept at present.
   [[nodiscard]] std::size_t held() { return beliefs_.held(); }
 
  private:
-  [[nodiscard]] std::vector<PoseBelief> believed_at(const Task& task,
-                                                    const std::vector<int>& depth_of);
+  [[nodiscard]] TrialPoses believed_at(const Task& task, const std::vector<int>& depth_of);
   /// Made once for all tasks that share it; none where the source needs none.
   [[nodiscard]] std::shared_ptr<const OccupancyGrid> grid(const Task& task);
 
   const Recording& recording_;
-  SharedCache<std::string, std::shared_ptr<const std::vector<PoseBelief>>> beliefs_{kHeld};
+  SharedCache<std::string, std::shared_ptr<const TrialPoses>> beliefs_{kHeld};
   SharedCache<std::string, std::shared_ptr<const OccupancyGrid>> grids_{kHeld};
 };
 

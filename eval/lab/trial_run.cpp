@@ -35,7 +35,6 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       table_(table),
       true_(recording.info().calibration),
       sights_(sights ? std::move(sights) : std::make_shared<Sights>(task, recording, table)),
-      beliefs_(poses.beliefs(task, sights_->depth_of_frames())),
       mapping_(mapping_of(task.config, table)),
       threshold_(
           task.config.score.threshold.value.value_or(default_threshold(mapping_.fusion.rule))),
@@ -44,6 +43,9 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
       map_frame_(map_frame(task.config, task.seed_index)),
       truths_(truths),
       mapper_(mapping_, table.classes.size()) {
+  TrialPoses believed = poses.poses(task, sights_->depth_of_frames());
+  beliefs_ = std::move(believed.beliefs);
+  result_.accounting.tracking = believed.tracking;
   result_.counts = zero_counts(table_.classes.size(), score_options_);
   if (score_options_.asked.poses) result_.counts[kBackground].poses = score_poses(recording);
   if (task.config.score.unit == ScoreUnit::map) look_up_truth({});
@@ -70,11 +72,14 @@ void TrialRun::advance(const Frame& frame, const Sight& sight) {
   RandomStream draws(trial_seed(task_), "belief", {static_cast<std::uint64_t>(frame.index)});
   if (task_.labels == Labels::truth) {
     mapper_.fuse(observe_truth(frame), sight, belief, draws);
-  } else {
+  } else if (mapper_.takes(sight, belief)) {
     count(mapper_.integrate(sight, belief, draws), truths_.boxes_of(frame), counts);
-    if (score_options_.asked.labels) score_labels(frame, sight, counts);
     if (reads_colour(task_.config)) mapper_.add_colours(sight, frame.color, belief);
+  } else {
+    ++result_.accounting.frames_left_out;
   }
+  if (score_options_.asked.labels && task_.labels == Labels::detected)
+    score_labels(frame, sight, counts);
   ++result_.accounting.frames;
   if (by_itself) {
     look_up_truth(frame.depth_index);

@@ -45,6 +45,7 @@ LineDigest::LineDigest(ResultLine& line, const ClassTable& table,
   for (std::size_t seed = 0; seed < seeds_; ++seed) {
     TrialResult result = line.in_store(seed);
     pool_into(line.pooled, result.counts);
+    accountings_.push_back(result.accounting);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       std::vector<double>& values = by_group[g].emplace_back();
       for (const Metric& metric : metrics_of_group(result.counts, table, groups[g]))

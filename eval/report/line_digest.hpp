@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "eval/results/store.hpp"
 #include "eval/score/counts.hpp"
 #include "eval/score/metric.hpp"
 
@@ -34,6 +35,8 @@ class LineDigest {
   [[nodiscard]] std::optional<std::vector<Metric>> pooled_metrics(std::string_view group) const;
   /// Of the detected classes together, over all seeds; plain counts, curve and labels alone.
   [[nodiscard]] const ClassCounts& pooled() const { return pooled_; }
+  /// Of each seed.
+  [[nodiscard]] const std::vector<Accounting>& accountings() const { return accountings_; }
 
  private:
   struct Group {
@@ -50,6 +53,7 @@ class LineDigest {
   std::size_t seeds_;
   std::vector<Group> groups_;
   ClassCounts pooled_;
+  std::vector<Accounting> accountings_;
 };
 
 }  // namespace mapscore::eval

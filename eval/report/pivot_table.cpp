@@ -4,6 +4,7 @@
 #include "eval/report/pivot_table.hpp"
 
 #include "core/error.hpp"
+#include "eval/report/accounting_figures.hpp"
 #include "eval/report/axes.hpp"
 #include "files/suggestion.hpp"
 
@@ -140,10 +141,15 @@ class Pivot {
     Dimension dimension{kMetric, {kMetric}, {}};
     for (const std::string& metric : metrics) {
       for (const Value& group : dimensions_.back().values)
-        check_metric(summary_, group.name, metric);
+        if (!is_accounting(metric)) check_metric(summary_, group.name, metric);
       add_value(dimension, metric, metric_text(metric, reader_));
     }
     dimensions_.push_back(std::move(dimension));
+  }
+
+  [[nodiscard]] static bool is_accounting(const std::string& metric) {
+    static const std::vector<std::string> names = accounting_names();
+    return std::ranges::count(names, metric) > 0;
   }
 
   static void add_value(Dimension& dimension, const std::string& name, const std::string& text) {
@@ -241,12 +247,16 @@ class Pivot {
     for (std::size_t d = 0; d < axes; ++d)
       doses.insert(doses.end(), value(d).doses.begin(), value(d).doses.end());
     const auto line = lines_.find({value(axes).name, doses});
+    const std::string& metric = value(axes + 2).name;
+    const bool count = is_accounting(metric);
     Estimate figure;
     if (line != lines_.end())
-      figure = estimate(*line->second, summary_.table, value(axes + 1).name, value(axes + 2).name);
-    const auto text = reader_ == Reader::program
-                          ? nine_digits
-                          : [](const std::optional<double>& number) { return cell_text(number); };
+      figure = count ? accounting_estimate(*line->second, metric)
+                     : estimate(*line->second, summary_.table, value(axes + 1).name, metric);
+    const auto text = [&](const std::optional<double>& number) {
+      if (reader_ == Reader::program) return nine_digits(number);
+      return count ? cell_text(number, "{:.6g}") : cell_text(number);
+    };
     cells.push_back(text(figure.pooled));
     if (figure.over_seeds.kind != SpreadKind::none) kinds.insert(name_of(figure.over_seeds.kind));
     if (with_spread())
@@ -272,6 +282,8 @@ class Pivot {
                           ? "low, high: least and greatest of the seeds"
                           : "low, high: 95 % interval of the mean over the seeds");
     if (const std::string note = summary_.lattice_note(); !note.empty())
+      lines.push_back("note: " + note);
+    if (const std::string note = tracking_note(summary_); !note.empty())
       lines.push_back("note: " + note);
     return lines;
   }

@@ -29,7 +29,7 @@ ResultLine sum_of(std::vector<ResultLine> parts, Doses doses, const ClassTable& 
       const auto place = std::ranges::find(part.seeds, seeds.at(n)) - part.seeds.begin();
       const TrialResult result = part.in_store(static_cast<std::size_t>(place));
       pool_into(sum.counts, result.counts);
-      add_counts(sum.accounting, result.accounting);
+      sum.accounting += result.accounting;
     }
     return sum;
   };

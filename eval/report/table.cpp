@@ -4,6 +4,7 @@
 #include "eval/report/table.hpp"
 
 #include "core/error.hpp"
+#include "eval/report/accounting_figures.hpp"
 #include "eval/report/axes.hpp"
 #include "eval/report/best_threshold.hpp"
 #include "files/suggestion.hpp"
@@ -38,6 +39,8 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
       "at dose zero"};
   if (!summary.interim.empty()) caption.insert(caption.begin(), summary.interim);
   if (const std::string note = summary.lattice_note(); !note.empty())
+    caption.push_back("note: " + note);
+  if (const std::string note = tracking_note(summary); !note.empty())
     caption.push_back("note: " + note);
   if (summary.builds.size() > 1)
     caption.push_back(fmt::format("note: trials of {} builds stand side by side; sweep again",

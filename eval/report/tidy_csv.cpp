@@ -80,6 +80,9 @@ void write_result(const ResultLine& line, std::size_t seed, const StudySummary& 
   }
   for (const CountField<Accounting>& field : Accounting::counts())
     write("all", std::string(field.name), std::to_string(result.accounting.*field.member));
+  if (const auto& tracking = result.accounting.tracking)
+    for (const CountField<TrackingCounts>& field : TrackingCounts::counts())
+      write("all", std::string(field.name), std::to_string((*tracking).*field.member));
 }
 
 void write_line(const ResultLine& line, const StudySummary& summary, std::ostream& out) {

@@ -109,6 +109,8 @@ json counts_to_json(const ClassCounts& counts) {
 std::string to_json(const TrialResult& result) {
   json object;
   object["accounting"] = counts_to_json(result.accounting);
+  if (const auto& tracking = result.accounting.tracking)
+    object["accounting"]["tracking"] = counts_to_json(*tracking);
   json& classes = object["classes"] = json::array();
   for (auto counts = result.counts.begin(); counts != result.counts.end(); ++counts) {
     const auto alike = std::find(result.counts.begin(), counts, *counts);

@@ -113,6 +113,14 @@ TrialResult result_of(const std::string& bytes, const std::filesystem::path& fil
 
 }  // namespace
 
+Accounting& Accounting::operator+=(const Accounting& other) {
+  add_counts(*this, other);
+  if (!other.tracking) return *this;
+  if (!tracking) tracking.emplace();
+  add_counts(*tracking, *other.tracking);
+  return *this;
+}
+
 void ResultStore::Close::operator()(sqlite3* database) const {
   sqlite3_close(database);
 }

@@ -5,6 +5,7 @@
 
 #include "core/segmentation/segment.hpp"
 #include "eval/results/build_identity.hpp"
+#include "eval/results/tracking_counts.hpp"
 #include "eval/score/counts.hpp"
 #include "eval/score/metric.hpp"
 
@@ -34,6 +35,8 @@ struct Accounting {
   std::int64_t points = 0;            ///< kept by the segmentation
   std::int64_t map_voxels = 0;        ///< in the map at the end; of single frames, their sum
   std::int64_t hits_beyond_span = 0;  ///< hits on voxels that the octree cannot hold; left out
+  std::int64_t frames_left_out = 0;   ///< of `frames`: no key frames, so not mapped
+  std::optional<TrackingCounts> tracking = {};  ///< where the poses come from depth images
 
   static auto counts() {
     return std::to_array<CountField<Accounting>>({
@@ -46,8 +49,10 @@ struct Accounting {
         {"points", &Accounting::points},
         {"map_voxels", &Accounting::map_voxels},
         {"hits_beyond_span", &Accounting::hits_beyond_span},
+        {"frames_left_out", &Accounting::frames_left_out},
     });
   }
+  Accounting& operator+=(const Accounting& other);
   /// The count of the detections that were skipped for a reason; nullptr for none.
   static std::int64_t Accounting::*of(SkipReason reason) {
     constexpr auto kSkipped = std::to_array<std::int64_t Accounting::*>(

@@ -171,6 +171,11 @@ void take_part(dom::object object, const char* name, std::optional<Part>& part) 
   if (object.at_key(name).get(there) == simdjson::SUCCESS) take_counts(there, part.emplace());
 }
 
+void take_counts(dom::object object, Accounting& accounting) {
+  take_counts<Accounting>(object, accounting);
+  take_part(object, "tracking", accounting.tracking);
+}
+
 void take_counts(dom::object object, ClassCounts& counts) {
   take_counts<ClassCounts>(object, counts);
   for (const dom::element at : dom::array(object["at_tolerance"])) {

@@ -65,8 +65,13 @@ void check_command(const Study& study, const MethodSettings& method, const Blame
 void check_methods(const Study& study, const Blame& blame) {
   if (study.methods.empty())
     blame("methods", "there is no method; write methods: {direct: {segmentation: {direct: {}}}}");
-  for (const MethodSettings& method : study.methods)
+  for (const MethodSettings& method : study.methods) {
     if (method.command) check_command(study, method, blame);
+    if (study.score.unit == ScoreUnit::frame && !std::holds_alternative<AllFrames>(method.frames))
+      blame(fmt::format("methods.{}.frames", method.name),
+            "chooses frames of a map, and score.unit frame scores each frame by itself; leave it "
+            "out, or write unit: map");
+  }
 }
 
 }  // namespace mapscore::eval

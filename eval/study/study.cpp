@@ -151,7 +151,8 @@ Mapping mapping_of(const Study& study, const ClassTable& table) {
           .segmentation = method.segmentation,
           .place = place_of(study, method),
           .fusion = for_classes(study.fusion, table),
-          .occupancy = study.occupancy};
+          .occupancy = study.occupancy,
+          .frames = method.frames};
 }
 
 bool reads_colour(const Study& study) {

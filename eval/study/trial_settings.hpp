@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/fusion/fusion_rule.hpp"
+#include "core/mapping/mapped_frames.hpp"
 #include "core/mapping/mapper.hpp"
 #include "core/parameters.hpp"
 #include "core/refinement/dense_crf.hpp"
@@ -194,6 +195,7 @@ struct MethodSettings {
   std::optional<Place> place{};  ///< empty: the study's
   MethodFusion fusion{};
   Refinement refinement{};
+  MappedFrames frames{};
   std::optional<std::string> title{};      ///< for people; changes no result
   std::optional<CommandMethod> command{};  ///< in place of all above but the name
 
@@ -215,6 +217,7 @@ struct MethodSettings {
     visit(s.fusion, later({"fusion", "how this method's observations change the map"}));
     visit(s.refinement,
           later({"refinement", "what happens to this method's map before it is scored"}));
+    visit(s.frames, later({"frames", "which of the frames this method maps", {}, "mapped frames"}));
   }
   bool operator==(const MethodSettings&) const = default;
 };

@@ -16,7 +16,7 @@ struct FloorGridOptions {
   double height_m = 0.2;                              ///< of the cut, in the map frame: the lidar's
   double resolution_m = 0.02;                         ///< edge of a cell
   Eigen::Vector2d start_m = Eigen::Vector2d::Zero();  ///< in the map frame: where the robot may be
-  std::vector<Eigen::Vector2d> way_m;                 ///< in the map frame: what the grid must hold
+  std::vector<Eigen::Vector2d> way_m = {};            ///< in the map frame: what the grid must hold
   int jobs = 1;  ///< threads; the result does not depend on them
 };
 

@@ -159,6 +159,19 @@ TEST_F(MapFolder, KeysOfTheStudyCanBeChanged) {
   expect_refused(map("ours", "no.ot", {"--set", "voxel_m=0.1"}), {"--set", "--study"});
 }
 
+// The frames lie 0.104 m apart.
+TEST_F(MapFolder, KeyFramesAreChosenByFlags) {
+  const Outcome mapped = map(
+      "ours", "keys.ot", {"--mapped", "key_frames", "--key_way_m", "0.15", "--key_overlap", "0"});
+  expect_done(mapped);
+  EXPECT_THAT(mapped.out, ::testing::HasSubstr("2 of 4 label images mapped; 2 left out"));
+  expect_done(map("ours", "named.ot", {"--frames", "0,2"}));
+  EXPECT_TRUE(bytes_of(path("keys.ot")) == bytes_of(path("named.ot")));
+  expect_refused(map("ours", "map.ot", {"--key_way_m", "0.15"}), {"--key_way_m", "--mapped"});
+  expect_refused(map("ours", "map.ot", {"--mapped", "key_frames", "--key_way_m", "0"}),
+                 {"--key_way_m", "above 0"});
+}
+
 TEST_F(MapFolder, TakesAllOfTheStudyThatItCanAndRefusesTheRest) {
   write_text(path("study.yaml"),
              "recording: ours\nmethods: {direct: {segmentation: {direct: {}}}}\n");

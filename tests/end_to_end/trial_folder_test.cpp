@@ -58,6 +58,25 @@ TEST_F(TrialVerb, FolderIsMappedAsRunMapsTheTrial) {
   }
 }
 
+// Under noise of depth and pose, whose draws are numbered by frame.
+TEST_F(TrialVerb, KeyFramesAreMappedFromAFolderAsByRunAndAsTheyAreNamed) {
+  const std::vector<std::string> faults{"--set", "faults.pose.sigma_xy_m=0.002", "--set",
+                                        "faults.depth.axial=2"};
+  std::vector<std::string> all = faults, keys = faults;
+  keys.insert(keys.end(),
+              {"--set", "methods.direct.frames={key_frames: {key_way_m: 0.15, key_overlap: 0}}"});
+  expect_done(trial("keys", keys));
+  const Outcome mapped = map("keys", "keys.ot");
+  expect_done(mapped);
+  EXPECT_THAT(mapped.out, HasSubstr("2 of 4 label images mapped; 2 left out as no key frames"));
+  EXPECT_TRUE(bytes_of(path("keys.ot")) == map_of_run(keys));
+  expect_done(trial("all", all));
+  expect_done(map("all", "named.ot", {"--frames", "0,2"}));
+  EXPECT_TRUE(bytes_of(path("keys.ot")) == bytes_of(path("named.ot")));
+  expect_done(map("all", "all.ot"));
+  EXPECT_TRUE(bytes_of(path("keys.ot")) != bytes_of(path("all.ot")));
+}
+
 TEST_F(TrialVerb, CellIsOneOfTheSweep) {
   expect_done(trial("zero"));
   expect_done(trial("dosed", {"--cell", "magnitude_m=0.03"}));

@@ -45,7 +45,9 @@ void add_pivot(CLI::App& verb, TableFlags& flags) {
                   "Only at path=value of a swept path or of its end; may be repeated")
       ->allow_extra_args(false);
   add_list(verb, "--method", flags.selection.methods, "Only these methods, by commas [all]");
-  auto* metric = add_list(verb, "--metric", flags.question.metrics, "Figures, by commas [f1]");
+  auto* metric = add_list(verb, "--metric", flags.question.metrics,
+                          "Figures, by commas, or counts of the accounting as frames_mapped, "
+                          "map_voxels, images_lost [f1]");
   auto* rows =
       add_list(verb, "--rows", flags.question.rows,
                "What varies over the rows: swept paths (over ranges: point), method, class, "

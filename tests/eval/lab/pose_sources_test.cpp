@@ -4,7 +4,9 @@
 #include "eval/lab/pose_sources.hpp"
 
 #include "core/localization/occupancy_grid.hpp"
+#include "eval/lab/bench.hpp"
 #include "eval/lab/map_frame.hpp"
+#include "eval/lab/trial_run.hpp"
 #include "eval/localization/believed_trajectory.hpp"
 #include "eval/recording/grid_file.hpp"
 #include "eval/truth/floor_grid.hpp"
@@ -124,6 +126,36 @@ TEST_F(PoseSourcesTest, AreTheSameForEveryMethodAndThread) {
   for (const auto& beliefs : made)
     for (int frame = 0; frame < 4; ++frame)
       EXPECT_EQ(mean_of(beliefs[frame]).matrix(), mean_of(made[0][frame]).matrix());
+}
+
+TEST_F(PoseSourcesTest, CountHowDepthImagesWereTracked) {
+  PoseSources sources(recording());
+  const Task visual = task(source("visual_odometry"));
+  const TrialPoses poses = sources.poses(visual, {0, 1, 2, 3});
+  ASSERT_TRUE(poses.tracking);
+  EXPECT_EQ(*poses.tracking, TrackingCounts::of(visual_trajectory(recording(), visual)));
+  EXPECT_EQ(poses.tracking->images(), recording().depth_count());
+  EXPECT_EQ(poses.tracking->images_started, 1);
+  EXPECT_EQ(sources.poses(visual, {0, 1, 2, 3}).tracking, poses.tracking) << "kept with the poses";
+  for (const char* other : {"truth", "gaussian", "odometry", "particle_filter"})
+    EXPECT_FALSE(sources.poses(task(source(other)), {0, 1, 2, 3}).tracking) << other;
+}
+
+TEST_F(PoseSourcesTest, TrackingStandsInTheAccountingOfATrialAndNotOfItsCeilings) {
+  const Study study = study_of(source("visual_odometry"));
+  const Plan plan = plan_of(study, recording().content_hash());
+  const PlannedTrial trial = plan.trials[0];
+  Bench bench(recording(), recording().info().table, false, std::size_t{1} << 24);
+  const auto accounting = [&](std::size_t position) {
+    const Task task = plan.tasks[position];
+    const std::unique_ptr<TrialRun> run = bench.start(task);
+    bench.run(*run);
+    return run->finish().accounting;
+  };
+  ASSERT_TRUE(accounting(trial.task).tracking);
+  EXPECT_EQ(accounting(trial.task).tracking->images(), recording().depth_count());
+  EXPECT_FALSE(accounting(trial.registration_ceiling).tracking);
+  EXPECT_FALSE(accounting(trial.lattice_ceiling).tracking);
 }
 
 TEST_F(PoseSourcesTest, ReportAScaledCovariance) {

@@ -71,6 +71,23 @@ TEST_F(Store, GivesBackInstancesWhereTheyWereScored) {
   EXPECT_EQ(store.find("without")->counts, result_of(10).counts);
 }
 
+TEST_F(Store, GivesBackHowPosesWereTracked) {
+  TrialResult with = result_of(10), zero = result_of(10);
+  with.accounting.frames_left_out = 4;
+  with.accounting.tracking = TrackingCounts{1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  zero.accounting.tracking = TrackingCounts{};
+  ResultStore store = ResultStore::open(file("a.sqlite"));
+  store.add("with", "", with);
+  store.add("zero", "", zero);
+  store.add("without", "", result_of(10));
+  EXPECT_EQ(store.find("with")->accounting, with.accounting);
+  EXPECT_EQ(store.find("zero")->accounting, zero.accounting);
+  EXPECT_EQ(store.find("without")->accounting, result_of(10).accounting);
+  EXPECT_EQ(to_json(result_of(10)).find("tracking"), std::string::npos)
+      << "other trials are stored as before";
+  EXPECT_EQ(to_json(result_of(10)).find("left_out"), std::string::npos);
+}
+
 /// As it was written before results were packed: every count, a list for each step.
 TEST_F(Store, ReadsRowsOfPlainJsonFromBefore) {
   const char* text =

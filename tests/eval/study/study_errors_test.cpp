@@ -69,6 +69,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"misspelt", "faults:\n  misregistration: {magnitud_m: 0}\n",
                 "7: faults.misregistration.magnitud_m: unknown key 'magnitud_m'; did you mean "
                 "'magnitude_m'?"},
+        BadLine{"key_frames_of_single_frames",
+                "  keys: {segmentation: {direct: {}}, frames: key_frames}\nscore: {unit: frame}\n",
+                "6: methods.keys.frames: chooses frames of a map, and score.unit frame scores each "
+                "frame by itself; leave it out, or write unit: map"},
         BadLine{"far_off", "fusion: {blend: {weight: 1}}\n",
                 "6: fusion.blend.weight: unknown key 'weight'; write one of K, N, noise_at, "
                 "covariance, decay"},

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/odometry/visual_odometry.hpp"
+#include "eval/foreign/labelled_folder.hpp"
+#include "eval/recording/stamp_list.hpp"
+#include "eval/results/tracking_counts.hpp"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace mapscore::eval {
+
+/// Where a folder's camera was, as its depth images tell.
+struct FolderPoses {
+  std::vector<TrajectoryPose>
+      trajectory;  ///< of the base, in that of the first image; one an image
+  TrackingCounts tracking;
+  std::optional<double> first_untracked_s;  ///< stamp of the first such image
+  double sigma_m = 0.0;  ///< largest standard deviation of a position, at its moment, as believed
+};
+
+/// Runs visual odometry, or with loop closure visual SLAM, over all depth images of a folder,
+/// without wheels, as of a camera that may move freely. With loops each pose is that after all of
+/// them. `progress(images done, all)`. Throws Error as LabelledFolder::read_depth, and where no
+/// image has depth enough to begin with.
+[[nodiscard]] FolderPoses find_poses(const LabelledFolder& folder, bool loops,
+                                     const std::function<void(int, int)>& progress = {});
+
+}  // namespace mapscore::eval

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/accounting_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+namespace mapscore::eval {
+namespace {
+
+constexpr std::string_view kFramesMapped = "frames_mapped";
+
+std::vector<Accounting> accountings_of(const ResultLine& line) {
+  if (line.digest) return line.digest->accountings();
+  std::vector<Accounting> all;
+  for (const TrialResult& result : line.results) all.push_back(result.accounting);
+  return all;
+}
+
+/// The count of an owner that has one of the name.
+template <class Owner>
+std::optional<double> count_named(const Owner& owner, std::string_view name) {
+  for (const CountField<Owner>& field : Owner::counts())
+    if (field.name == name) return static_cast<double>(owner.*field.member);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string> accounting_names() {
+  std::vector<std::string> names{std::string(kFramesMapped)};
+  for (const CountField<Accounting>& field : Accounting::counts()) names.emplace_back(field.name);
+  for (const CountField<TrackingCounts>& field : TrackingCounts::counts())
+    names.emplace_back(field.name);
+  return names;
+}
+
+std::optional<double> accounting_figure(const Accounting& accounting, std::string_view name) {
+  if (name == kFramesMapped)
+    return static_cast<double>(accounting.frames - accounting.frames_left_out);
+  if (const auto count = count_named(accounting, name)) return count;
+  return accounting.tracking ? count_named(*accounting.tracking, name) : std::nullopt;
+}
+
+Estimate accounting_estimate(const ResultLine& line, std::string_view name) {
+  Estimate estimate;
+  double sum = 0.0;
+  int defined = 0;
+  for (const Accounting& accounting : accountings_of(line)) {
+    estimate.by_seed.push_back(accounting_figure(accounting, name));
+    sum += estimate.by_seed.back().value_or(0.0);
+    defined += estimate.by_seed.back() ? 1 : 0;
+  }
+  if (defined > 0) estimate.pooled = sum / defined;
+  estimate.over_seeds = summarise(estimate.by_seed, ValueLimits{.low = 0.0});
+  return estimate;
+}
+
+std::string tracking_note(const StudySummary& summary) {
+  std::int64_t images = 0, guessed = 0, trials = 0, with_guesses = 0;
+  for (const ResultLine& line : summary.trials)
+    for (const Accounting& accounting : accountings_of(line)) {
+      if (!accounting.tracking) continue;
+      ++trials;
+      images += accounting.tracking->images();
+      guessed += accounting.tracking->untracked();
+      with_guesses += accounting.tracking->untracked() > 0 ? 1 : 0;
+    }
+  if (guessed == 0) return "";
+  return fmt::format(
+      "the pose of {} of {} depth images is a guess (unsure, blind, lost or restarted), in {} of "
+      "the {} trials whose poses come from them; --metric images_lost shows where",
+      guessed, images, with_guesses, trials);
+}
+
+}  // namespace mapscore::eval
