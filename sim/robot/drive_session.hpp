@@ -75,8 +75,10 @@ class DriveSession {
   /// robot before what it would touch; it then stands, and the way has ended. Throws Error when the
   /// robot tips over, falls, or its state is not finite.
   WayState step();
-  /// After `blocked`: backs off the way it came until it has room to turn, at most `most_m`. For
-  /// ways that go on elsewhere.
+  /// After `blocked` or `stuck`: drives straight away from what is in the way, forwards where that
+  /// is behind the axle, until it has room to turn, at most `most_m`, and not deeper into anything.
+  /// For ways that go on elsewhere. A robot that is still too near to something may then leave it:
+  /// until it has, only what would bring it nearer blocks.
   void back_off(double most_m);
   /// Brakes, and stands until a time of the drive.
   void rest_until(double time_s);
@@ -112,7 +114,10 @@ class DriveSession {
   void brake();
   void log_sample();
   void arrive(std::size_t waypoint);
+  [[nodiscard]] double away_from_obstacle();
   [[nodiscard]] bool blocked_ahead();
+  [[nodiscard]] bool deeper_at(const PlanarPose& place, double depth_m);
+  [[nodiscard]] bool edge_at(const PlanarPose& place);
   [[nodiscard]] bool blocked_at(const PlanarPose& place);
   [[nodiscard]] bool lost_patience();
 
@@ -125,6 +130,7 @@ class DriveSession {
   Patience patience_;
   int steps_ = 1, controls_ = 1, control_ = 0;
   bool minds_edges_ = false;
+  double leaving_depth_m_ = 0.0;  ///< of the obstacle that a robot is leaving; 0: of none
   PlanarPose place_;
   VelocityCommand command_;
   std::optional<Obstacle> obstacle_;
