@@ -11,7 +11,7 @@
 namespace mapscore {
 namespace {
 
-constexpr double kSamePlace_m = 0.2;  ///< views from nearer to each other are from the same place
+constexpr double kSamePlace_m = 0.2;   ///< views from nearer to each other are from the same place
 constexpr double kSameBarred_m = 1.0;  ///< places out of reach that one look is for
 
 }  // namespace

@@ -64,7 +64,7 @@ class ViewSearch {
   NextBestView params_;
   ViewGain gain_;
   LookMemory memory_;
-  std::vector<PlanarPose> views_;         ///< that were taken
+  std::vector<PlanarPose> views_;          ///< that were taken
   std::vector<Eigen::Vector2d> barred_m_;  ///< places out of reach that were looked towards
   bool looked_ = false, turned_ = false;
 };
