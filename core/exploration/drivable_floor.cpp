@@ -14,7 +14,6 @@ namespace mapscore {
 namespace {
 
 constexpr double kLeastObstacle_m = 0.05, kLowSpace_m = 0.2;
-constexpr double kSeenShare = 0.15;
 
 constexpr int kLeastCubes = 5;
 constexpr double kSameSurface_m = 0.125;
@@ -28,7 +27,8 @@ struct Column {
 /// Columns of cubes up to the robot's height.
 class Columns {
  public:
-  Columns(const KnownSpace& space, double floor_m, double height_m) : space_(space) {
+  Columns(const KnownSpace& space, double floor_m, double height_m, double seen_share)
+      : space_(space), seen_share_(seen_share) {
     const auto above = [&](double z_m) {
       return static_cast<std::int32_t>(std::ceil((floor_m + z_m) / space.edge_m() - 1e-9));
     };
@@ -55,12 +55,13 @@ class Columns {
       column.occupied += space == Space::occupied || space == Space::unsure ? 1 : 0;
       if (k >= lowest_seen_ && space != Space::unknown && space != Space::beyond) ++known;
     }
-    column.seen = known >= kSeenShare * (end_ - lowest_seen_);
+    column.seen = known >= seen_share_ * (end_ - lowest_seen_);
     return column;
   }
 
  private:
   const KnownSpace& space_;
+  double seen_share_;
   std::int32_t lowest_obstacle_, lowest_seen_, end_;
 };
 
@@ -107,12 +108,12 @@ void for_each_cell_near(const OccupancyGrid& grid, const Eigen::Vector2d& p_map,
 }  // namespace
 
 DrivableFloor::DrivableFloor(const ExplorationState& state, const ExploringRobot& robot,
-                             const KnownSpace& space)
+                             const KnownSpace& space, double seen_share)
     : grid_(without_gaps(state.floor)), T_map_base_(state.T_map_base) {
   check(state);
   const Eigen::Vector2d p_base(T_map_base_.x_m, T_map_base_.y_m);
   robot_cell_ = grid_.cell_of(p_base);
-  const Columns columns(space, state.floor_m, robot.height_m);
+  const Columns columns(space, state.floor_m, robot.height_m, seen_share);
   const std::vector<std::int64_t> from_lidar = squared_distances(grid_);
   const double near = kSameSurface_m / grid_.frame().resolution_m;
   const auto mark = [&](const GridCell& cell) {

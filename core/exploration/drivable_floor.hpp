@@ -26,9 +26,12 @@ namespace mapscore {
 /// cell. Immutable, safe to share between threads.
 class DrivableFloor {
  public:
-  /// Throws Error when pose or floor height are not finite.
-  DrivableFloor(const ExplorationState& state, const ExploringRobot& robot,
-                const KnownSpace& space);
+  /// Share of the space above a cell that must be known.
+  static constexpr double kSeenShare = 0.15;
+  /// `seen_share` 0: the lidar alone says what is free. Throws Error when pose or floor height are
+  /// not finite.
+  DrivableFloor(const ExplorationState& state, const ExploringRobot& robot, const KnownSpace& space,
+                double seen_share = kSeenShare);
   /// Of a grid as grid() gives it.
   DrivableFloor(OccupancyGrid grid, const PlanarPose& T_map_base, double radius_m);
 

@@ -19,6 +19,7 @@ constexpr double kStuckM = 0.005, kStuckRad = 0.01;
 constexpr double kPatience = 5.0;     ///< times the time that a waypoint should take
 constexpr double kEdgeSensorM = 0.2;  ///< before and behind the axle, beyond the casters
 constexpr double kBackMps = 0.1, kTurningRoomM = 0.03;
+constexpr double kGrazeM = 0.004;     ///< how far tyres and tilt may lower the bumper
 constexpr double kNoDeeperM = 0.001;  ///< counts as no nearer
 
 int share_of(double hz, double of_hz, const char* name) {
@@ -180,13 +181,20 @@ bool DriveSession::blocked_ahead() {
 }
 
 bool DriveSession::blocked_at(const PlanarPose& place) {
-  obstacle_ = clearance_.obstacle_at(place, physics_.T_world_base().translation().z());
+  obstacle_ = obstacle_at(place);
   return obstacle_ || edge_at(place);
+}
+
+/// Of a robot that chooses its way what its bumper would only graze from above, such as the foot of
+/// a lamp, is in the way too.
+std::optional<Obstacle> DriveSession::obstacle_at(const PlanarPose& place) {
+  const double floor_m = physics_.T_world_base().translation().z();
+  return clearance_.obstacle_at(place, minds_edges_ ? floor_m - kGrazeM : floor_m);
 }
 
 /// Whether something would reach more than `depth_m` into the robot.
 bool DriveSession::deeper_at(const PlanarPose& place, double depth_m) {
-  obstacle_ = clearance_.obstacle_at(place, physics_.T_world_base().translation().z());
+  obstacle_ = obstacle_at(place);
   return obstacle_ && obstacle_->depth_m > depth_m + kNoDeeperM;
 }
 

@@ -83,7 +83,8 @@ class DriveSession {
   /// Brakes, and stands until a time of the drive.
   void rest_until(double time_s);
 
-  /// From now on a way blocks where the floor ends, within 0.2 m before or behind the axle.
+  /// From now on a way blocks where the floor ends, within 0.2 m before or behind the axle, and
+  /// before what lies less than 4 mm below the bumper.
   void mind_edges() { minds_edges_ = true; }
 
   [[nodiscard]] double time_s() const { return physics_.time_s(); }
@@ -116,6 +117,7 @@ class DriveSession {
   void arrive(std::size_t waypoint);
   [[nodiscard]] double away_from_obstacle();
   [[nodiscard]] bool blocked_ahead();
+  [[nodiscard]] std::optional<Obstacle> obstacle_at(const PlanarPose& place);
   [[nodiscard]] bool deeper_at(const PlanarPose& place, double depth_m);
   [[nodiscard]] bool edge_at(const PlanarPose& place);
   [[nodiscard]] bool blocked_at(const PlanarPose& place);

@@ -123,5 +123,18 @@ TEST(DriveSession, MindingEdgesItStopsBeforeTheFloorEnds) {
   EXPECT_LT(session.place().x_m, 5.0);
 }
 
+// The bumper's lower edge is 25 mm above the floor.
+TEST(DriveSession, MindingEdgesItStopsBeforeWhatItsBumperWouldGraze) {
+  const World world = floor_world(
+      "<body name='foot'><geom type='cylinder' pos='1 0 0.012' size='0.12 0.012'/></body>");
+  const DriveModel model = make_drive_model(world, robot_file(), 0.02);
+  DriveSession session(model, {0, 0, 0}, {});
+  session.mind_edges();
+  EXPECT_EQ(drive(session, {{0, 0, 0}, {2, 0, 0}}), WayState::blocked);
+  ASSERT_TRUE(session.obstacle());
+  EXPECT_EQ(session.obstacle()->body, "foot");
+  EXPECT_EQ(session.health().bump_contacts, 0u);
+}
+
 }  // namespace
 }  // namespace mapscore::sim::testing
