@@ -14,6 +14,8 @@ namespace mapscore {
 namespace {
 
 constexpr double kLeastObstacle_m = 0.05, kLowSpace_m = 0.2;
+constexpr double kSeenShare = 0.15;
+constexpr double kAbout = 3.0;  ///< radii
 
 constexpr int kLeastCubes = 5;
 constexpr double kSameSurface_m = 0.125;
@@ -27,8 +29,7 @@ struct Column {
 /// Columns of cubes up to the robot's height.
 class Columns {
  public:
-  Columns(const KnownSpace& space, double floor_m, double height_m, double seen_share)
-      : space_(space), seen_share_(seen_share) {
+  Columns(const KnownSpace& space, double floor_m, double height_m) : space_(space) {
     const auto above = [&](double z_m) {
       return static_cast<std::int32_t>(std::ceil((floor_m + z_m) / space.edge_m() - 1e-9));
     };
@@ -55,13 +56,12 @@ class Columns {
       column.occupied += space == Space::occupied || space == Space::unsure ? 1 : 0;
       if (k >= lowest_seen_ && space != Space::unknown && space != Space::beyond) ++known;
     }
-    column.seen = known >= seen_share_ * (end_ - lowest_seen_);
+    column.seen = known >= kSeenShare * (end_ - lowest_seen_);
     return column;
   }
 
  private:
   const KnownSpace& space_;
-  double seen_share_;
   std::int32_t lowest_obstacle_, lowest_seen_, end_;
 };
 
@@ -108,12 +108,12 @@ void for_each_cell_near(const OccupancyGrid& grid, const Eigen::Vector2d& p_map,
 }  // namespace
 
 DrivableFloor::DrivableFloor(const ExplorationState& state, const ExploringRobot& robot,
-                             const KnownSpace& space, double seen_share)
+                             const KnownSpace& space, Trust trust)
     : grid_(without_gaps(state.floor)), T_map_base_(state.T_map_base) {
   check(state);
   const Eigen::Vector2d p_base(T_map_base_.x_m, T_map_base_.y_m);
   robot_cell_ = grid_.cell_of(p_base);
-  const Columns columns(space, state.floor_m, robot.height_m, seen_share);
+  const Columns columns(space, state.floor_m, robot.height_m);
   const std::vector<std::int64_t> from_lidar = squared_distances(grid_);
   const double near = kSameSurface_m / grid_.frame().resolution_m;
   const auto mark = [&](const GridCell& cell) {
@@ -127,7 +127,8 @@ DrivableFloor::DrivableFloor(const ExplorationState& state, const ExploringRobot
       const VoxelKey key = voxel_of({p.x(), p.y(), state.floor_m}, space.edge_m());
       if (columns.obstacle(key.i, key.j))
         mark(cell);
-      else if (!columns.at(key.i, key.j).seen && grid_.at(cell) == kFreeCell)
+      else if (trust == Trust::camera_and_lidar && !columns.at(key.i, key.j).seen &&
+               grid_.at(cell) == kFreeCell)
         grid_.set(cell, kUnknownCell);
     }
   // Cubes that are smaller than a cell, or whose column holds no centre of one.
@@ -138,6 +139,14 @@ DrivableFloor::DrivableFloor(const ExplorationState& state, const ExploringRobot
       const GridCell cell = grid_.cell_of({(i + 0.5) * space.edge_m(), (j + 0.5) * space.edge_m()});
       if (grid_.contains(cell)) mark(cell);
     }
+  const bool open = grid_.contains(robot_cell_) &&
+                    std::sqrt(static_cast<double>(from_lidar[grid_.index(robot_cell_)])) *
+                            grid_.frame().resolution_m >=
+                        robot.radius_m;
+  if (trust == Trust::lidar && open)
+    for_each_cell_near(grid_, p_base, kAbout * robot.radius_m, [&](const GridCell& cell) {
+      if (grid_.at(cell) == kUnknownCell) grid_.set(cell, kFreeCell);
+    });
   for_each_cell_near(grid_, p_base, robot.radius_m - grid_.frame().resolution_m,
                      [&](const GridCell& cell) { grid_.set(cell, kFreeCell); });
   find_clear(robot.radius_m);

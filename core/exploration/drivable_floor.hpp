@@ -26,12 +26,16 @@ namespace mapscore {
 /// cell. Immutable, safe to share between threads.
 class DrivableFloor {
  public:
-  /// Share of the space above a cell that must be known.
-  static constexpr double kSeenShare = 0.15;
-  /// `seen_share` 0: the lidar alone says what is free. Throws Error when pose or floor height are
-  /// not finite.
+  /// Whose word is taken for what is free.
+  enum class Trust {
+    camera_and_lidar,
+    /// Alone; and where it sees nothing within the robot's radius, what nobody saw within three
+    /// radii counts as free.
+    lidar
+  };
+  /// Throws Error when pose or floor height are not finite.
   DrivableFloor(const ExplorationState& state, const ExploringRobot& robot, const KnownSpace& space,
-                double seen_share = kSeenShare);
+                Trust trust = Trust::camera_and_lidar);
   /// Of a grid as grid() gives it.
   DrivableFloor(OccupancyGrid grid, const PlanarPose& T_map_base, double radius_m);
 

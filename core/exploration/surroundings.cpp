@@ -62,12 +62,12 @@ bool leads_nowhere(const FloorPaths& paths, const DrivableFloor& floor, double r
   });
 }
 
-/// Where the camera has seen too little to get anywhere, the floor that the lidar alone has seen.
+/// Where camera and lidar leave no way, the lidar alone is trusted.
 DrivableFloor floor_for(const ExplorationState& state, const ExploringRobot& robot,
                         const KnownSpace& space) {
   DrivableFloor floor(state, robot, space);
   if (!leads_nowhere(FloorPaths(floor), floor, robot.radius_m)) return floor;
-  return {state, robot, space, 0.0};
+  return {state, robot, space, DrivableFloor::Trust::lidar};
 }
 
 }  // namespace

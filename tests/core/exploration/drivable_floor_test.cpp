@@ -47,18 +47,21 @@ TEST(DrivableFloor, TableTopsAreObstaclesAndFloorThatNobodySawIsNone) {
   }
 }
 
-// In the open no ray of the camera ends in anything, and the map stays unknown: rather than nowhere
-// the robot drives where the lidar has seen the floor free.
+// In the open no ray of the camera ends in anything, and the map stays unknown; beams of the lidar
+// end in a sector of 60 degrees alone, at 2 m. Rather than nowhere the robot drives there.
 TEST(DrivableFloor, WhereTheCameraLeavesNoWayTheLidarAloneSaysWhatIsFree) {
   const SemanticMap map(0.05, Carving{.carve = true});
   ScanGrid grid;
-  grid.add({{}, 0.0, 0.0175, 0.15, 12.0, std::vector<float>(360, 2.0f)}, {0.0, 0.0, 0.0});
+  LaserScan scan{{}, -0.5, 0.01, 0.15, 12.0, std::vector<float>(101, 2.0f)};
+  grid.add(scan, {0.0, 0.0, 0.0});
   const OccupancyGrid seen = grid.grid();
   const ExplorationState state{map, seen, {0.0, 0.0, 0.0}};
   const Surroundings now(state, flat_robot(), 0.0);
   EXPECT_EQ(at(DrivableFloor(state, flat_robot(), now.space), 1.0, 0.1), kUnknownCell);
   EXPECT_EQ(at(now.floor, 1.0, 0.1), kFreeCell);
   EXPECT_FALSE(now.stuck());
+  EXPECT_TRUE(now.paths.reaches(now.floor.grid().cell_of({1.2, 0.0})));
+  EXPECT_EQ(at(now.floor, -1.0, 0.0), kUnknownCell);
 }
 
 TEST(DrivableFloor, ClearCellsKeepTheRadiusFromEverything) {
