@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kLeastObstacle_m = 0.05, kLowSpace_m = 0.2;
 constexpr double kSeenShare = 0.15;
+constexpr double kAbout = 3.0;  ///< radii
 
 constexpr int kLeastCubes = 5;
 constexpr double kSameSurface_m = 0.125;
@@ -107,7 +108,7 @@ void for_each_cell_near(const OccupancyGrid& grid, const Eigen::Vector2d& p_map,
 }  // namespace
 
 DrivableFloor::DrivableFloor(const ExplorationState& state, const ExploringRobot& robot,
-                             const KnownSpace& space)
+                             const KnownSpace& space, Trust trust)
     : grid_(without_gaps(state.floor)), T_map_base_(state.T_map_base) {
   check(state);
   const Eigen::Vector2d p_base(T_map_base_.x_m, T_map_base_.y_m);
@@ -126,7 +127,8 @@ DrivableFloor::DrivableFloor(const ExplorationState& state, const ExploringRobot
       const VoxelKey key = voxel_of({p.x(), p.y(), state.floor_m}, space.edge_m());
       if (columns.obstacle(key.i, key.j))
         mark(cell);
-      else if (!columns.at(key.i, key.j).seen && grid_.at(cell) == kFreeCell)
+      else if (trust == Trust::camera_and_lidar && !columns.at(key.i, key.j).seen &&
+               grid_.at(cell) == kFreeCell)
         grid_.set(cell, kUnknownCell);
     }
   // Cubes that are smaller than a cell, or whose column holds no centre of one.
@@ -137,6 +139,14 @@ DrivableFloor::DrivableFloor(const ExplorationState& state, const ExploringRobot
       const GridCell cell = grid_.cell_of({(i + 0.5) * space.edge_m(), (j + 0.5) * space.edge_m()});
       if (grid_.contains(cell)) mark(cell);
     }
+  const bool open = grid_.contains(robot_cell_) &&
+                    std::sqrt(static_cast<double>(from_lidar[grid_.index(robot_cell_)])) *
+                            grid_.frame().resolution_m >=
+                        robot.radius_m;
+  if (trust == Trust::lidar && open)
+    for_each_cell_near(grid_, p_base, kAbout * robot.radius_m, [&](const GridCell& cell) {
+      if (grid_.at(cell) == kUnknownCell) grid_.set(cell, kFreeCell);
+    });
   for_each_cell_near(grid_, p_base, robot.radius_m - grid_.frame().resolution_m,
                      [&](const GridCell& cell) { grid_.set(cell, kFreeCell); });
   find_clear(robot.radius_m);

@@ -26,9 +26,16 @@ namespace mapscore {
 /// cell. Immutable, safe to share between threads.
 class DrivableFloor {
  public:
+  /// Whose word is taken for what is free.
+  enum class Trust {
+    camera_and_lidar,
+    /// Alone; and where it sees nothing within the robot's radius, what nobody saw within three
+    /// radii counts as free.
+    lidar
+  };
   /// Throws Error when pose or floor height are not finite.
-  DrivableFloor(const ExplorationState& state, const ExploringRobot& robot,
-                const KnownSpace& space);
+  DrivableFloor(const ExplorationState& state, const ExploringRobot& robot, const KnownSpace& space,
+                Trust trust = Trust::camera_and_lidar);
   /// Of a grid as grid() gives it.
   DrivableFloor(OccupancyGrid grid, const PlanarPose& T_map_base, double radius_m);
 

@@ -55,12 +55,12 @@ class NearestFrontierExplorer : public Explorer {
  private:
   /// The floor is done: the nearest place from which a view shows enough that is new.
   void look_at_the_rest(const ExplorationState& state, const Surroundings& now,
-                        ExplorationStep& step) const {
+                        ExplorationStep& step) {
     const std::vector<Prospect> prospects = search_.prospects(state, now);
     const auto nearest = std::ranges::min_element(
         prospects, {}, [](const Prospect& prospect) { return prospect.place.way_m; });
     if (nearest == prospects.end())
-      step.end = search_.end_without_prospect(state, now);
+      search_.look_once_more(state, now, step);
     else
       step.view = now.view(nearest->place.cell, nearest->yaw_rad);
   }

@@ -29,7 +29,7 @@ class NextBestViewExplorer : public Explorer {
     step.frontiers = find_frontiers(now.floor.grid(), kLeastFrontier_m);
     const std::vector<Prospect> prospects = search_.prospects(state, now);
     if (prospects.empty())
-      step.end = search_.end_without_prospect(state, now);
+      search_.look_once_more(state, now, step);
     else
       step.view = view_of(best(prospects, now), now);
     return step;

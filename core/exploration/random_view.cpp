@@ -28,8 +28,8 @@ class RandomViewExplorer : public Explorer {
       step.view = now.turn_on_the_spot();
       return step;
     }
-    if (const auto end = search_.end(state, now)) {
-      step.end = *end;
+    if (!search_.any_prospect(state, now)) {
+      search_.look_once_more(state, now, step);
       return step;
     }
     const auto& reached = now.paths.reached();

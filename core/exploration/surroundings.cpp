@@ -54,6 +54,22 @@ std::vector<Lookout> one_a_square(const DrivableFloor& floor, double step_m, aut
   return places;
 }
 
+/// Whether ways lead no farther than the robot's radius.
+bool leads_nowhere(const FloorPaths& paths, const DrivableFloor& floor, double radius_m) {
+  const PlanarPose& T = floor.T_map_base();
+  return std::ranges::none_of(paths.reached(), [&](const GridCell& cell) {
+    return (floor.grid().centre_of(cell) - Eigen::Vector2d(T.x_m, T.y_m)).norm() > radius_m;
+  });
+}
+
+/// Where camera and lidar leave no way, the lidar alone is trusted.
+DrivableFloor floor_for(const ExplorationState& state, const ExploringRobot& robot,
+                        const KnownSpace& space) {
+  DrivableFloor floor(state, robot, space);
+  if (!leads_nowhere(FloorPaths(floor), floor, robot.radius_m)) return floor;
+  return {state, robot, space, DrivableFloor::Trust::lidar};
+}
+
 }  // namespace
 
 void check(const ExploringRobot& robot) {
@@ -66,7 +82,7 @@ void check(const ExploringRobot& robot) {
 Surroundings::Surroundings(const ExplorationState& state, const ExploringRobot& robot,
                            double unsure_below)
     : space(state.map, space_about(state), unsure_below),
-      floor(state, robot, space),
+      floor(floor_for(state, robot, space)),
       paths(floor),
       radius_m_(robot.radius_m) {}
 
@@ -80,10 +96,7 @@ NextView Surroundings::turn_on_the_spot() const {
 }
 
 bool Surroundings::stuck() const {
-  const PlanarPose& T = floor.T_map_base();
-  return std::ranges::none_of(paths.reached(), [&](const GridCell& cell) {
-    return (floor.grid().centre_of(cell) - Eigen::Vector2d(T.x_m, T.y_m)).norm() > radius_m_;
-  });
+  return leads_nowhere(paths, floor, radius_m_);
 }
 
 std::vector<Lookout> Surroundings::places(double step_m) const {

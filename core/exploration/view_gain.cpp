@@ -89,7 +89,20 @@ bool ViewGain::in_frustum(const Eigen::Vector3d& p_base) const {
          pixel.y() < camera.height_px - 0.5;
 }
 
-Panorama ViewGain::look_around(const Scene& scene, const Eigen::Vector2d& place_m) const {
+std::vector<bool> ViewGain::looked(const Elevation& elevation,
+                                   const std::vector<double>& looked_rad) const {
+  std::vector<bool> looked(azimuths_, false);
+  const auto turn = static_cast<std::ptrdiff_t>(azimuths_);
+  for (const double heading_rad : looked_rad) {
+    const auto rays = static_cast<std::ptrdiff_t>(std::lround(heading_rad / ray_step_rad_));
+    for (const std::ptrdiff_t a : elevation.in_view)
+      looked[static_cast<std::size_t>(((rays + a) % turn + turn) % turn)] = true;
+  }
+  return looked;
+}
+
+Panorama ViewGain::look_around(const Scene& scene, const Eigen::Vector2d& place_m,
+                               const std::vector<double>& looked_rad) const {
   const Eigen::Vector3d origin(place_m.x(), place_m.y(), scene.floor_m + camera_m_);
   const double per_voxel = 1.0 / (scene.voxel_m * scene.voxel_m);
   const std::int32_t floor = voxel_of({0, 0, scene.floor_m}, scene.space.edge_m()).k;
@@ -99,7 +112,10 @@ Panorama ViewGain::look_around(const Scene& scene, const Eigen::Vector2d& place_
   const Blocks blocks(scene.space);
   std::vector<double> of_block(blocks.count(), 0.0);
   for (const Elevation& elevation : elevations_) {
+    const std::vector<bool> known = looked(elevation, looked_rad);
     for (std::size_t a = 0; a < azimuths_; ++a) {
+      ring[a] = {};
+      if (known[a]) continue;
       RayGain gain;
       double chance = 1.0;  // that no surface has been met
       const Eigen::Vector3d direction(elevation.cosine * directions_[a].x(),

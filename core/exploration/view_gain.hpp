@@ -58,7 +58,10 @@ class ViewGain {
     LookMemory::Worths unknown, unsure;
     std::vector<LookAgain> again;  ///< priorities already times their worth
   };
-  [[nodiscard]] Panorama look_around(const Scene& scene, const Eigen::Vector2d& place_m) const;
+  /// `looked_rad`: headings of the views that were taken there. What they had in view is worth
+  /// nothing: the camera would show the same once more.
+  [[nodiscard]] Panorama look_around(const Scene& scene, const Eigen::Vector2d& place_m,
+                                     const std::vector<double>& looked_rad = {}) const;
 
   /// What a view at a pose looks at and leaves unsettled; for LookMemory.
   void remember(const KnownSpace& space, const PlanarPose& T_map_base, double floor_m,
@@ -73,6 +76,9 @@ class ViewGain {
     /// Rays in view on each side of the heading, where the camera does not look sideways.
     std::vector<std::ptrdiff_t> in_view;
   };
+  /// Of each azimuth, whether one of the headings had it in view.
+  [[nodiscard]] std::vector<bool> looked(const Elevation& elevation,
+                                         const std::vector<double>& looked_rad) const;
   [[nodiscard]] bool in_frustum(const Eigen::Vector3d& p_base) const;
   [[nodiscard]] bool sees(const KnownSpace& space, const PlanarPose& T_map_base, double floor_m,
                           const Eigen::Vector3d& p_map) const;

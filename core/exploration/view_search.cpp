@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace mapscore {
 namespace {
 
-constexpr double kSamePlace_m = 0.2;  ///< views from nearer to each other are from the same place
+constexpr double kSamePlace_m = 0.2;   ///< views from nearer to each other are from the same place
+constexpr double kSameBarred_m = 1.0;  ///< places out of reach that one look is for
 
 }  // namespace
 
@@ -64,17 +66,13 @@ std::vector<double> ViewSearch::headings_taken_at(const Lookout& place) const {
 
 std::optional<Prospect> ViewSearch::prospect(const ViewGain::Scene& scene, const Lookout& place,
                                              double yaw_rad) const {
-  Panorama panorama = gain_.look_around(scene, place.p_map);
-  const std::vector<double> taken = headings_taken_at(place);
+  Panorama panorama = gain_.look_around(scene, place.p_map, headings_taken_at(place));
   std::optional<Prospect> best;
   double best_utility = 0.0;
   for (std::size_t h = 0; h < panorama.headings.size(); ++h) {
     const Gain& gain = panorama.headings[h];
     const double heading = static_cast<double>(h) * gain_.heading_step_rad();
-    const auto looks = std::ranges::count_if(taken, [&](double before_rad) {
-      return std::abs(wrapped_angle(heading - before_rad)) < gain_.heading_step_rad();
-    });
-    const double worth = std::ldexp(gain.worth(params_.unsure_weight), -static_cast<int>(looks));
+    const double worth = gain.worth(params_.unsure_weight);
     if (worth < params_.least_voxels) continue;
     const double turn = std::abs(wrapped_angle(heading - yaw_rad));
     const double utility = worth / (params_.view_cost_m + params_.turn_cost_m_per_rad * turn);
@@ -98,22 +96,42 @@ std::vector<Prospect> ViewSearch::prospects(const ExplorationState& state,
   return prospects;
 }
 
-std::optional<ExplorationEnd> ViewSearch::end(const ExplorationState& state,
-                                              const Surroundings& now) const {
+bool ViewSearch::any_prospect(const ExplorationState& state, const Surroundings& now) const {
   const ViewGain::Scene scene = scene_of(state, now);
-  for (const Lookout& place : now.places(params_.place_step_m))
-    if (prospect(scene, place, 0.0)) return {};
-  return end_without_prospect(state, now);
+  return std::ranges::any_of(now.places(params_.place_step_m), [&](const Lookout& place) {
+    return prospect(scene, place, 0.0).has_value();
+  });
 }
 
-ExplorationEnd ViewSearch::end_without_prospect(const ExplorationState& state,
-                                                const Surroundings& now) const {
-  if (now.stuck()) return ExplorationEnd::nothing_reachable;
+void ViewSearch::look_once_more(const ExplorationState& state, const Surroundings& now,
+                                ExplorationStep& step) {
+  if (now.stuck()) {
+    if (std::exchange(turned_, true))
+      step.end = ExplorationEnd::nothing_reachable;
+    else
+      step.view = now.turn_on_the_spot();
+    return;
+  }
   const ViewGain::Scene scene = scene_of(state, now);
-  const auto places = now.places_out_of_reach(params_.place_step_m);
-  const bool more = std::ranges::any_of(
-      places, [&](const Lookout& place) { return prospect(scene, place, 0.0).has_value(); });
-  return more ? ExplorationEnd::nothing_reachable : ExplorationEnd::explored;
+  const std::vector<Lookout> places = now.places(params_.place_step_m);
+  Eigen::Vector2d target = Eigen::Vector2d::Zero();
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const Lookout& barred : now.places_out_of_reach(params_.place_step_m)) {
+    if (!prospect(scene, barred, 0.0)) continue;
+    step.end = ExplorationEnd::nothing_reachable;
+    if (std::ranges::any_of(barred_m_, [&](const Eigen::Vector2d& before_m) {
+          return (before_m - barred.p_map).norm() < kSameBarred_m;
+        }))
+      continue;
+    for (const Lookout& place : places) {
+      const Eigen::Vector2d towards = barred.p_map - place.p_map;
+      if (towards.norm() >= least_m) continue;
+      least_m = towards.norm();
+      step.view = now.view(place.cell, std::atan2(towards.y(), towards.x()));
+      target = barred.p_map;
+    }
+  }
+  if (step.view) barred_m_.push_back(target);
 }
 
 }  // namespace mapscore

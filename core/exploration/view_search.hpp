@@ -46,12 +46,12 @@ class ViewSearch {
   /// Places that are reached with a view that is worth at least `least_voxels`; by square.
   [[nodiscard]] std::vector<Prospect> prospects(const ExplorationState& state,
                                                 const Surroundings& now) const;
-  /// Why the exploration ends, unless there is a prospect.
-  [[nodiscard]] std::optional<ExplorationEnd> end(const ExplorationState& state,
-                                                  const Surroundings& now) const;
-  /// The same where it is known that there is none.
-  [[nodiscard]] ExplorationEnd end_without_prospect(const ExplorationState& state,
-                                                    const Surroundings& now) const;
+  [[nodiscard]] bool any_prospect(const ExplorationState& state, const Surroundings& now) const;
+  /// Where there is no prospect: one more look at what bars the robot from places with a view that
+  /// is worth it, since noise may have closed the way; each is looked at once, from the place that
+  /// is nearest to it. Then the end.
+  void look_once_more(const ExplorationState& state, const Surroundings& now,
+                      ExplorationStep& step);
 
  private:
   [[nodiscard]] ViewGain::Scene scene_of(const ExplorationState& state,
@@ -64,8 +64,9 @@ class ViewSearch {
   NextBestView params_;
   ViewGain gain_;
   LookMemory memory_;
-  std::vector<PlanarPose> views_;  ///< that were taken
-  bool looked_ = false;
+  std::vector<PlanarPose> views_;          ///< that were taken
+  std::vector<Eigen::Vector2d> barred_m_;  ///< places out of reach that were looked towards
+  bool looked_ = false, turned_ = false;
 };
 
 }  // namespace mapscore

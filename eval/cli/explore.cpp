@@ -9,9 +9,10 @@
 #include "eval/cli/verbs.hpp"
 #include "eval/explore/exploration_study.hpp"
 #include "eval/explore/exploration_summary.hpp"
-#include "eval/report/figures/exploration_figure.hpp"
+#include "eval/report/exploration/coverage_curves.hpp"
+#include "eval/report/exploration/exploration_strip.hpp"
+#include "eval/report/exploration/floor_moments.hpp"
 #include "eval/report/pictures/caption.hpp"
-#include "eval/report/pictures/exploration_strip.hpp"
 #include "eval/report/table_formats.hpp"
 #include "files/text.hpp"
 

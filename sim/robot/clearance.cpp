@@ -48,7 +48,7 @@ void check_leg(const std::vector<Drive::Waypoint>& waypoints, std::size_t target
 Obstacle obstacle_of(const DriveModel& drive, const mjContact& contact) {
   const bool first = drive.role[contact.geom[0]] == GeomRole::scene;
   return {drive.scene_body[contact.geom[first ? 0 : 1]], contact.pos[0], contact.pos[1],
-          contact.pos[2]};
+          contact.pos[2], -contact.dist};
 }
 
 Clearance::Clearance(const DriveModel& drive)

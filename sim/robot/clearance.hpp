@@ -18,6 +18,7 @@ namespace mapscore::sim {
 struct Obstacle {
   std::string body;                        ///< of the scene
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;  ///< where it would be touched, in the world
+  double depth_m = 0.0;  ///< how far it reaches into the robot, clearance included
 };
 
 /// The scene's side of a contact with the robot.

@@ -19,6 +19,8 @@ constexpr double kStuckM = 0.005, kStuckRad = 0.01;
 constexpr double kPatience = 5.0;     ///< times the time that a waypoint should take
 constexpr double kEdgeSensorM = 0.2;  ///< before and behind the axle, beyond the casters
 constexpr double kBackMps = 0.1, kTurningRoomM = 0.03;
+constexpr double kGrazeM = 0.004;     ///< how far tyres and tilt may lower the bumper
+constexpr double kNoDeeperM = 0.001;  ///< counts as no nearer
 
 int share_of(double hz, double of_hz, const char* name) {
   const double share = of_hz / hz;
@@ -93,22 +95,37 @@ void DriveSession::brake() {
 void DriveSession::back_off(double most_m) {
   if (!controller_) return;
   brake();
+  const double sign = away_from_obstacle();
   const PlanarPose from = place_;
   const double limit_s = physics_.time_s() + kStuckS + most_m / kBackMps;
   const auto gone_m = [&] { return std::hypot(place_.x_m - from.x_m, place_.y_m - from.y_m); };
-  const auto behind = [&](double way_m) {
-    return PlanarPose{place_.x_m - way_m * std::cos(place_.yaw_rad),
-                      place_.y_m - way_m * std::sin(place_.yaw_rad), place_.yaw_rad};
+  const auto ahead = [&](double way_m) {
+    return PlanarPose{place_.x_m + sign * way_m * std::cos(place_.yaw_rad),
+                      place_.y_m + sign * way_m * std::sin(place_.yaw_rad), place_.yaw_rad};
   };
   double clear_m = 0.0;  // driven since there was room
   while (gone_m() < most_m && clear_m < kTurningRoomM && physics_.time_s() < limit_s) {
     const bool was_blocked = blocked_at(place_);
-    if (!was_blocked && blocked_at(behind(2.0 * kTurningRoomM))) break;
+    const double depth_m = obstacle_ ? obstacle_->depth_m : 0.0;
+    if (was_blocked ? deeper_at(ahead(kTurningRoomM), depth_m)
+                    : blocked_at(ahead(2.0 * kTurningRoomM)))
+      break;
     const double before_m = gone_m();
-    advance({-kBackMps, 0.0});
+    advance({sign * kBackMps, 0.0});
     if (!was_blocked) clear_m += gone_m() - before_m;
   }
   brake();
+  leaving_depth_m_ = blocked_at(place_) && obstacle_ ? obstacle_->depth_m : 0.0;
+}
+
+/// 1: straight on, away from what is behind the axle; -1: back.
+double DriveSession::away_from_obstacle() {
+  std::optional<Obstacle> nearest = obstacle_;
+  if (blocked_at(place_) && obstacle_) nearest = obstacle_;
+  if (!nearest) return -1.0;
+  const double ahead_m = (nearest->x_m - place_.x_m) * std::cos(place_.yaw_rad) +
+                         (nearest->y_m - place_.y_m) * std::sin(place_.yaw_rad);
+  return ahead_m < 0.0 ? 1.0 : -1.0;
 }
 
 void DriveSession::rest_until(double time_s) {
@@ -153,13 +170,36 @@ bool DriveSession::blocked_ahead() {
   const double way_m = v * kReactionS + 0.5 * v * std::abs(v) / limits.acceleration_mps2;
   const double turn = w * kReactionS + 0.5 * w * std::abs(w) / limits.turn_acceleration_radps2;
   const double yaw = place_.yaw_rad + 0.5 * turn;
-  return blocked_at({place_.x_m + way_m * std::cos(yaw), place_.y_m + way_m * std::sin(yaw),
-                     place_.yaw_rad + turn});
+  const PlanarPose braked{place_.x_m + way_m * std::cos(yaw), place_.y_m + way_m * std::sin(yaw),
+                          place_.yaw_rad + turn};
+  if (leaving_depth_m_ > 0.0) {
+    const bool near = blocked_at(place_) && obstacle_;
+    leaving_depth_m_ = near ? std::min(leaving_depth_m_, obstacle_->depth_m) : 0.0;
+  }
+  if (leaving_depth_m_ > 0.0) return deeper_at(braked, leaving_depth_m_) || edge_at(braked);
+  return blocked_at(braked);
 }
 
 bool DriveSession::blocked_at(const PlanarPose& place) {
-  obstacle_ = clearance_.obstacle_at(place, physics_.T_world_base().translation().z());
-  if (obstacle_ || !minds_edges_) return obstacle_.has_value();
+  obstacle_ = obstacle_at(place);
+  return obstacle_ || edge_at(place);
+}
+
+/// Of a robot that chooses its way what its bumper would only graze from above, such as the foot of
+/// a lamp, is in the way too.
+std::optional<Obstacle> DriveSession::obstacle_at(const PlanarPose& place) {
+  const double floor_m = physics_.T_world_base().translation().z();
+  return clearance_.obstacle_at(place, minds_edges_ ? floor_m - kGrazeM : floor_m);
+}
+
+/// Whether something would reach more than `depth_m` into the robot.
+bool DriveSession::deeper_at(const PlanarPose& place, double depth_m) {
+  obstacle_ = obstacle_at(place);
+  return obstacle_ && obstacle_->depth_m > depth_m + kNoDeeperM;
+}
+
+bool DriveSession::edge_at(const PlanarPose& place) {
+  if (!minds_edges_) return false;
   const double dx = kEdgeSensorM * std::cos(place.yaw_rad);
   const double dy = kEdgeSensorM * std::sin(place.yaw_rad);
   return !clearance_.floor_at({place.x_m + dx, place.y_m + dy, place.yaw_rad}) ||

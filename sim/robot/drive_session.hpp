@@ -75,13 +75,16 @@ class DriveSession {
   /// robot before what it would touch; it then stands, and the way has ended. Throws Error when the
   /// robot tips over, falls, or its state is not finite.
   WayState step();
-  /// After `blocked`: backs off the way it came until it has room to turn, at most `most_m`. For
-  /// ways that go on elsewhere.
+  /// After `blocked` or `stuck`: drives straight away from what is in the way, forwards where that
+  /// is behind the axle, until it has room to turn, at most `most_m`, and not deeper into anything.
+  /// For ways that go on elsewhere. A robot that is still too near to something may then leave it:
+  /// until it has, only what would bring it nearer blocks.
   void back_off(double most_m);
   /// Brakes, and stands until a time of the drive.
   void rest_until(double time_s);
 
-  /// From now on a way blocks where the floor ends, within 0.2 m before or behind the axle.
+  /// From now on a way blocks where the floor ends, within 0.2 m before or behind the axle, and
+  /// before what lies less than 4 mm below the bumper.
   void mind_edges() { minds_edges_ = true; }
 
   [[nodiscard]] double time_s() const { return physics_.time_s(); }
@@ -112,7 +115,11 @@ class DriveSession {
   void brake();
   void log_sample();
   void arrive(std::size_t waypoint);
+  [[nodiscard]] double away_from_obstacle();
   [[nodiscard]] bool blocked_ahead();
+  [[nodiscard]] std::optional<Obstacle> obstacle_at(const PlanarPose& place);
+  [[nodiscard]] bool deeper_at(const PlanarPose& place, double depth_m);
+  [[nodiscard]] bool edge_at(const PlanarPose& place);
   [[nodiscard]] bool blocked_at(const PlanarPose& place);
   [[nodiscard]] bool lost_patience();
 
@@ -125,6 +132,7 @@ class DriveSession {
   Patience patience_;
   int steps_ = 1, controls_ = 1, control_ = 0;
   bool minds_edges_ = false;
+  double leaving_depth_m_ = 0.0;  ///< of the obstacle that a robot is leaving; 0: of none
   PlanarPose place_;
   VelocityCommand command_;
   std::optional<Obstacle> obstacle_;

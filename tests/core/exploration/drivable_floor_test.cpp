@@ -4,6 +4,7 @@
 #include "core/exploration/drivable_floor.hpp"
 
 #include "core/error.hpp"
+#include "core/exploration/scan_grid.hpp"
 #include "core/exploration/surroundings.hpp"
 #include "tests/core/exploration/drawn_grid.hpp"
 #include "tests/core/exploration/flat_run.hpp"
@@ -44,6 +45,23 @@ TEST(DrivableFloor, TableTopsAreObstaclesAndFloorThatNobodySawIsNone) {
         << noise;  // beside the door, in the other room
     EXPECT_TRUE(now.floor.clear(now.floor.robot_cell())) << noise;
   }
+}
+
+// In the open no ray of the camera ends in anything, and the map stays unknown; beams of the lidar
+// end in a sector of 60 degrees alone, at 2 m. Rather than nowhere the robot drives there.
+TEST(DrivableFloor, WhereTheCameraLeavesNoWayTheLidarAloneSaysWhatIsFree) {
+  const SemanticMap map(0.05, Carving{.carve = true});
+  ScanGrid grid;
+  LaserScan scan{{}, -0.5, 0.01, 0.15, 12.0, std::vector<float>(101, 2.0f)};
+  grid.add(scan, {0.0, 0.0, 0.0});
+  const OccupancyGrid seen = grid.grid();
+  const ExplorationState state{map, seen, {0.0, 0.0, 0.0}};
+  const Surroundings now(state, flat_robot(), 0.0);
+  EXPECT_EQ(at(DrivableFloor(state, flat_robot(), now.space), 1.0, 0.1), kUnknownCell);
+  EXPECT_EQ(at(now.floor, 1.0, 0.1), kFreeCell);
+  EXPECT_FALSE(now.stuck());
+  EXPECT_TRUE(now.paths.reaches(now.floor.grid().cell_of({1.2, 0.0})));
+  EXPECT_EQ(at(now.floor, -1.0, 0.0), kUnknownCell);
 }
 
 TEST(DrivableFloor, ClearCellsKeepTheRadiusFromEverything) {

@@ -100,6 +100,30 @@ TEST(Exploration, WhoStartsWithinFurnitureEndsSoon) {
   }
 }
 
+// Noise has closed the door to a room that is seen through it: before it gives up, it goes near and
+// looks at what bars it; and when that stays, it ends.
+TEST(Exploration, ABarIsLookedAtOnceMore) {
+  const BoxFlat flat = two_rooms();
+  FlatRun robot(flat, {2.9, 1.5, 0.0});
+  robot.drive({{2.9, 1.5, 0.4}, {2.9, 1.5, -0.4}, kStart});
+  const auto explorer = make_explorer(NextBestView{}, flat_robot(), 1);
+  const ExplorationState seen = robot.state();
+  OccupancyGrid closed = seen.floor;
+  for (GridCell cell; cell.row < closed.frame().height; ++cell.row)
+    for (cell.column = 0; cell.column < closed.frame().width; ++cell.column)
+      if (std::abs(closed.centre_of(cell).x() - 3.5) < 0.06) closed.set(cell, kOccupiedCell);
+  ExplorationState state{seen.map, closed, kStart};
+  std::vector<PlanarPose> views;
+  ExplorationStep step = explorer->next(state);
+  for (; step.view && views.size() < 200; step = explorer->next(state))
+    views.push_back(state.T_map_base = step.view->way.back());
+  EXPECT_LT(views.size(), 200u);
+  EXPECT_EQ(step.end, ExplorationEnd::nothing_reachable);
+  ASSERT_FALSE(views.empty());
+  EXPECT_GT(views.back().x_m, 2.4);  // from near the door, towards it
+  EXPECT_LT(std::abs(wrapped_angle(views.back().yaw_rad)), 1.0);
+}
+
 // It would be explored, but something in the second room is to be looked at again; and then it is.
 TEST(Exploration, WhatWasMissedIsLookedAtAgain) {
   const BoxFlat flat = two_rooms();

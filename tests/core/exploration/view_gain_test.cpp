@@ -140,6 +140,21 @@ TEST(ViewGain, BehindWallsNothingCounts) {
   EXPECT_GT(gain.look_around(scene_of(unknown, nothing), {2.0, 1.5}).headings[0].unknown, 200.0);
 }
 
+// What a view from the place had in view is worth nothing from there, and nothing else changes.
+TEST(ViewGain, WhatWasInViewFromTheSamePlaceIsWorthNothing) {
+  const Seen seen;
+  const KnownSpace space = seen.space();
+  const ViewGain gain(flat_robot().cameras, kStep, 3 * kStep, kRate);
+  const ViewGain::Scene scene = scene_of(space, seen.memory);
+  const Eigen::Vector2d place(2.731, 2.023);
+  const Panorama before = gain.look_around(scene, place);
+  const Panorama after = gain.look_around(scene, place, {-10 * 3 * kStep});
+  ASSERT_GT(before.headings[14].unknown, 0.0);
+  EXPECT_EQ(after.headings[14].unknown, 0.0);  // -10 steps of 24
+  EXPECT_EQ(after.headings[2].unknown, before.headings[2].unknown);
+  EXPECT_NEAR(after.all.unknown, before.all.unknown - before.headings[14].unknown, 1e-6);
+}
+
 // A point to be looked at again counts where it is in view and nothing is before it.
 TEST(ViewGain, PointsToBeLookedAtAgainCountWhereTheyAreInView) {
   const Seen seen;

@@ -78,6 +78,42 @@ TEST(DriveSession, ItStopsBeforeAWallBacksOffAndDrivesElsewhere) {
   EXPECT_EQ(session.health().bump_contacts, 0u);
 }
 
+/// A robot that stands nearer to a wall than its clearance is blocked, backs off, and turns to
+/// drive away.
+PlanarPose leave_wall(const std::string& position, const std::string& size) {
+  const World world = floor_world("<body name='wall'><geom type='box' pos='" + position +
+                                  "' size='" + size + "'/></body>");
+  const DriveModel model = make_drive_model(world, robot_file(), 0.02);
+  DriveSession session(model, {0, 0, 0}, {});
+  EXPECT_EQ(drive(session, {{0, 0, 0}, {1, 0, 0}}), WayState::blocked);
+  session.back_off(0.2);
+  EXPECT_EQ(drive(session, {session.place(), {session.place().x_m, -1, -1.6}}), WayState::arrived);
+  EXPECT_EQ(session.health().bump_contacts, 0u);
+  return session.place();
+}
+
+// 1 cm beside the bumper of 0.221 m: neither forwards nor back makes room, but turning does not
+// bring it nearer, nor does driving away.
+TEST(DriveSession, ItLeavesAWallBesideIt) {
+  EXPECT_NEAR(leave_wall("0 0.281 1", "2 0.05 1").y_m, -1.0, 0.05);
+}
+
+// From a wall behind it drives forwards.
+TEST(DriveSession, ItDrivesForwardsFromAWallBehindIt) {
+  EXPECT_GT(leave_wall("-0.281 0 1", "0.05 2 1").x_m, 0.01);
+}
+
+TEST(DriveSession, OneThatLeavesAWallStillStopsBeforeIt) {
+  const World world =
+      floor_world("<body name='wall'><geom type='box' pos='0 0.281 1' size='2 0.05 1'/></body>");
+  const DriveModel model = make_drive_model(world, robot_file(), 0.02);
+  DriveSession session(model, {0, 0, 0}, {});
+  EXPECT_EQ(drive(session, {{0, 0, 0}, {1, 0, 0}}), WayState::blocked);
+  session.back_off(0.2);
+  EXPECT_EQ(drive(session, {session.place(), {session.place().x_m, 1, 1.6}}), WayState::blocked);
+  EXPECT_EQ(session.health().bump_contacts, 0u);
+}
+
 TEST(DriveSession, MindingEdgesItStopsBeforeTheFloorEnds) {
   const DriveModel model = make_drive_model(floor_world(), robot_file(), 0.02);
   DriveSession session(model, {4.3, 0, 0}, {});
@@ -85,6 +121,19 @@ TEST(DriveSession, MindingEdgesItStopsBeforeTheFloorEnds) {
   EXPECT_EQ(drive(session, {{4.3, 0, 0}, {6, 0, 0}}), WayState::blocked);
   EXPECT_FALSE(session.obstacle());
   EXPECT_LT(session.place().x_m, 5.0);
+}
+
+// The bumper's lower edge is 25 mm above the floor.
+TEST(DriveSession, MindingEdgesItStopsBeforeWhatItsBumperWouldGraze) {
+  const World world = floor_world(
+      "<body name='foot'><geom type='cylinder' pos='1 0 0.012' size='0.12 0.012'/></body>");
+  const DriveModel model = make_drive_model(world, robot_file(), 0.02);
+  DriveSession session(model, {0, 0, 0}, {});
+  session.mind_edges();
+  EXPECT_EQ(drive(session, {{0, 0, 0}, {2, 0, 0}}), WayState::blocked);
+  ASSERT_TRUE(session.obstacle());
+  EXPECT_EQ(session.obstacle()->body, "foot");
+  EXPECT_EQ(session.health().bump_contacts, 0u);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "eval/report/figures/exploration_figure.hpp"
+#include "eval/report/exploration/floor_moments.hpp"
 
 #include <opencv2/core.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/pictures/exploration_strip.hpp"
+#include "eval/report/exploration/exploration_strip.hpp"
 
 #include "eval/recording/recording.hpp"
 #include "eval/report/pictures/caption.hpp"

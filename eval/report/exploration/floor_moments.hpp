@@ -3,21 +3,12 @@
 
 #pragma once
 
-#include "eval/explore/exploration_summary.hpp"
+#include "eval/explore/exploration_study.hpp"
 #include "eval/report/figures/script.hpp"
 
-#include <filesystem>
 #include <vector>
 
 namespace mapscore::eval {
-
-/// Coverage and F1 over metres, and coverage over time, from top to bottom; a column a scene. A
-/// line is the mean over the starts, a band its spread: 95 % interval, or least and greatest of
-/// fewer than ten. An exploration that has ended keeps what it has. A block of the data file is one
-/// line: `x mean low high`.
-[[nodiscard]] FigureSheet exploration_curves(const Study& study,
-                                             const std::vector<ExplorationGroup>& groups,
-                                             const FigureStyle& style = {});
 
 /// The floor as the lidar had it at the kept moments of one exploration, frame map: free white,
 /// occupied dark, unknown grey; frontiers, and the true way so far. A block of the data file is the

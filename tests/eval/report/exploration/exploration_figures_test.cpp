@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/report/exploration/coverage_curves.hpp"
+#include "eval/report/exploration/exploration_strip.hpp"
+#include "eval/report/exploration/floor_moments.hpp"
+#include "tests/eval/report/figures/figure_files.hpp"
+
+#include <gmock/gmock.h>
+
+namespace mapscore::eval {
+namespace {
+
+using testing::FiguresTest;
+using ::testing::HasSubstr;
+
+using ExplorationFigures = FiguresTest;
+
+/// Half of the surface after 2 m and 10 s, `last` of it at the end, after 4 m and 30 s.
+ExplorationResult exploration(double last) {
+  ExplorationResult result;
+  result.curve = {{0.0, 0.0, 0, 0.1, 0.1, MapState{}},
+                  {10.0, 2.0, 1, 0.5, 0.5, std::nullopt},
+                  {30.0, 4.0, 2, last, last, MapState{}}};
+  result.curve.back().map->f1 = 0.8;
+  for (const CoveragePoint& point : result.curve)
+    result.frames.push_back({point.stamp_s, Pose(Eigen::Translation3d(point.driven_m, 0.5, 0.0))});
+  OccupancyGrid floor({0.05, {}, 8, 4});
+  floor.set({2, 1}, kFreeCell);
+  for (const double stamp_s : {0.0, 10.0})
+    result.moments.push_back({stamp_s, 0.2 * stamp_s, floor, {{stamp_s, 1.0}}});
+  result.driven_m = 4.0;
+  result.duration_s = 30.0;
+  return result;
+}
+
+FinishedExploration finished(const std::filesystem::path& folder, int seed, double last) {
+  std::filesystem::create_directories(folder);
+  write_exploration(exploration(last), "key", folder);
+  PlannedExploration planned{{seed, "direct", {}, seed}, "run", {}};
+  planned.config.exploration.budget_m = 8;
+  planned.config.map_origin_m = {0.0, 0.0, 0.0};
+  return {std::move(planned), read_exploration(folder).value(), folder};
+}
+
+TEST_F(ExplorationFigures, CurvesAreMeansOverStartsWithTheirRange) {
+  const std::vector<FinishedExploration> runs{finished(folder_ / "0", 0, 0.7),
+                                              finished(folder_ / "1", 1, 0.9)};
+  const FigureSheet sheet = exploration_curves({}, groups_of(runs));
+  ASSERT_EQ(sheet.panels.size(), 3u);  // coverage over metres, F1, coverage over seconds
+  const auto metres = testing::block(sheet.data, "# coverage over the way; ; direct");
+  ASSERT_EQ(metres.size(), 121u);
+  EXPECT_EQ(metres.front(), "0 0.1 0.1 0.1");
+  EXPECT_EQ(metres[60], "2 0.5 0.5 0.5");
+  EXPECT_EQ(metres.back(), "4 0.8 0.7 0.9");
+  EXPECT_EQ(testing::block(sheet.data, "# F1 over the way; ; direct").back(), "4 0.8 0.8 0.8");
+  EXPECT_EQ(testing::block(sheet.data, "# coverage over time; ; direct")[40], "10 0.5 0.5 0.5");
+  EXPECT_THAT(sheet.caption, HasSubstr("Mean over 2 starts; band: least to greatest"));
+}
+
+TEST_F(ExplorationFigures, MomentsShowTheWaySoFarAndTheirOwnFrontier) {
+  const FinishedExploration run = finished(folder_, 0, 0.9);
+  const std::vector<ShownMoment> moments = read_moments(run);
+  ASSERT_EQ(moments.size(), kKeptMoments);
+  EXPECT_EQ(moments.front().coverage, 0.1);
+  EXPECT_EQ(moments.front().way_map.size(), 1u);
+  const ShownMoment& last = moments.back();
+  EXPECT_EQ(last.coverage, 0.5);
+  EXPECT_EQ(last.way_map.size(), 2u);
+  ASSERT_EQ(last.frontier_map.size(), 1u);
+  EXPECT_EQ(last.frontier_map[0], Eigen::Vector2d(10.0, 1.0));
+  EXPECT_EQ(last.floor.at({2, 1}), kFreeCell);
+  EXPECT_EQ(exploration_moments(run).panels.size(), kKeptMoments);
+  EXPECT_FALSE(exploration_strip(run));  // no recording was kept
+}
+
+}  // namespace
+}  // namespace mapscore::eval
