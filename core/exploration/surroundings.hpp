@@ -23,8 +23,8 @@ struct Lookout {
 struct Surroundings {
   /// Throws Error when the robot's place or floor height are not finite, or the map does not carve.
   /// Space reaches a metre beyond the lidar's grid, but at most 25 m from the robot, and from the
-  /// floor 3.2 m up. Where camera and lidar leave no way beyond the robot's radius, the floor is that
-  /// of DrivableFloor::Trust::lidar.
+  /// floor 3.2 m up. Where camera and lidar leave no way beyond the robot's radius, the floor is
+  /// that of DrivableFloor::Trust::lidar.
   Surroundings(const ExplorationState& state, const ExploringRobot& robot, double unsure_below);
   Surroundings(const Surroundings&) = delete;
   Surroundings& operator=(const Surroundings&) = delete;
