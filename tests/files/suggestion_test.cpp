@@ -5,6 +5,8 @@
 
 #include "tests/support/expect_error.hpp"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -30,7 +32,9 @@ class PathSuggestion : public ::testing::Test {
   [[nodiscard]] std::string meant(const char* path) const {
     return "did you mean '" + (folder_ / path).string() + "'?";
   }
-  fs::path folder_ = fs::temp_directory_path() / "mapscore_path_suggestion";
+  /// Of this process alone: the fixture's tests may run side by side.
+  fs::path folder_ =
+      fs::temp_directory_path() / ("mapscore_path_suggestion_" + std::to_string(::getpid()));
 };
 
 TEST_F(PathSuggestion, IsTheNearestNameAtTheFirstMissingPart) {
