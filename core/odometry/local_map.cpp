@@ -28,6 +28,10 @@ constexpr double kFacing = 0.7;
 /// either is this many times as far off, as on a rug's edge or a sill, it weighs a quarter, and
 /// soon nothing (S. Geman and D. McClure, 1987).
 constexpr double kFloorZ_m = 0.004, kFloorTilt = 0.1 * std::numbers::pi / 180.0, kFloorSigmas = 2.0;
+/// A surface is upright where its normal rises by less than this; fewer such points say nothing of
+/// their own.
+constexpr double kUpright = 0.7;
+constexpr std::size_t kLeastUpright = 50;
 /// Of a plane's place: what no number of points takes away (m^2).
 constexpr double kPlaneFloor = 1e-6;
 
@@ -210,6 +214,24 @@ struct PriorFactor {
 
 }  // namespace
 
+namespace {
+
+/// Share of the points on upright surfaces that are in a cube with a plane.
+double upright_share(const DepthScan& scan, const Pose& T_map_base,
+                     const std::vector<PlaneFactor>& factors, double known_share) {
+  std::size_t upright = 0, known = 0;
+  const Eigen::RowVector3d up = T_map_base.linear().row(2);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (std::abs(up.dot(scan.normals[i])) > kUpright) continue;
+    ++upright;
+    if (factors[i].known) ++known;
+  }
+  if (upright < kLeastUpright) return known_share;
+  return static_cast<double>(known) / static_cast<double>(upright);
+}
+
+}  // namespace
+
 struct LocalMap::Planes {
   explicit Planes(double voxel_m) : map(voxel_m) {}
   PlaneVoxelMap map;
@@ -252,6 +274,7 @@ ScanMatch LocalMap::match(const DepthScan& scan, const PosePrior& prior) const {
   }
   const auto known = std::ranges::count_if(factors, &PlaneFactor::known);
   match.known_share = static_cast<double>(known) / static_cast<double>(scan.size());
+  match.upright_share = upright_share(scan, result.T_target_source, factors, match.known_share);
   if (known == 0) return match;
   match.inlier_share = static_cast<double>(result.num_inliers) / static_cast<double>(known);
   match.T_map_base = result.T_target_source;

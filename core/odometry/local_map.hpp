@@ -42,7 +42,10 @@ struct ScanMatch {
   Pose T_map_base = Pose::Identity();
   Covariance6 covariance = Covariance6::Zero();   ///< of prior and scan together
   Covariance6 information = Covariance6::Zero();  ///< of the scan alone, same axes
-  double known_share = 0.0;   ///< of the points: those in a cube that holds a plane
+  double known_share = 0.0;  ///< of the points: those in a cube that holds a plane
+  /// The same of the points on upright surfaces alone, which fix x, y and yaw where a floor fixes
+  /// none; known_share where there are few.
+  double upright_share = 0.0;
   double inlier_share = 0.0;  ///< of those: how many lie on the plane
 };
 

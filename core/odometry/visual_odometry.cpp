@@ -172,6 +172,7 @@ Tracking VisualOdometry::track(const DepthScan& scan, const OdometryFrame& frame
     }
   }
   step.known_share = match.known_share;
+  step.upright_share = match.upright_share;
   step.inlier_share = match.inlier_share;
   const double support = match.known_share * match.inlier_share;
   if (support < kLeastSupport * std::max(seen_before, kLittle)) {
@@ -256,8 +257,9 @@ void VisualOdometry::keep(DepthScan scan, const OdometryFrame& frame, OdometrySt
   KeyFrame key{frame.stamp_s, state_.T_map_base, way_m_, std::move(scan),
                params_.loops ? small_depth_of(frame.depth, believed_.range_max_m) : cv::Mat1f()};
   if (!keys_.empty()) {
-    const double share =
-        step.tracking == Tracking::restarted ? 1.0 : taken_over(1.0 - step.known_share);
+    const double share = step.tracking == Tracking::restarted
+                             ? 1.0
+                             : taken_over(1.0 - std::min(step.known_share, step.upright_share));
     const Covariance6 growth = share * state_.relative + key_frame_floor();
     state_.drift += growth;
     state_.relative *= 1.0 - share;

@@ -67,7 +67,7 @@ struct OdometryStep {
   /// base_footprint.
   Covariance6 covariance = Covariance6::Zero();
   Tracking tracking = Tracking::started;
-  double known_share = 0.0, inlier_share = 0.0;  ///< see ScanMatch
+  double known_share = 0.0, upright_share = 0.0, inlier_share = 0.0;  ///< see ScanMatch
   bool key_frame = false;
   bool closed_loop = false;
 };
