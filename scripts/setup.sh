@@ -72,7 +72,39 @@ install_packages() {
   rm -f "$log"
 }
 
+# fetch NAME VERSION SHA256 FOLDER UNPACK HINT [OPTION of pip...]: downloads an archive from PyPI, holds it against
+# its hash, and unpacks it by `UNPACK ARCHIVE FOLDER`. The folder appears whole or not at all.
+fetch() (  # in a shell of its own, for its trap
+  name=$1 version=$2 sha256=$3 folder=$4 unpack=$5 hint=$6
+  shift 6
+  say "fetching $name $version into $folder"
+  archives=$(mktemp -d)
+  trap 'rm -rf "$archives" "$folder.partial"' EXIT
+  if ! python3 -m pip download --quiet --disable-pip-version-check --no-deps "$@" -d "$archives" "$name==$version"; then
+    say "$name could not be fetched; $hint"
+    exit 2
+  fi
+  if ! echo "$sha256 $(ls "$archives"/*)" | sha256sum --check --quiet; then
+    say "the archive of $name is not the one this project was tested with; nothing was installed"
+    exit 2
+  fi
+  rm -rf "$folder.partial"
+  mkdir -p "$folder.partial"
+  "$unpack" "$archives"/* "$folder.partial"
+  mv "$folder.partial" "$folder"
+)
+
 # The wheel carries libmujoco and its headers; nothing of its Python is used.
+unpack_mujoco() {
+  python3 - "$@" <<'PYTHON'
+import sys, zipfile
+wheel = zipfile.ZipFile(sys.argv[1])
+wanted = [name for name in wheel.namelist()
+          if name.startswith(("mujoco/include/", "mujoco/libmujoco.so")) or "LICENSE" in name]
+wheel.extractall(sys.argv[2], wanted)
+PYTHON
+}
+
 install_mujoco() {
   [ -f "$mujoco_folder/mujoco/include/mujoco/mujoco.h" ] && return
   for prefix in /usr/local /usr; do
@@ -88,73 +120,31 @@ install_mujoco() {
     say "no MuJoCo wheel is known for $machine; install MuJoCo 3.3 or newer yourself, CMake finds it"
     exit 2
   fi
-  say "fetching MuJoCo $mujoco_version into $mujoco_folder"
-  wheel_folder=$(mktemp -d)
-  trap 'rm -rf "$wheel_folder" "$mujoco_folder.partial"' EXIT
-  if ! python3 -m pip download --quiet --disable-pip-version-check --no-deps --only-binary=:all: \
+  fetch mujoco-core "$mujoco_version" "$expected" "$mujoco_folder" unpack_mujoco \
+    "or install MuJoCo 3.3 or newer yourself, CMake finds it" --only-binary=:all: \
     --implementation cp --python-version 3.11 --abi cp311 --platform "manylinux_2_28_$machine" \
-    --platform "manylinux_2_27_$machine" -d "$wheel_folder" "mujoco-core==$mujoco_version"; then
-    say "MuJoCo could not be fetched; or install MuJoCo 3.3 or newer yourself, CMake finds it"
-    exit 2
-  fi
-  if ! echo "$expected $(ls "$wheel_folder"/*.whl)" | sha256sum --check --quiet; then
-    say "the MuJoCo wheel is not the one this project was tested with; nothing was installed"
-    exit 2
-  fi
-  rm -rf "$mujoco_folder.partial"
-  mkdir -p "$mujoco_folder.partial"
-  python3 - "$wheel_folder" "$mujoco_folder.partial" <<'PYTHON'
-import glob, sys, zipfile
-wheel = zipfile.ZipFile(glob.glob(sys.argv[1] + "/*.whl")[0])
-wanted = [name for name in wheel.namelist()
-          if name.startswith(("mujoco/include/", "mujoco/libmujoco.so")) or "LICENSE" in name]
-wheel.extractall(sys.argv[2], wanted)
-PYTHON
-  mv "$mujoco_folder.partial" "$mujoco_folder"
+    --platform "manylinux_2_27_$machine"
 }
 
 # The source distribution carries the C++ headers, which is all that is used of it.
-install_small_gicp() (  # in a shell of its own, for its trap
-  [ -f "$small_gicp_folder/include/small_gicp/registration/registration.hpp" ] && exit
-  say "fetching small_gicp $small_gicp_version into $small_gicp_folder"
-  sdist_folder=$(mktemp -d)
-  trap 'rm -rf "$sdist_folder" "$small_gicp_folder.partial"' EXIT
-  if ! python3 -m pip download --quiet --disable-pip-version-check --no-deps --no-binary=small_gicp \
-    -d "$sdist_folder" "small_gicp==$small_gicp_version"; then
-    say "small_gicp could not be fetched; or unpack its headers into $small_gicp_folder/include yourself"
-    exit 2
-  fi
-  if ! echo "$small_gicp_sha256 $(ls "$sdist_folder"/small_gicp-*.tar.gz)" | sha256sum --check --quiet; then
-    say "the small_gicp archive is not the one this project was tested with; nothing was installed"
-    exit 2
-  fi
-  rm -rf "$small_gicp_folder.partial"
-  mkdir -p "$small_gicp_folder.partial"
-  tar -xzf "$sdist_folder"/small_gicp-*.tar.gz -C "$small_gicp_folder.partial" --strip-components=1 \
+unpack_small_gicp() {
+  tar -xzf "$1" -C "$2" --strip-components=1 \
     "small_gicp-$small_gicp_version/include" "small_gicp-$small_gicp_version/LICENSE"
-  mv "$small_gicp_folder.partial" "$small_gicp_folder"
-)
+}
+
+install_small_gicp() {
+  [ -f "$small_gicp_folder/include/small_gicp/registration/registration.hpp" ] && return
+  fetch small_gicp "$small_gicp_version" "$small_gicp_sha256" "$small_gicp_folder" unpack_small_gicp \
+    "or unpack its headers into $small_gicp_folder/include yourself" --no-binary=small_gicp
+}
 
 # GPL-3, so a tool beside the tests and no part of mapscore. Its core needs numpy and scipy alone.
-install_evo() (  # in a shell of its own, for its trap
-  [ -f "$evo_folder/evo/core/metrics.py" ] && exit
-  say "fetching evo $evo_version into $evo_folder"
-  wheel_folder=$(mktemp -d)
-  trap 'rm -rf "$wheel_folder" "$evo_folder.partial"' EXIT
-  if ! python3 -m pip download --quiet --disable-pip-version-check --no-deps --only-binary=:all: \
-    -d "$wheel_folder" "evo==$evo_version"; then
-    say "evo could not be fetched; check the network"
-    exit 2
-  fi
-  if ! echo "$evo_sha256 $(ls "$wheel_folder"/*.whl)" | sha256sum --check --quiet; then
-    say "the evo wheel is not the one this project was tested with; nothing was installed"
-    exit 2
-  fi
-  rm -rf "$evo_folder.partial"
-  mkdir -p "$evo_folder.partial"
-  python3 -m zipfile -e "$wheel_folder"/*.whl "$evo_folder.partial"
-  mv "$evo_folder.partial" "$evo_folder"
-)
+unpack_evo() { python3 -m zipfile -e "$1" "$2"; }
+
+install_evo() {
+  [ -f "$evo_folder/evo/core/metrics.py" ] && return
+  fetch evo "$evo_version" "$evo_sha256" "$evo_folder" unpack_evo "check the network" --only-binary=:all:
+}
 
 install_packages
 install_mujoco
