@@ -212,10 +212,6 @@ struct PriorFactor {
   }
 };
 
-}  // namespace
-
-namespace {
-
 /// Share of the points on upright surfaces that are in a cube with a plane.
 double upright_share(const DepthScan& scan, const Pose& T_map_base,
                      const std::vector<PlaneFactor>& factors, double known_share) {

@@ -4,6 +4,7 @@
 #include "core/odometry/visual_odometry.hpp"
 
 #include "core/error.hpp"
+#include "core/odometry/motion_prior.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -40,70 +41,17 @@ double taken_over(double new_share) {
   return std::max(kLeast, std::pow(new_share, 5));
 }
 
-Covariance6 diagonal(double xy_m, double z_m, double tilt_rad, double yaw_rad) {
-  Vector6 sigmas;
-  sigmas << xy_m, xy_m, z_m, tilt_rad, tilt_rad, yaw_rad;
-  return sigmas.cwiseAbs2().asDiagonal();
-}
-
-/// What the wheels do not say: the base's spring and tilt, and rounding of the encoders.
-Covariance6 wheel_jitter() {
-  return diagonal(0.001, 0.005, 0.5 * kDegree, 0.1 * kDegree);
-}
 /// Of a key frame's place against the map it is put into.
 Covariance6 key_frame_floor() {
-  return diagonal(0.0003, 0.0003, 0.01 * kDegree, 0.01 * kDegree);
+  return sigmas6(0.0003, 0.0003, 0.01 * kDegree, 0.01 * kDegree);
 }
 /// Of a pose in the map, however often it is matched: the map's own errors are the same each time.
 Covariance6 map_bias() {
-  return diagonal(0.002, 0.002, 0.05 * kDegree, 0.04 * kDegree);
+  return sigmas6(0.002, 0.002, 0.05 * kDegree, 0.04 * kDegree);
 }
 /// How far a robot that is lost may be from where it believes to be.
 Covariance6 lost_jump() {
-  return diagonal(0.5, 0.05, 2.0 * kDegree, 30.0 * kDegree);
-}
-Covariance6 alike(double m, double rad) {
-  return diagonal(m, m, rad, rad);
-}
-/// A camera in a hand forgets its speed within a tenth of a second, so that what the images do not
-/// show of its motion comes to rest: the part of the last motion that goes on.
-double speed_kept(double last_step_s, double dt_s) {
-  constexpr double kMemory_s = 0.1;
-  return kMemory_s * (1.0 - std::exp(-dt_s / kMemory_s)) / last_step_s;
-}
-/// It may have sped up by 3 m/s^2 and 300 degrees/s^2, within a second at most, and may as well
-/// have kept the speed that it was not expected to.
-Covariance6 free_motion(double dt_s, const Vector6& forgotten) {
-  const double half = 0.5 * std::min(dt_s, 1.0) * std::min(dt_s, 1.0);
-  Covariance6 noise = alike(3.0 * half + 0.002, 300.0 * kDegree * half + 0.2 * kDegree);
-  noise.diagonal() += forgotten.cwiseAbs2();
-  return noise;
-}
-/// A robot that goes on as it went may have sped up by 0.5 m/s^2 and 85 degrees/s^2.
-Covariance6 acceleration(double dt_s) {
-  const double half = 0.5 * dt_s * dt_s;
-  return diagonal(0.5 * half + 0.001, 0.002 + 0.05 * half, 0.2 * kDegree + 5.0 * kDegree * half,
-                  85.0 * kDegree * half + 0.1 * kDegree);
-}
-
-/// On the floor z = 0 the base stands level, but for rugs and springs: the prior given z, roll and
-/// pitch of 0 with these standard deviations (a Kalman update), which hold on rugs as well.
-PosePrior on_floor(const PosePrior& prior) {
-  constexpr std::array kAxes{2, 3, 4};
-  const Covariance6 noise = diagonal(1.0, 0.01, 1.0 * kDegree, 1.0);
-  const Eigen::Vector3d up = prior.mean.linear().row(2);
-  const Eigen::Vector3d off(-prior.mean.translation().z(), -up.y(), up.x());
-  const Eigen::Matrix<double, 6, 3> cross = prior.covariance(Eigen::all, kAxes);
-  const Eigen::Matrix3d sum = prior.covariance(kAxes, kAxes) + noise(kAxes, kAxes);
-  const Eigen::Matrix<double, 6, 3> gain = cross * sum.inverse();
-  const Covariance6 left = prior.covariance - gain * cross.transpose();
-  return {prior.mean * exp_pose(gain * off), 0.5 * (left + left.transpose()), true};
-}
-
-/// A covariance in the base's axes after a motion.
-Covariance6 moved(const Covariance6& covariance, const Pose& T_before_after) {
-  const Covariance6 ad = adjoint(T_before_after.inverse());
-  return ad * covariance * ad.transpose();
+  return sigmas6(0.5, 0.05, 2.0 * kDegree, 30.0 * kDegree);
 }
 
 double squared_sigmas(const PosePrior& prior, const Pose& T_map_base) {
@@ -126,31 +74,16 @@ VisualOdometry::VisualOdometry(const VisualOdometryParams& params, const Calibra
 }
 
 VisualOdometry::Expected VisualOdometry::expect(const OdometryFrame& frame) const {
-  Pose T_last_base = Pose::Identity();
-  Covariance6 noise = Covariance6::Zero();
-  const double dt_s = frame.stamp_s - last_->stamp_s;
   const bool wheels = frame.T_odom_base && last_->T_odom_base;
-  if (wheels) {
-    T_last_base = last_->T_odom_base->inverse() * *frame.T_odom_base;
-    const OdometryMotion motion =
-        motion_parts(planar(T_last_base), params_.wheel_noise.least_way_m);
-    noise =
-        spatial_covariance(motion_covariance(motion, motion_sigmas(motion, params_.wheel_noise))) +
-        wheel_jitter();
-  } else {
-    const Vector6 last = log_pose(T_before_last_base_);
-    double kept = last_step_s_ > 0.0 ? dt_s / last_step_s_ : 0.0;
-    noise = acceleration(dt_s);
-    if (!params_.on_floor) {
-      const double going_on = std::min(kept, 1.0);
-      if (kept > 0.0) kept = speed_kept(last_step_s_, dt_s);
-      noise = free_motion(dt_s, last * (going_on - std::min(kept, going_on)));
-    }
-    T_last_base = exp_pose(last * kept);
-  }
-  PosePrior prior{state_.T_map_base * T_last_base, moved(state_.relative, T_last_base) + noise};
-  if (wheels) prior = on_floor(prior);
-  return {prior, T_last_base};
+  const double dt_s = frame.stamp_s - last_->stamp_s;
+  const LastStep before{T_before_last_base_, last_step_s_};
+  const MotionPrior motion =
+      wheels ? wheel_motion(last_->T_odom_base->inverse() * *frame.T_odom_base, params_.wheel_noise)
+      : params_.wheeled ? robot_motion(before, dt_s)
+                        : hand_motion(before, dt_s);
+  const PosePrior prior{state_.T_map_base * motion.T_before_after,
+                        moved(state_.relative, motion.T_before_after) + motion.noise};
+  return {wheels ? on_floor(prior) : prior, motion.T_before_after};
 }
 
 Tracking VisualOdometry::track(const DepthScan& scan, const OdometryFrame& frame,
@@ -231,7 +164,7 @@ OdometryStep VisualOdometry::add(const OdometryFrame& frame) {
 }
 
 Covariance6 VisualOdometry::jump_when_lost() const {
-  return params_.on_floor ? lost_jump() : alike(0.5, 30.0 * kDegree);
+  return params_.wheeled ? lost_jump() : sigmas6(0.5, 0.5, 30.0 * kDegree, 30.0 * kDegree);
 }
 
 bool VisualOdometry::hardly_moved(const OdometryFrame& frame) const {

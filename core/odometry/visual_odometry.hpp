@@ -31,7 +31,7 @@ struct VisualOdometryParams {
   OdometryNoise wheel_noise;         ///< of the wheels' increments, where they are given
   std::optional<LoopClosure> loops;  ///< with them it is visual SLAM
   /// False: the camera is in a hand, or nobody knows, and may move in all six axes alike.
-  bool on_floor = true;
+  bool wheeled = true;
 };
 
 /// One depth image, in the order of stamps.

@@ -14,7 +14,7 @@ namespace mapscore::eval {
 FolderPoses find_poses(const LabelledFolder& folder, bool loops,
                        const std::function<void(int, int)>& progress) {
   VisualOdometryParams params;
-  params.on_floor = false;
+  params.wheeled = false;
   if (loops) params.loops.emplace();
   VisualOdometry odometry(params, folder.calibration(), Pose::Identity());
   VisualTrajectory visual;

@@ -137,6 +137,21 @@ TEST(LocalMap, ABaseOnASillMayLean) {
   EXPECT_LT(error.tail<3>().norm(), 0.05 * std::numbers::pi / 180.0);
 }
 
+TEST(LocalMap, AKnownFloorDoesNotMakeANewChestKnown) {
+  const BoxFlat hall(40.0, 40.0);  // nothing but floor within range of its middle
+  BoxFlat with_chest(40.0, 40.0);
+  with_chest.add(21.8, 19.5, 0.0, 22.3, 20.5, 1.0);
+  const Pose T_map_base = planar_pose(20.0, 20.0, 0.0);
+  LocalMap map({}, 60);
+  map.insert(scan_at(hall, T_map_base), T_map_base);
+  const PosePrior prior = prior_at(T_map_base, 0.01, 0.01);
+  const ScanMatch floor_alone = map.match(scan_at(hall, T_map_base), prior);
+  EXPECT_EQ(floor_alone.upright_share, floor_alone.known_share);
+  const ScanMatch match = map.match(scan_at(with_chest, T_map_base), prior);
+  EXPECT_GT(match.known_share, 0.05);
+  EXPECT_EQ(match.upright_share, 0.0);
+}
+
 TEST(LocalMap, OfAScanBesideItThePriorIsGiven) {
   const BoxFlat flat = furnished_room();
   LocalMap map({}, 60);
