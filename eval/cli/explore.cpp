@@ -13,7 +13,7 @@
 #include "eval/report/exploration/exploration_strip.hpp"
 #include "eval/report/exploration/floor_moments.hpp"
 #include "eval/report/pictures/caption.hpp"
-#include "eval/report/table_formats.hpp"
+#include "eval/report/tables/table_formats.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>

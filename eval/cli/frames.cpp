@@ -11,7 +11,7 @@
 #include "eval/lab/bench.hpp"
 #include "eval/render/study_recording.hpp"
 #include "eval/report/figures/frames_figure.hpp"
-#include "eval/report/table_formats.hpp"
+#include "eval/report/tables/table_formats.hpp"
 #include "eval/results/plan.hpp"
 #include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"

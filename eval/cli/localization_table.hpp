@@ -5,7 +5,7 @@
 
 #include "eval/localization/localization_score.hpp"
 #include "eval/report/summary.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 #include "eval/study/study.hpp"
 
 #include <span>

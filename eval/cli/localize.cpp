@@ -14,7 +14,7 @@
 #include "eval/recording/recording.hpp"
 #include "eval/report/figures/believed_figures.hpp"
 #include "eval/report/figures/figures.hpp"
-#include "eval/report/table_formats.hpp"
+#include "eval/report/tables/table_formats.hpp"
 #include "eval/study/study.hpp"
 #include "files/folder_lock.hpp"
 #include "files/text.hpp"

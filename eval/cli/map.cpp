@@ -3,7 +3,7 @@
 
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
-#include "eval/cli/shared/choice_flags.hpp"
+#include "eval/cli/map_flags.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
@@ -22,33 +22,9 @@
 #include <iostream>
 #include <numbers>
 #include <optional>
-#include <set>
 
 namespace mapscore::eval {
 namespace {
-
-constexpr auto kMasks = names_of(ClassMasks{});
-
-/// Where poses come from: groundtruth.txt, or the depth images.
-constexpr const char* kPosesOfFile = "file";
-constexpr const char* kVisualOdometry = "visual_odometry";
-constexpr const char* kVisualSlam = "visual_slam";
-
-struct MapVerbFlags {
-  std::string folder, file, color_file, ply_file;
-  LabelledFolderOptions reading;
-  std::vector<double> range_m;
-  std::string study, method, frames, masks{kMasks.front()}, poses{kPosesOfFile};
-  /// As the authors' released code has it, where neither a study nor flags say otherwise.
-  ChoiceFlags<Segmentation> segmentation{"--segmentation", RegionGrowing{.radius_factor = 0.5}};
-  ChoiceFlags<MappedFrames> mapped{"--mapped", AllFrames{}};
-  std::vector<std::string> detect, overrides;
-  std::optional<double> voxel_m, K, threshold;
-  std::vector<double> origin_m{0, 0, 0};
-  double yaw_deg = 0.0;
-  bool quiet = false;
-  const CLI::App* verb = nullptr;
-};
 
 /// The study's method by name, its first without one.
 const MethodSettings& method_of(const Study& study, const std::string& name) {
@@ -216,7 +192,7 @@ Mapped mapped_trial(const MapVerbFlags& flags, const FramesDone& shown_done) {
 Mapped mapped_folder(const MapVerbFlags& flags, const FramesDone& shown_done) {
   const std::optional<Study> study = study_of(flags);
   LabelledFolderOptions reading = flags.reading;
-  reading.masks = static_cast<ClassMasks>(std::ranges::find(kMasks, flags.masks) - kMasks.begin());
+  reading.masks = masks_of(flags);
   if (!flags.range_m.empty()) reading.range_m = std::pair(flags.range_m.at(0), flags.range_m.at(1));
   reading.poses = flags.poses == kPosesOfFile;
   LabelledFolder folder(flags.folder, reading);
@@ -263,71 +239,12 @@ void map_recording(const MapVerbFlags& flags) {
     if (!file.empty()) std::cout << shown(file) << '\n';
 }
 
-void add_reading_flags(CLI::App& verb, MapVerbFlags& flags) {
-  LabelledFolderOptions& reading = flags.reading;
-  const auto add = [&](const char* name, auto& value, const char* text) {
-    return verb.add_option(name, value, text)->group("Reading the folder");
-  };
-  add("--intrinsics", reading.cameras,
-      "fx,fy,cx,cy in pixels, or a YAML file; needed without recording.yaml");
-  add("--classes", reading.classes,
-      "YAML file: what the pixels of label images mean; needed without recording.yaml");
-  add("--masks", flags.masks,
-      "Class labels become a detection for each connected component, one a class, or, where pixels "
-      "are 256 class + instance, one a value: components, classes, instances [components]")
-      ->check(CLI::IsMember(std::set<std::string>(kMasks.begin(), kMasks.end())));
-  add("--detect", flags.detect, "Classes that are mapped, by commas, or all [as the table says]")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  add("--depth_scale", reading.depth_units_per_m, "Depth image's units in a metre [5000]")
-      ->check(finite_within(1, 1e6));
-  add("--range_m", flags.range_m, "Least and most depth that counts: near far [the cameras']")
-      ->expected(2)
-      ->check(finite_within(0, 100));
-  add("--max_offset_s", reading.max_offset_s,
-      "Images and poses whose stamps are farther apart do not belong together [0.02]")
-      ->check(finite_within(1e-6, 10));
-  add("--poses", flags.poses,
-      "groundtruth.txt (file), or found in the depth images, from the first one's camera or base: "
-      "visual_odometry, or visual_slam, which closes loops too [file]")
-      ->check(CLI::IsMember({kPosesOfFile, kVisualOdometry, kVisualSlam}));
-  add("--frames", flags.frames, "Of the frames: 3,7,9 or first:end:step, from 0 [all]");
-  verb.add_flag("--follow", reading.follow,
-                "Images may lie outside of FOLDER: links and paths in its lists are followed")
-      ->group("Reading the folder");
-}
-
-void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
-  const auto add = [&](const char* name, auto& value, const char* text) {
-    return verb.add_option(name, value, text)->group("Mapping");
-  };
-  add("--study", flags.study,
-      "Takes voxel size, detected classes, segmentation, place, fusion, occupancy, frames and "
-      "refinement "
-      "of this study, no faults; a frame is drawn once, at its pose");
-  add("--set", flags.overrides, "A key of the study, path=value; may be repeated")
-      ->allow_extra_args(false);
-  add("--method", flags.method, "Name of its method [the first]");
-  add("--voxel_m", flags.voxel_m, "Voxel edge in metres [0.05]")->check(finite_within(1e-3, 10));
-  add("--K", flags.K, "Weight of what the map held before, in the blend [0.5]")
-      ->check(finite_within(0, 0.999));
-  add("--origin_m", flags.origin_m, "Origin of the map in the frame of the poses: x y z [0 0 0]")
-      ->expected(3)
-      ->check(finite_within(-1e6, 1e6));
-  add("--yaw_deg", flags.yaw_deg, "Heading of the map there [0]")->check(finite_within(-360, 360));
-  add("--threshold", flags.threshold,
-      "Least probability of a voxel in --color and --ply [(1 - K) / 2]")
-      ->check(finite_within(0, 1));
-}
-
 }  // namespace
 
 void add_map(CLI::App& program) {
   const auto [verb, flags] = add_verb<MapVerbFlags>(
       program, "map", "Map a recording of any origin, truth or not", map_recording);
   flags->verb = verb;
-  flags->segmentation.add_to(*verb, "Mapping");
-  flags->mapped.add_to(*verb, "Mapping");
   verb->add_option("FOLDER", flags->folder,
                    "Folder with depth.txt, groundtruth.txt, color.txt or rgb.txt, and label/ or "
                    "label.txt; or one of `mapscore trial`")

@@ -9,7 +9,7 @@
 #include "eval/lab/object_run.hpp"
 #include "eval/objects/object_file.hpp"
 #include "eval/render/study_recording.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 #include "eval/results/study_store.hpp"
 #include "files/folder_lock.hpp"
 #include "files/suggestion.hpp"

@@ -11,7 +11,7 @@
 #include "eval/cli/verbs.hpp"
 #include "eval/report/pictures/map_pictures.hpp"
 #include "eval/report/pictures/view.hpp"
-#include "eval/report/tidy_csv.hpp"
+#include "eval/report/tables/tidy_csv.hpp"
 
 #include <fmt/format.h>
 

@@ -11,8 +11,8 @@
 #include "eval/report/pictures/judgement.hpp"
 #include "eval/report/pictures/map_pictures.hpp"
 #include "eval/report/pictures/view.hpp"
-#include "eval/report/table_formats.hpp"
-#include "eval/report/tidy_csv.hpp"
+#include "eval/report/tables/table_formats.hpp"
+#include "eval/report/tables/tidy_csv.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include "eval/cli/shared/map_score.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/truth_source.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 
 #include <optional>
 #include <string>

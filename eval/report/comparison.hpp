@@ -4,7 +4,7 @@
 #pragma once
 
 #include "eval/report/summary.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 #include "eval/statistics/paired.hpp"
 
 #include <optional>

@@ -4,7 +4,7 @@
 #include "eval/report/regression_report.hpp"
 
 #include "core/error.hpp"
-#include "eval/report/table_formats.hpp"
+#include "eval/report/tables/table_formats.hpp"
 #include "files/text.hpp"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "eval/report/selection.hpp"
 
 #include "core/error.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 #include "files/suggestion.hpp"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "eval/report/axes.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 #include "eval/statistics/tolerance.hpp"
 
 #include <optional>

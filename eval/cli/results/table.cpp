@@ -3,8 +3,8 @@
 
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/verbs.hpp"
-#include "eval/report/pivot_table.hpp"
-#include "eval/report/tidy_csv.hpp"
+#include "eval/report/tables/pivot_table.hpp"
+#include "eval/report/tables/tidy_csv.hpp"
 
 #include <iostream>
 

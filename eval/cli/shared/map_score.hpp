@@ -8,7 +8,7 @@
 #include "eval/cli/shared/truth_source.hpp"
 #include "eval/map_files/legend.hpp"
 #include "eval/map_files/map_file.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 #include "eval/score/confusion.hpp"
 #include "eval/score/instances/instance_pieces.hpp"
 #include "eval/score/instances/instance_score.hpp"

@@ -4,7 +4,7 @@
 #include "eval/cli/shared/options.hpp"
 
 #include "core/error.hpp"
-#include "eval/report/table_formats.hpp"
+#include "eval/report/tables/table_formats.hpp"
 #include "eval/study/picture_view.hpp"
 #include "files/text_rows.hpp"
 

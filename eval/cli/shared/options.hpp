@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 #include "eval/study/study.hpp"
 #include "files/folder_lock.hpp"
 #include "sim/render/renderer.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "eval/cli/shared/map_score.hpp"
-#include "eval/report/tidy_csv.hpp"
+#include "eval/report/tables/tidy_csv.hpp"
 #include "eval/score/label_images.hpp"
 
 #include <fmt/format.h>

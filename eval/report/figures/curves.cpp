@@ -3,7 +3,7 @@
 
 #include "eval/report/figures/curves.hpp"
 
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -6,7 +6,7 @@
 #include "core/whole_file.hpp"
 #include "eval/report/figures/curves.hpp"
 #include "eval/report/figures/scatter.hpp"
-#include "eval/report/table_formats.hpp"
+#include "eval/report/tables/table_formats.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include "eval/lab/trial_run.hpp"
 #include "eval/report/figures/script.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 
 #include <cstdint>
 #include <span>

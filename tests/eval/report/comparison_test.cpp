@@ -3,7 +3,7 @@
 
 #include "eval/report/comparison.hpp"
 
-#include "eval/report/table_formats.hpp"
+#include "eval/report/tables/table_formats.hpp"
 #include "tests/eval/report/pictures/swept_plate.hpp"
 #include "tests/eval/report/synthetic_summary.hpp"
 #include "tests/support/expect_error.hpp"

@@ -3,7 +3,7 @@
 
 #include "eval/report/tolerance_report.hpp"
 
-#include "eval/report/table_formats.hpp"
+#include "eval/report/tables/table_formats.hpp"
 
 #include <gtest/gtest.h>
 

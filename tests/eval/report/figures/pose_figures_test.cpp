@@ -3,7 +3,7 @@
 
 #include "eval/report/figures/figures.hpp"
 #include "eval/report/figures/pose_errors_figure.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 #include "tests/eval/report/figures/figure_files.hpp"
 
 #include <gmock/gmock.h>

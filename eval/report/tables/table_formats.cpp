@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/table_formats.hpp"
+#include "eval/report/tables/table_formats.hpp"
 
 #include "files/csv.hpp"
 #include "files/text.hpp"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/table_formats.hpp"
+#include "eval/report/tables/table_formats.hpp"
 #include "tests/eval/report/synthetic_summary.hpp"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/tidy_csv.hpp"
+#include "eval/report/tables/tidy_csv.hpp"
 
 #include "files/csv.hpp"
 #include "tests/eval/report/pictures/swept_plate.hpp"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/pivot_table.hpp"
+#include "eval/report/tables/pivot_table.hpp"
 
 #include "tests/eval/report/synthetic_summary.hpp"
 #include "tests/support/expect_error.hpp"

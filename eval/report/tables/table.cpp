@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 
 #include "core/error.hpp"
-#include "eval/report/accounting_figures.hpp"
 #include "eval/report/axes.hpp"
 #include "eval/report/best_threshold.hpp"
+#include "eval/report/tables/accounting_counts.hpp"
 #include "files/suggestion.hpp"
 
 #include <fmt/format.h>

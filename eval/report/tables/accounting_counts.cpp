@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/accounting_figures.hpp"
+#include "eval/report/tables/accounting_counts.hpp"
 
 #include <fmt/format.h>
 

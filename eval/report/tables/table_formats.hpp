@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 
 #include <cstddef>
 #include <string>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/pivot_table.hpp"
+#include "eval/report/tables/pivot_table.hpp"
 
 #include "core/error.hpp"
-#include "eval/report/accounting_figures.hpp"
 #include "eval/report/axes.hpp"
+#include "eval/report/tables/accounting_counts.hpp"
 #include "files/suggestion.hpp"
 
 #include <fmt/format.h>

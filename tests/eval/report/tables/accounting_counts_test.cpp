@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/accounting_figures.hpp"
+#include "eval/report/tables/accounting_counts.hpp"
 
-#include "eval/report/pivot_table.hpp"
+#include "eval/report/tables/pivot_table.hpp"
 #include "tests/eval/report/synthetic_summary.hpp"
 
 #include <gmock/gmock.h>

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/report/tidy_csv.hpp"
+#include "eval/report/tables/tidy_csv.hpp"
 
 #include "eval/report/best_threshold.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 #include "files/csv.hpp"
 
 #include <fmt/format.h>

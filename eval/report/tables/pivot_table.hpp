@@ -4,7 +4,7 @@
 #pragma once
 
 #include "eval/report/selection.hpp"
-#include "eval/report/table.hpp"
+#include "eval/report/tables/table.hpp"
 
 #include <string>
 #include <vector>
