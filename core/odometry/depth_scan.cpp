@@ -106,4 +106,13 @@ DepthScan scan_of(const cv::Mat1w& depth, const Calibration& believed,
   return scan;
 }
 
+std::vector<std::size_t> upright_points(const DepthScan& scan, const Pose& T_map_base) {
+  constexpr double kUpright = 0.7;
+  const Eigen::RowVector3d up = T_map_base.linear().row(2);
+  std::vector<std::size_t> upright;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if (std::abs(up.dot(scan.normals[i])) < kUpright) upright.push_back(i);
+  return upright;
+}
+
 }  // namespace mapscore

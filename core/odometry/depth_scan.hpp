@@ -4,11 +4,13 @@
 #pragma once
 
 #include "core/geometry/camera.hpp"
+#include "core/geometry/pose.hpp"
 #include "core/parameters.hpp"
 
 #include <opencv2/core.hpp>
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 namespace mapscore {
@@ -52,5 +54,10 @@ struct DepthScan {
 /// the image is not of the camera's size. Thread-safe.
 [[nodiscard]] DepthScan scan_of(const cv::Mat1w& depth, const Calibration& believed,
                                 const DepthSampling& sampling);
+
+/// Indices of the points on upright surfaces, whose normals rise by less than 0.7, of a base at
+/// this pose: a floor fixes none of x, y and yaw, these do. Thread-safe.
+[[nodiscard]] std::vector<std::size_t> upright_points(const DepthScan& scan,
+                                                      const Pose& T_map_base);
 
 }  // namespace mapscore

@@ -3,19 +3,14 @@
 
 #include "core/odometry/key_frames.hpp"
 
+#include "core/odometry/key_view.hpp"
+
 #include <Eigen/Geometry>
 
 namespace mapscore {
 namespace {
 
 constexpr int kStride = 16;
-
-bool in_view(const Eigen::Vector3d& p, const Calibration& believed) {
-  if (p.z() < believed.range_min_m || p.z() > believed.range_max_m) return false;
-  const Eigen::Vector2d pixel = believed.depth.project(p);
-  return pixel.x() >= -0.5 && pixel.x() < believed.depth.width_px - 0.5 && pixel.y() >= -0.5 &&
-         pixel.y() < believed.depth.height_px - 0.5;
-}
 
 }  // namespace
 
@@ -27,7 +22,7 @@ double overlap(const cv::Mat1w& depth, const Calibration& believed, const Pose& 
       if (depth(v, u) == 0) continue;
       ++seen;
       const double z_m = depth(v, u) / kDepthUnitsPerMetre;
-      if (in_view(T_other_depth * believed.depth.back_project(u, v, z_m), believed)) ++shared;
+      if (pixel_in_view(T_other_depth * believed.depth.back_project(u, v, z_m), believed)) ++shared;
     }
   return seen == 0 ? 0.0 : static_cast<double>(shared) / seen;
 }

@@ -28,9 +28,7 @@ constexpr double kFacing = 0.7;
 /// either is this many times as far off, as on a rug's edge or a sill, it weighs a quarter, and
 /// soon nothing (S. Geman and D. McClure, 1987).
 constexpr double kFloorZ_m = 0.004, kFloorTilt = 0.1 * std::numbers::pi / 180.0, kFloorSigmas = 2.0;
-/// A surface is upright where its normal rises by less than this; fewer such points say nothing of
-/// their own.
-constexpr double kUpright = 0.7;
+/// Fewer points on upright surfaces say nothing of their own.
 constexpr std::size_t kLeastUpright = 50;
 /// Of a plane's place: what no number of points takes away (m^2).
 constexpr double kPlaneFloor = 1e-6;
@@ -212,18 +210,19 @@ struct PriorFactor {
   }
 };
 
-/// Share of the points on upright surfaces that are in a cube with a plane.
-double upright_share(const DepthScan& scan, const Pose& T_map_base,
-                     const std::vector<PlaneFactor>& factors, double known_share) {
-  std::size_t upright = 0, known = 0;
-  const Eigen::RowVector3d up = T_map_base.linear().row(2);
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (std::abs(up.dot(scan.normals[i])) > kUpright) continue;
-    ++upright;
-    if (factors[i].known) ++known;
-  }
-  if (upright < kLeastUpright) return known_share;
-  return static_cast<double>(known) / static_cast<double>(upright);
+/// Of the points on upright surfaces: those in a cube with a plane, and those on it. Nothing where
+/// there are too few to say.
+std::optional<UprightMatch> upright_match(const DepthScan& scan, const Pose& T_map_base,
+                                          const std::vector<PlaneFactor>& factors) {
+  const std::vector<std::size_t> upright = upright_points(scan, T_map_base);
+  if (upright.size() < kLeastUpright) return {};
+  const auto share = [&](auto holds) {
+    const auto count =
+        std::ranges::count_if(upright, [&](std::size_t i) { return holds(factors[i]); });
+    return static_cast<double>(count) / static_cast<double>(upright.size());
+  };
+  return UprightMatch{share([](const PlaneFactor& f) { return f.known; }),
+                      share([](const PlaneFactor& f) { return f.inlier(); })};
 }
 
 }  // namespace
@@ -250,7 +249,8 @@ bool LocalMap::empty() const {
   return planes_->map.size() == 0;
 }
 
-ScanMatch LocalMap::match(const DepthScan& scan, const PosePrior& prior) const {
+ScanMatch LocalMap::match(const DepthScan& scan, const PosePrior& prior,
+                          const Pose& T_map_start) const {
   ScanMatch match{.T_map_base = prior.mean, .covariance = prior.covariance};
   if (scan.size() == 0 || empty()) return match;
   PriorFactor expected{prior.mean.inverse(), turned_round(Covariance6(prior.covariance.inverse()))};
@@ -260,7 +260,7 @@ ScanMatch LocalMap::match(const DepthScan& scan, const PosePrior& prior) const {
   criteria.translation_eps = 1e-4;
   criteria.rotation_eps = 1e-4;
   small_gicp::SerialReduction reduction;
-  small_gicp::RegistrationResult result(prior.mean);
+  small_gicp::RegistrationResult result(T_map_start);
   std::vector<PlaneFactor> factors;
   for (const double blur : {kFirstBlur, 0.0}) {
     factors.assign(scan.size(), PlaneFactor{params_.correlation, blur});
@@ -270,13 +270,24 @@ ScanMatch LocalMap::match(const DepthScan& scan, const PosePrior& prior) const {
   }
   const auto known = std::ranges::count_if(factors, &PlaneFactor::known);
   match.known_share = static_cast<double>(known) / static_cast<double>(scan.size());
-  match.upright_share = upright_share(scan, result.T_target_source, factors, match.known_share);
+  match.upright = upright_match(scan, result.T_target_source, factors);
   if (known == 0) return match;
   match.inlier_share = static_cast<double>(result.num_inliers) / static_cast<double>(known);
   match.T_map_base = result.T_target_source;
   match.information = turned_round(expected.of_scan);
   match.covariance = turned_round(Covariance6(result.H)).inverse();
   return match;
+}
+
+std::optional<UprightMatch> LocalMap::upright_at(const DepthScan& scan,
+                                                 const Pose& T_map_base) const {
+  std::vector<PlaneFactor> factors(scan.size(), PlaneFactor{params_.correlation, 0.0});
+  Covariance6 H;
+  Vector6 b;
+  double e = 0.0;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    factors[i].linearize(planes_->map, scan, planes_->map, T_map_base, i, {}, &H, &b, &e);
+  return upright_match(scan, T_map_base, factors);
 }
 
 }  // namespace mapscore

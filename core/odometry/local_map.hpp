@@ -8,6 +8,7 @@
 #include "core/parameters.hpp"
 
 #include <memory>
+#include <optional>
 
 namespace mapscore {
 
@@ -37,16 +38,23 @@ struct PosePrior {
   bool on_floor = false;
 };
 
+/// What a map knows of a scan's points on upright surfaces (upright_points), at least 50.
+struct UprightMatch {
+  double known_share = 0.0;  ///< in a cube that holds a plane
+  double on_plane_share = 0.0;
+};
+
 /// What a scan says of a pose, together with its prior.
 struct ScanMatch {
   Pose T_map_base = Pose::Identity();
   Covariance6 covariance = Covariance6::Zero();   ///< of prior and scan together
   Covariance6 information = Covariance6::Zero();  ///< of the scan alone, same axes
-  double known_share = 0.0;  ///< of the points: those in a cube that holds a plane
-  /// The same of the points on upright surfaces alone, which fix x, y and yaw where a floor fixes
-  /// none; known_share where there are few.
-  double upright_share = 0.0;
+  double known_share = 0.0;   ///< of the points: those in a cube that holds a plane
   double inlier_share = 0.0;  ///< of those: how many lie on the plane
+  std::optional<UprightMatch> upright = {};
+
+  /// Share of all points that lie on the map's planes.
+  [[nodiscard]] double support() const { return known_share * inlier_share; }
 };
 
 /// A map of planes, one in each cube of a lattice, from the scans of key frames. Scans are matched
@@ -66,9 +74,17 @@ class LocalMap {
   void insert(const DepthScan& scan, const Pose& T_map_base);
   [[nodiscard]] bool empty() const;
 
-  /// The most probable pose given the prior and the scan, by Gauss-Newton. Of a scan without a
-  /// point in a known cube it is the prior.
-  [[nodiscard]] ScanMatch match(const DepthScan& scan, const PosePrior& prior) const;
+  /// The most probable pose given the prior and the scan, by Gauss-Newton from a pose within reach
+  /// of it (centimetres and a degree or two); of a scan without a point in a known cube the prior.
+  [[nodiscard]] ScanMatch match(const DepthScan& scan, const PosePrior& prior,
+                                const Pose& T_map_start) const;
+  [[nodiscard]] ScanMatch match(const DepthScan& scan, const PosePrior& prior) const {
+    return match(scan, prior, prior.mean);
+  }
+
+  /// What the map knows of the scan's upright points at this very pose; nothing of too few.
+  [[nodiscard]] std::optional<UprightMatch> upright_at(const DepthScan& scan,
+                                                       const Pose& T_map_base) const;
 
  private:
   struct Planes;

@@ -74,9 +74,7 @@ std::optional<ScanMatch> verified_loop(const std::vector<KeyFrame>& keys, std::s
     if (current.way_m - keys[n].way_m >= 0.5 * rule.loop_way_m || n == candidate)
       about.insert(keys[n].scan, keys[n].T_map_base);
   const ScanMatch match = about.match(current.scan, prior);
-  if (match.known_share * match.inlier_share < rule.loop_support ||
-      match.inlier_share < kLeastInliers)
-    return {};
+  if (match.support() < rule.loop_support || match.inlier_share < kLeastInliers) return {};
   return match;
 }
 

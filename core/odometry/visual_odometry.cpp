@@ -29,8 +29,15 @@ constexpr double kLeastSupport = 0.3, kLittle = 0.3;
 /// A scan that moves the prior by more than this (squared, over its covariance) contradicts it, and
 /// the factor that the prior's covariance grows by then.
 constexpr double kContradiction = 50.0, kDistrust = 100.0;
-/// Inliers that such a scan must have to be believed, or how many more than with the prior.
-constexpr double kSurelySeen = 0.8, kSlipGain = 0.15;
+/// A scan that contradicts the prior, or is to end a loss, is believed where it has this share of
+/// the support of the last one that was; one that does not contradict it, with this much more of it
+/// than by the prior.
+constexpr double kStillSeen = 0.75, kSlipGain = 0.15;
+/// Below this share of what should be seen other turns are tried, in steps of kSlipTurn: on a rug's
+/// edge a base twists by degrees that its wheels do not feel.
+constexpr double kDoubtful = 0.75, kSlipTurn = 1.5 * kDegree;
+/// No base on wheels moves faster (m/s, rad/s); an encoder that says so tells nothing.
+constexpr double kFastest = 5.0, kFastestTurn = 720.0 * kDegree;
 /// Frames lost in a row after which a new map begins.
 constexpr int kMostLost = 5;
 /// Share of a pose's uncertainty that the part of the map takes over which a key frame adds: all of
@@ -54,6 +61,15 @@ Covariance6 lost_jump() {
   return sigmas6(0.5, 0.05, 2.0 * kDegree, 30.0 * kDegree);
 }
 
+/// Whether the encoders say what no wheels can do.
+bool wheels_jump(const OdometryFrame& before, const OdometryFrame& after) {
+  if (!before.T_odom_base || !after.T_odom_base) return false;
+  const Pose T = before.T_odom_base->inverse() * *after.T_odom_base;
+  const double dt_s = after.stamp_s - before.stamp_s;
+  return T.translation().norm() > kFastest * dt_s ||
+         Eigen::AngleAxisd(T.linear()).angle() > kFastestTurn * dt_s;
+}
+
 double squared_sigmas(const PosePrior& prior, const Pose& T_map_base) {
   const Vector6 xi = log_pose(prior.mean.inverse() * T_map_base);
   return xi.dot(prior.covariance.ldlt().solve(xi));
@@ -74,44 +90,73 @@ VisualOdometry::VisualOdometry(const VisualOdometryParams& params, const Calibra
 }
 
 VisualOdometry::Expected VisualOdometry::expect(const OdometryFrame& frame) const {
-  const bool wheels = frame.T_odom_base && last_->T_odom_base;
   const double dt_s = frame.stamp_s - last_->stamp_s;
+  const bool jumped = wheels_jump(*previous_, frame);
+  const bool wheels = frame.T_odom_base && last_->T_odom_base && !jumped;
   const LastStep before{T_before_last_base_, last_step_s_};
   const MotionPrior motion =
       wheels ? wheel_motion(last_->T_odom_base->inverse() * *frame.T_odom_base, params_.wheel_noise)
       : params_.wheeled ? robot_motion(before, dt_s)
                         : hand_motion(before, dt_s);
-  const PosePrior prior{state_.T_map_base * motion.T_before_after,
-                        moved(state_.relative, motion.T_before_after) + motion.noise};
-  return {wheels ? on_floor(prior) : prior, motion.T_before_after};
+  PosePrior prior{state_.T_map_base * motion.T_before_after,
+                  moved(state_.relative, motion.T_before_after) + motion.noise};
+  if (jumped) prior.covariance += jump_when_lost();
+  return {wheels ? on_floor(prior) : prior, motion.T_before_after, jumped};
+}
+
+ScanMatch VisualOdometry::searched(const DepthScan& scan, const PosePrior& loose,
+                                   const ScanMatch& first) const {
+  ScanMatch best = first;
+  for (const int step : {0, 1, -1, 2, -2, 3, -3}) {
+    const Pose turned = loose.mean * Eigen::AngleAxisd(step * kSlipTurn, Eigen::Vector3d::UnitZ());
+    const ScanMatch match = local_map_.match(scan, loose, turned);
+    if (match.support() > best.support()) best = match;
+  }
+  return best;
+}
+
+bool VisualOdometry::sees_through_key(const cv::Mat1w& depth, const KeyFrame& key,
+                                      const Pose& T_map_base) const {
+  return sees_through(depth, key.scan, key.T_map_base, believed_,
+                      T_map_base.inverse() * key.T_map_base);
 }
 
 Tracking VisualOdometry::track(const DepthScan& scan, const OdometryFrame& frame,
                                const Expected& expected, OdometryStep& step) {
   if (scan.size() < kLeastPoints) return Tracking::blind;
   const Pose T_key_base = keys_.back().T_map_base.inverse() * expected.prior.mean;
-  const double seen_before = overlap(frame.depth, believed_, T_key_base);
+  const double seen_before = std::max(overlap(frame.depth, believed_, T_key_base),
+                                      overlap(key_view_.depth(), believed_, T_key_base.inverse()));
+  const double still_seen = kStillSeen * last_support_;
   ScanMatch match = local_map_.match(scan, expected.prior);
-  Tracking tracking = Tracking::tracked;
-  if (squared_sigmas(expected.prior, match.T_map_base) > kContradiction) {
+  Tracking tracking = expected.wheels_jumped ? Tracking::slipped : Tracking::tracked;
+  const bool moved = squared_sigmas(expected.prior, match.T_map_base) > kContradiction;
+  if (moved || lost_for_ > 0 || match.support() < kDoubtful * seen_before) {
     PosePrior loose = expected.prior;
     loose.covariance *= kDistrust;
-    const ScanMatch again = local_map_.match(scan, loose);
-    if (again.inlier_share >= std::min(kSurelySeen, match.inlier_share + kSlipGain)) {
+    const ScanMatch again = searched(scan, loose, match);
+    if (again.support() >= still_seen &&
+        (moved || again.support() >= match.support() + kSlipGain)) {
       match = again;
       tracking = Tracking::slipped;
-    } else {
-      return Tracking::unsure;
+    } else if (moved) {
+      tracking = Tracking::unsure;
     }
   }
   step.known_share = match.known_share;
-  step.upright_share = match.upright_share;
   step.inlier_share = match.inlier_share;
-  const double support = match.known_share * match.inlier_share;
-  if (support < kLeastSupport * std::max(seen_before, kLittle)) {
+  step.upright_known_share = match.upright ? match.upright->known_share : match.known_share;
+  if (lost_for_ > 0 && match.support() < still_seen) return Tracking::lost;
+  const KeyFrame& key = keys_.back();
+  if (sees_through_key(frame.depth, key, match.T_map_base) ||
+      key_view_.misses(scan, match, believed_, key.T_map_base.inverse() * match.T_map_base))
+    return Tracking::lost;
+  if (match.support() < kLeastSupport * std::max(seen_before, kLittle)) {
     if (seen_before >= kLittle) return Tracking::lost;
     tracking = Tracking::beside;
   }
+  if (tracking == Tracking::unsure) return tracking;
+  if (tracking != Tracking::beside) last_support_ = match.support();
   state_.T_map_base = match.T_map_base;
   state_.relative = match.covariance;
   return tracking;
@@ -121,13 +166,26 @@ OdometryStep VisualOdometry::add(const OdometryFrame& frame) {
   if (!(frame.stamp_s > last_stamp_s_))
     throw Error("odometry: a stamp is not later than the one before; give frames in their order");
   last_stamp_s_ = frame.stamp_s;
+  OdometryStep step = place(frame);
+  previous_ = {frame.stamp_s, {}, frame.T_odom_base};
+  return step;
+}
+
+OdometryStep VisualOdometry::place(const OdometryFrame& frame) {
   OdometryStep step{.stamp_s = frame.stamp_s};
   DepthScan scan = scan_of(frame.depth, believed_, params_.sampling);
   if (keys_.empty()) {
-    if (scan.size() < kLeastPoints)
+    if (last_) {
+      const PosePrior prior = expect(frame).prior;
+      state_.T_map_base = prior.mean;
+      state_.relative = prior.covariance;
+    }
+    if (scan.size() < kLeastPoints) {
       step.tracking = Tracking::blind;
-    else
+    } else {
+      state_.drift = std::exchange(state_.relative, Covariance6::Zero());
       keep(std::move(scan), frame, step);
+    }
   } else {
     const Expected expected = expect(frame);
     const State before = state_;
@@ -190,9 +248,10 @@ void VisualOdometry::keep(DepthScan scan, const OdometryFrame& frame, OdometrySt
   KeyFrame key{frame.stamp_s, state_.T_map_base, way_m_, std::move(scan),
                params_.loops ? small_depth_of(frame.depth, believed_.range_max_m) : cv::Mat1f()};
   if (!keys_.empty()) {
-    const double share = step.tracking == Tracking::restarted
-                             ? 1.0
-                             : taken_over(1.0 - std::min(step.known_share, step.upright_share));
+    const double share =
+        step.tracking == Tracking::restarted
+            ? 1.0
+            : taken_over(1.0 - std::min(step.known_share, step.upright_known_share));
     const Covariance6 growth = share * state_.relative + key_frame_floor();
     state_.drift += growth;
     state_.relative *= 1.0 - share;
@@ -200,11 +259,13 @@ void VisualOdometry::keep(DepthScan scan, const OdometryFrame& frame, OdometrySt
                       keys_.back().T_map_base.inverse() * key.T_map_base, growth, false});
   }
   local_map_.insert(key.scan, key.T_map_base);
+  key_view_ = KeyView(frame.depth, local_map_.upright_at(key.scan, key.T_map_base));
   keys_.push_back(std::move(key));
-  if (params_.loops && way_m_ - loop_closed_at_m_ >= 1.0) step.closed_loop = close_loop(false);
+  if (params_.loops && way_m_ - loop_closed_at_m_ >= 1.0)
+    step.closed_loop = close_loop(frame.depth, false);
 }
 
-bool VisualOdometry::close_loop(bool anywhere) {
+bool VisualOdometry::close_loop(const cv::Mat1w& depth, bool anywhere) {
   const KeyFrame& current = keys_.back();
   const double reach_m =
       3.0 * std::sqrt((state_.drift + state_.relative).topLeftCorner<2, 2>().trace());
@@ -215,7 +276,9 @@ bool VisualOdometry::close_loop(bool anywhere) {
             ? PosePrior{keys_[n].T_map_base, jump_when_lost()}
             : PosePrior{current.T_map_base, state_.drift + state_.relative + key_frame_floor()};
     const auto match = verified_loop(keys_, n, current, prior, params_.map, *params_.loops);
-    if (!match) continue;
+    if (!match || (anywhere && (match->support() < kStillSeen * last_support_ ||
+                                sees_through_key(depth, keys_[n], match->T_map_base))))
+      continue;
     const Covariance6 weak = lost_jump().inverse();
     edges_.push_back({n, keys_.size() - 1, keys_[n].T_map_base.inverse() * match->T_map_base,
                       (match->information + weak).inverse() + key_frame_floor(), true});
@@ -233,7 +296,7 @@ bool VisualOdometry::relocate(const DepthScan& scan, const OdometryFrame& frame)
   edges_.push_back({keys_.size() - 2, keys_.size() - 1,
                     keys_[keys_.size() - 2].T_map_base.inverse() * state_.T_map_base,
                     state_.relative + key_frame_floor(), false});
-  if (close_loop(true)) return true;
+  if (close_loop(frame.depth, true)) return true;
   keys_.pop_back();
   edges_.pop_back();
   return false;

@@ -7,6 +7,7 @@
 #include "core/localization/odometry_motion.hpp"
 #include "core/odometry/depth_scan.hpp"
 #include "core/odometry/key_frames.hpp"
+#include "core/odometry/key_view.hpp"
 #include "core/odometry/local_map.hpp"
 #include "core/odometry/loop_closure.hpp"
 #include "core/odometry/pose_graph.hpp"
@@ -67,7 +68,8 @@ struct OdometryStep {
   /// base_footprint.
   Covariance6 covariance = Covariance6::Zero();
   Tracking tracking = Tracking::started;
-  double known_share = 0.0, upright_share = 0.0, inlier_share = 0.0;  ///< see ScanMatch
+  double known_share = 0.0, inlier_share = 0.0;  ///< see ScanMatch
+  double upright_known_share = 0.0;              ///< see UprightMatch; known_share where it is none
   bool key_frame = false;
   bool closed_loop = false;
 };
@@ -112,16 +114,23 @@ class VisualOdometry {
   struct Expected {
     PosePrior prior;
     Pose T_last_base;  ///< motion since the last frame that counted
+    bool wheels_jumped = false;
   };
 
   [[nodiscard]] Expected expect(const OdometryFrame& frame) const;
   [[nodiscard]] bool hardly_moved(const OdometryFrame& frame) const;
   [[nodiscard]] Covariance6 jump_when_lost() const;
+  OdometryStep place(const OdometryFrame& frame);
   OdometryStep placed(OdometryStep step, const State& state);
+  /// The best supported of matches from several turns, and of the first one.
+  [[nodiscard]] ScanMatch searched(const DepthScan& scan, const PosePrior& loose,
+                                   const ScanMatch& first) const;
+  [[nodiscard]] bool sees_through_key(const cv::Mat1w& depth, const KeyFrame& key,
+                                      const Pose& T_map_base) const;
   [[nodiscard]] Tracking track(const DepthScan& scan, const OdometryFrame& frame,
                                const Expected& expected, OdometryStep& step);
   void keep(DepthScan scan, const OdometryFrame& frame, OdometryStep& step);
-  bool close_loop(bool anywhere);
+  bool close_loop(const cv::Mat1w& depth, bool anywhere);
   bool relocate(const DepthScan& scan, const OdometryFrame& frame);
   void spread();
   void rebuild();
@@ -131,11 +140,14 @@ class VisualOdometry {
   State state_;  ///< at the last frame that counted
   LocalMap local_map_;
   std::optional<OdometryFrame> last_;           ///< that frame, without its image
+  std::optional<OdometryFrame> previous_;       ///< the last frame, likewise
   Pose T_before_last_base_ = Pose::Identity();  ///< motion of the last step
   double last_step_s_ = 0.0, last_stamp_s_ = -std::numeric_limits<double>::infinity();
   int lost_for_ = 0;
+  double last_support_ = 0.0;  ///< of the last scan that placed a frame
   double way_m_ = 0.0, loop_closed_at_m_ = 0.0;
   std::vector<KeyFrame> keys_;
+  KeyView key_view_;  ///< of the last key frame
   std::vector<PoseEdge> edges_;
   std::vector<Placed> placed_;
   std::size_t loops_ = 0;

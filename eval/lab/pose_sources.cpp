@@ -75,7 +75,7 @@ std::string poses_key(const Task& task) {
   Study deciding;
   deciding.localization = task.config.localization;
   deciding.faults.lidar = task.config.faults.lidar;
-  deciding.faults.pose = task.config.faults.pose;
+  deciding.faults.pose.stamp = task.config.faults.pose.stamp;
   deciding.faults.time_offset_ms = task.config.faults.time_offset_ms;
   if (is_visual(task.config.localization.source)) {
     deciding.faults.depth = task.config.faults.depth;
@@ -160,7 +160,10 @@ TrialPoses PoseSources::poses(const Task& task, const std::vector<int>& depth_of
   TrialPoses poses = *beliefs_.get(poses_key(task), [&] {
     return std::make_shared<const TrialPoses>(believed_at(task, depth_of));
   });
-  for (PoseBelief& belief : poses.beliefs) belief.T_map_odom = T_map_world * belief.T_map_odom;
+  for (PoseBelief& belief : poses.beliefs) {
+    belief.T_map_odom = T_map_world * belief.T_map_odom;
+    belief.covariance *= task.config.faults.pose.reported_scale;
+  }
   return poses;
 }
 
@@ -174,11 +177,8 @@ TrialPoses PoseSources::believed_at(const Task& task, const std::vector<int>& de
   } else {
     believed = believed_trajectory(recording_, task, grid(task).get());
   }
-  const double reported_scale = task.config.faults.pose.reported_scale;
-  for (const double stamp_s : stamps_of(recording_, task, depth_of)) {
+  for (const double stamp_s : stamps_of(recording_, task, depth_of))
     poses.beliefs.push_back(believed.at(stamp_s));
-    poses.beliefs.back().covariance *= reported_scale;
-  }
   return poses;
 } catch (const Error& error) {
   const LocalizationSettings& settings = task.config.localization;

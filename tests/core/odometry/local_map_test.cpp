@@ -146,10 +146,12 @@ TEST(LocalMap, AKnownFloorDoesNotMakeANewChestKnown) {
   map.insert(scan_at(hall, T_map_base), T_map_base);
   const PosePrior prior = prior_at(T_map_base, 0.01, 0.01);
   const ScanMatch floor_alone = map.match(scan_at(hall, T_map_base), prior);
-  EXPECT_EQ(floor_alone.upright_share, floor_alone.known_share);
+  EXPECT_FALSE(floor_alone.upright);
   const ScanMatch match = map.match(scan_at(with_chest, T_map_base), prior);
   EXPECT_GT(match.known_share, 0.05);
-  EXPECT_EQ(match.upright_share, 0.0);
+  ASSERT_TRUE(match.upright);
+  EXPECT_EQ(match.upright->known_share, 0.0);
+  EXPECT_EQ(match.upright->on_plane_share, 0.0);
 }
 
 TEST(LocalMap, OfAScanBesideItThePriorIsGiven) {

@@ -121,6 +121,51 @@ TEST(VisualOdometry, InTheDarkTheWheelsCarryAndUncertaintyGrows) {
   EXPECT_LT(run.error_m(59), 3.0 * run.sigma_m(59));
 }
 
+TEST(VisualOdometry, BlindFromTheStartTheWheelsCarryAndUncertaintyGrows) {
+  const auto dark = [](int n, cv::Mat1w depth) {
+    return n < 15 ? cv::Mat1w::zeros(depth.size()) : depth;
+  };
+  const auto wheels = [](const PlanarPose& T) {
+    return PlanarPose{0.99 * T.x_m, T.y_m, 1.02 * T.yaw_rad};
+  };
+  const Driven run =
+      driven(furnished_room(), {.frames = 60, .turns = 0.5, .wheels = wheels, .camera = dark});
+  EXPECT_EQ(run.count(Tracking::blind), 15);
+  for (std::size_t n = 0; n < 14; ++n) EXPECT_GT(run.sigma_m(n + 1), run.sigma_m(n)) << n;
+  for (std::size_t n = 0; n < 60; ++n) EXPECT_LT(run.error_m(n), 3.0 * run.sigma_m(n) + 0.01) << n;
+  EXPECT_GT(run.sigma_m(59), 0.5 * run.sigma_m(14));  // nothing told it since where it began
+}
+
+TEST(VisualOdometry, WheelsThatJumpByMetresAreNotBelieved) {
+  const Calibration camera = testing::odometry_camera();
+  const Pose pose = planar_pose(2.0, 1.5, 0.2);
+  VisualOdometry visual({}, camera, pose);
+  OdometryStep step;
+  for (int n = 0; n < 20; ++n) {
+    step = visual.add({0.1 * n, testing::flat_depth(furnished_room(), pose, camera),
+                       planar_pose(n < 10 ? 0.0 : 5.0, 0.0, 0.0)});
+    EXPECT_EQ(step.tracking == Tracking::slipped, n == 10) << n;
+  }
+  EXPECT_LT((step.T_map_base.translation() - pose.translation()).norm(), 0.02);
+}
+
+TEST(VisualOdometry, ATwistThatTheWheelsDoNotFeelIsSeen) {
+  // As on a rug's edge: in one frame the base turns further than planes can be matched from.
+  const Calibration camera = testing::odometry_camera();
+  const auto at = [](int n) {
+    return planar_pose(2.0, 1.5, n < 10 ? 0.2 : 0.2 + 6.0 * std::numbers::pi / 180.0);
+  };
+  VisualOdometry visual({}, camera, at(0));
+  std::vector<OdometryStep> steps;
+  for (int n = 0; n < 14; ++n)
+    steps.push_back(visual.add(
+        {0.1 * n, testing::flat_depth(furnished_room(), at(n), camera), Pose::Identity()}));
+  EXPECT_EQ(steps[10].tracking, Tracking::slipped);
+  const Pose off = steps.back().T_map_base.inverse() * at(13);
+  EXPECT_LT(off.translation().norm(), 0.02);
+  EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 0.5 * std::numbers::pi / 180.0);
+}
+
 TEST(VisualOdometry, AKidnappedRobotSaysSo) {
   // Carried across the room in one frame; the wheels did not turn.
   const Drive drive{
@@ -137,6 +182,38 @@ TEST(VisualOdometry, AKidnappedRobotSaysSo) {
   for (std::size_t n = carried; n < run.steps.size(); ++n)
     most_sigma_m = std::max(most_sigma_m, run.sigma_m(n));
   EXPECT_GT(most_sigma_m, 0.4);
+}
+
+TEST(VisualOdometry, ACameraSetDownElsewhereOnTheSameFloorSaysSo) {
+  // As high and as steep as before: its floor lies where the floor lay.
+  const Calibration camera = testing::odometry_camera();
+  VisualOdometryParams free;
+  free.wheeled = false;
+  VisualOdometry visual(free, camera, planar_pose(2.0, 1.5, 0.2));
+  const auto seen = [&](int n, const Pose& pose) {
+    return visual.add({0.1 * n, testing::flat_depth(furnished_room(), pose, camera), {}});
+  };
+  for (int n = 0; n < 10; ++n)
+    EXPECT_NE(seen(n, planar_pose(2.0 + 0.02 * n, 1.5, 0.2)).tracking, Tracking::lost) << n;
+  const OdometryStep step = seen(10, planar_pose(3.6, 3.4, 2.7));
+  EXPECT_EQ(step.tracking, Tracking::lost);
+  EXPECT_GT(std::sqrt(step.covariance(0, 0)), 0.4);
+}
+
+TEST(VisualOdometry, ARobotSetDownElsewhereWithItsWheelsAtRestSaysSo) {
+  const Calibration camera = testing::odometry_camera();
+  for (const Pose& elsewhere : {planar_pose(3.6, 3.4, 2.7), planar_pose(4.0, 2.5, -2.0),
+                                planar_pose(2.0, 3.0, 1.7), planar_pose(3.0, 2.0, 3.0)}) {
+    VisualOdometry visual({}, camera, planar_pose(2.0, 1.5, 0.2));
+    OdometryStep step;
+    for (int n = 0; n < 11; ++n) {
+      const Pose pose = n < 10 ? planar_pose(2.0, 1.5, 0.2) : elsewhere;
+      step = visual.add(
+          {0.1 * n, testing::flat_depth(furnished_room(), pose, camera), Pose::Identity()});
+    }
+    EXPECT_EQ(step.tracking, Tracking::lost) << elsewhere.translation().transpose();
+    EXPECT_GT(std::sqrt(step.covariance(0, 0)), 0.4);
+  }
 }
 
 TEST(VisualOdometry, AlongABareWallItBelievesTheWheelsAndSaysHowLittle) {

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/odometry/key_view.hpp"
+
+#include <cmath>
+
+namespace mapscore {
+namespace {
+
+/// A surface is behind another where it is this many times as far.
+constexpr double kBehind = 1.05;
+constexpr double kMostSeenThrough = 0.25, kLeastOnPlanes = 0.3, kLeastShown = 0.3;
+constexpr std::size_t kLeastShownPoints = 50;
+
+}  // namespace
+
+std::optional<cv::Point> pixel_in_view(const Eigen::Vector3d& p, const Calibration& believed) {
+  if (p.z() < believed.range_min_m || p.z() > believed.range_max_m) return {};
+  const Eigen::Vector2d pixel = believed.depth.project(p);
+  if (pixel.x() < -0.5 || pixel.x() >= believed.depth.width_px - 0.5 || pixel.y() < -0.5 ||
+      pixel.y() >= believed.depth.height_px - 0.5)
+    return {};
+  return cv::Point(static_cast<int>(std::floor(pixel.x() + 0.5)),
+                   static_cast<int>(std::floor(pixel.y() + 0.5)));
+}
+
+bool sees_through(const cv::Mat1w& depth, const DepthScan& scan, const Pose& T_map_scan,
+                  const Calibration& believed, const Pose& T_depth_scan) {
+  const Pose T_camera_scan = believed.T_base_depth.inverse() * T_depth_scan;
+  std::size_t shown = 0, through = 0;
+  for (const std::size_t i : upright_points(scan, T_map_scan)) {
+    const Eigen::Vector3d p = T_camera_scan * scan.points[i];
+    const auto pixel = pixel_in_view(p, believed);
+    if (!pixel || depth(*pixel) == 0) continue;
+    ++shown;
+    if (depth(*pixel) / kDepthUnitsPerMetre > kBehind * p.z()) ++through;
+  }
+  return shown >= kLeastShownPoints &&
+         static_cast<double>(through) > kMostSeenThrough * static_cast<double>(shown);
+}
+
+bool KeyView::misses(const DepthScan& scan, const ScanMatch& match, const Calibration& believed,
+                     const Pose& T_key_base) const {
+  if (!match.upright) return false;
+  const Pose T_camera_base = believed.T_base_depth.inverse() * T_key_base;
+  const std::vector<std::size_t> upright = upright_points(scan, match.T_map_base);
+  std::size_t shown = 0;
+  for (const std::size_t i : upright) {
+    const Eigen::Vector3d p = T_camera_base * scan.points[i];
+    const auto pixel = pixel_in_view(p, believed);
+    if (pixel && p.z() <= kBehind * depth_(*pixel) / kDepthUnitsPerMetre) ++shown;
+  }
+  const double known =
+      upright_share_ * static_cast<double>(shown) / static_cast<double>(upright.size());
+  return known >= kLeastShown && match.upright->on_plane_share < kLeastOnPlanes * known;
+}
+
+}  // namespace mapscore

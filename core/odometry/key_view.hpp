@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "core/geometry/camera.hpp"
+#include "core/odometry/local_map.hpp"
+
+#include <opencv2/core.hpp>
+
+#include <optional>
+
+namespace mapscore {
+
+/// The pixel that a point in the depth camera's axes falls on; none outside of its view and range.
+[[nodiscard]] std::optional<cv::Point> pixel_in_view(const Eigen::Vector3d& p,
+                                                     const Calibration& believed);
+
+/// Whether an image sees through a quarter of the upright points of an earlier scan, of those where
+/// it shows anything: it shows something more than 5 % farther. Where they stood is nothing now, or
+/// the pose is wrong. Never of fewer than 50 points. `T_depth_scan`: of the scan's base in the
+/// image's. Thread-safe.
+[[nodiscard]] bool sees_through(const cv::Mat1w& depth, const DepthScan& scan,
+                                const Pose& T_map_scan, const Calibration& believed,
+                                const Pose& T_depth_scan);
+
+/// What a key frame showed, to tell whether a later match can be right: any floor fits any other,
+/// upright surfaces do not. Const members are safe from several threads.
+class KeyView {
+ public:
+  KeyView() = default;
+  /// `upright`: what the map knows of the key frame's own points, once they are in it.
+  KeyView(const cv::Mat1w& depth, const std::optional<UprightMatch>& upright)
+      : depth_(depth.clone()), upright_share_(upright ? upright->on_plane_share : 0.0) {}
+
+  [[nodiscard]] const cv::Mat1w& depth() const { return depth_; }
+
+  /// Whether less than 0.3 of the upright points that the key frame must have shown, in its view
+  /// and no more than 5 % behind what it saw, lie on planes, as a share of its own that do. Never
+  /// where it should have shown less than 0.3. `T_key_base`: of the scan's base in the key frame's.
+  [[nodiscard]] bool misses(const DepthScan& scan, const ScanMatch& match,
+                            const Calibration& believed, const Pose& T_key_base) const;
+
+ private:
+  cv::Mat1w depth_;
+  double upright_share_ = 0.0;
+};
+
+}  // namespace mapscore

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/odometry/key_view.hpp"
+
+#include "tests/core/odometry/flat_depth.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mapscore {
+namespace {
+
+using testing::BoxFlat;
+
+struct Seen {
+  cv::Mat1w depth;
+  DepthScan scan;
+};
+
+Seen seen(const BoxFlat& flat, const Pose& T_map_base) {
+  const Calibration camera = testing::odometry_camera();
+  const cv::Mat1w depth = testing::flat_depth(flat, T_map_base, camera);
+  return {depth, scan_of(depth, camera, {})};
+}
+
+/// A room with a cupboard 1.5 m ahead of the pose, or without it.
+BoxFlat room(bool with_cupboard) {
+  BoxFlat flat(6.0, 5.0);
+  if (with_cupboard) flat.add(3.0, 1.5, 0.0, 3.4, 3.5, 2.0);
+  return flat;
+}
+
+const Pose kPose = planar_pose(1.5, 2.5, 0.0);
+
+TEST(SeesThrough, WhereSomethingStoodIsNothing) {
+  const Calibration camera = testing::odometry_camera();
+  const Seen with = seen(room(true), kPose), without = seen(room(false), kPose);
+  const Pose here = Pose::Identity();
+  EXPECT_TRUE(sees_through(without.depth, with.scan, kPose, camera, here));
+  EXPECT_FALSE(sees_through(with.depth, with.scan, kPose, camera, here));
+  // What stands in front hides it: that says nothing.
+  EXPECT_FALSE(sees_through(with.depth, without.scan, kPose, camera, here));
+}
+
+TEST(SeesThrough, ADarkImageSaysNothing) {
+  const Calibration camera = testing::odometry_camera();
+  const Seen with = seen(room(true), kPose);
+  EXPECT_FALSE(sees_through(cv::Mat1w::zeros(with.depth.size()), with.scan, kPose, camera,
+                            Pose::Identity()));
+}
+
+struct MissedCase {
+  double on_plane_share;
+  bool key_has_planes, misses;
+};
+
+TEST(KeyView, MissesUprightPointsThatItMustHaveShown) {
+  const Calibration camera = testing::odometry_camera();
+  const Seen with = seen(room(true), kPose);
+  for (const MissedCase& c :
+       {MissedCase{0.1, true, true}, MissedCase{0.5, true, false}, MissedCase{0.1, false, false}}) {
+    const KeyView view(with.depth,
+                       c.key_has_planes ? std::optional(UprightMatch{0.9, 0.9}) : std::nullopt);
+    ScanMatch match;
+    match.T_map_base = kPose;
+    match.upright = UprightMatch{0.9, c.on_plane_share};
+    EXPECT_EQ(view.misses(with.scan, match, camera, Pose::Identity()), c.misses);
+    // A key frame that looked the other way showed nothing of this.
+    EXPECT_FALSE(view.misses(with.scan, match, camera, planar_pose(0.0, 0.0, 3.0)));
+  }
+}
+
+}  // namespace
+}  // namespace mapscore
