@@ -241,11 +241,14 @@ ExplorationScenes::Ready ExplorationScenes::ready(const PlannedExploration& plan
   deciding.name.clear();
   deciding.seeds = 1;
   deciding.methods.front().name = "method";
-  const std::string text = fmt::format(
-      "{}\n{}\n{}\n{}\n{}\n{}", scene->world.hash(), sim::mujoco_version(), build_identity(),
-      planned.spec.seed_index, records ? "recorded" : "scored", to_yaml(without_titles(deciding)));
+  const std::string settings = to_yaml(without_titles(deciding));
+  const auto key = [&](bool recorded) {
+    return hash_of(fmt::format("{}\n{}\n{}\n{}\n{}\n{}", scene->world.hash(), sim::mujoco_version(),
+                               build_identity(), planned.spec.seed_index,
+                               recorded ? "recorded" : "scored", settings));
+  };
   const auto& given = config.exploration.start_m_deg;
-  return {hash_of(text),
+  return {key(records), key(!records),
           given ? given_start(*given, scene->drive)
                 : drawn_start(*scene, config, planned.spec.seed_index),
           records};

@@ -9,6 +9,7 @@
 #include "eval/report/figures/layout.hpp"
 #include "files/csv.hpp"
 #include "files/file_bytes.hpp"
+#include "files/text.hpp"
 #include "files/text_rows.hpp"
 
 #include <fmt/format.h>
@@ -32,8 +33,8 @@ std::vector<std::vector<double>> numbers_in(const std::filesystem::path& file,
   while (const auto line = lines.next()) {
     auto numbers = parse_numbers(*line, columns);
     if (!numbers || numbers->size() != columns)
-      throw Error(fmt::format("{}:{}: is no line of {} numbers; explore again", file.string(),
-                              lines.number(), columns));
+      throw Error(fmt::format("{}:{}: is no line of {} numbers; remove {} to explore it anew",
+                              shown(file), lines.number(), columns, shown(file.parent_path())));
     rows.push_back(std::move(*numbers));
   }
   return rows;
@@ -122,7 +123,9 @@ std::vector<ShownMoment> read_moments(const FinishedExploration& run) {
 
 FigureSheet exploration_moments(const FinishedExploration& run, const FigureStyle& style) {
   const std::vector<ShownMoment> moments = read_moments(run);
-  if (moments.empty()) throw Error(run.folder.string() + ": has no moments; explore again");
+  if (moments.empty())
+    throw Error(fmt::format("{}: has no moments; remove {} to explore it anew",
+                            shown(run.folder / kMomentsFile), shown(run.folder)));
   const Eigen::AlignedBox2d box = known_box(moments);
   FigureSheet sheet;
   sheet.name = "exploration_" + run.planned.name;
