@@ -221,7 +221,7 @@ void add_explore(CLI::App& program) {
       "map.ot. What is there already is not run again.\n"
       "Examples:\n"
       "  mapscore explore configs/explore.yaml --seed 0\n"
-      "  mapscore explore configs/explore.yaml --set exploration.budget_m=20 -o results/short\n"
+      "  mapscore explore configs/explore.yaml --set exploration.budget_s=300 -o results/short\n"
       "  mapscore explore configs/explore.yaml --scores_only --jobs 2\n"
       "  mapscore info results/explore/runs/home-next_best_view-seed0/recording");
 }
