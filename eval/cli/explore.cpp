@@ -208,9 +208,10 @@ void add_explore(CLI::App& program) {
   verb->add_option("--seed", flags->seed, "Only the exploration of this seed's index [all]");
   verb->add_flag("--scores_only", flags->scores_only,
                  "Keep no recordings, which take a megabyte for ten frames and more");
-  verb->add_flag("--figures", flags->figures,
-                 "Draw curves, floors at four moments, and film strips where recordings are kept, "
-                 "below figures of the output folder");
+  verb->add_flag(
+      "--figures", flags->figures,
+      "Draw curves, floors at up to four moments, and film strips where recordings are kept, "
+      "below figures of the output folder");
   flags->style.add_to(*verb);
   flags->work.add_without_memory_to(*verb);
   add_format_flag(*verb, flags->format, {"text", "csv", "json", "markdown", "tex"});

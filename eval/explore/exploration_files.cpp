@@ -134,7 +134,7 @@ std::string way_text(const std::vector<TrajectoryPose>& frames) {
   return text;
 }
 
-/// The last moment not beyond each share of the way.
+/// The last moment not beyond each share of the way, each once; the last of them is the end.
 std::vector<const FloorMoment*> kept_moments(const ExplorationResult& result) {
   std::vector<const FloorMoment*> kept;
   for (std::size_t n = 1; n <= kKeptMoments && !result.moments.empty(); ++n) {
@@ -142,8 +142,8 @@ std::vector<const FloorMoment*> kept_moments(const ExplorationResult& result) {
         result.driven_m * static_cast<double>(n) / static_cast<double>(kKeptMoments);
     const FloorMoment* last = &result.moments.front();
     for (const FloorMoment& moment : result.moments)
-      if (moment.driven_m <= until_m) last = &moment;
-    kept.push_back(last);
+      if (moment.driven_m <= until_m || n == kKeptMoments) last = &moment;
+    if (kept.empty() || kept.back() != last) kept.push_back(last);
   }
   return kept;
 }

@@ -19,7 +19,7 @@ inline constexpr const char *kRunFile = "run.yaml", *kCurveFile = "curve.csv",
                             *kMomentsFile = "moments.csv", *kFrontiersFile = "frontiers.csv",
                             *kMapFile = "map.ot", *kTimesFile = "times.csv";
 
-/// Moments of which the floor is kept, at equal shares of the way.
+/// Moments of which the floor is kept at most, at equal shares of the way; the last is the end.
 inline constexpr std::size_t kKeptMoments = 4;
 
 /// What run.yaml and curve.csv hold of a finished exploration.

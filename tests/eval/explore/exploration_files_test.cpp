@@ -69,6 +69,15 @@ TEST_F(ExplorationFiles, ReadBackAsTheyWereWritten) {
   EXPECT_FALSE(key_of_exploration(run_.parent_path()));
 }
 
+// Of a robot that looks around at 0 m, and then drives 4 m to the end.
+TEST_F(ExplorationFiles, NoMomentIsKeptTwiceAndTheLastIsTheEnd) {
+  ExplorationResult result = straight_drive();
+  result.moments[1].driven_m = result.moments[2].driven_m = 0.0;
+  write_exploration(result, "key", run_);
+  EXPECT_EQ(read_file(run_ / kMomentsFile), "moment,stamp_s,driven_m\n1,20,0\n2,30,4\n");
+  EXPECT_EQ(read_file(run_ / kFrontiersFile), "moment,x_map_m,y_map_m\n1,20,1\n2,30,1\n");
+}
+
 TEST_F(ExplorationFiles, WhatIsMeasuredMayChange) {
   write_file(run_ / kTimesFile, "");
   EXPECT_TRUE(read_exploration(run_));
