@@ -70,6 +70,7 @@ void add_moment(const ShownMoment& moment, const Eigen::AlignedBox2d& box, Figur
                     "set border 15; set tics out; set xtics 2; set ytics 2; unset grid",
                     "set palette maxcolors 3 defined (0 '#464646', 1 '#DEDEDE', 2 '#FFFFFF'); "
                     "set cbrange [-0.5:2.5]; unset colorbox"};
+  if (!sheet.style.width_mm) panel.settings.emplace_back("set ylabel offset 0,0");
   const auto points = [&](const char* what, const std::vector<Eigen::Vector2d>& list) {
     const std::string data = sheet.start_block(what, "x y");
     for (const Eigen::Vector2d& p : list)

@@ -3,7 +3,9 @@
 
 #include "eval/report/exploration/coverage_curves.hpp"
 #include "eval/report/exploration/exploration_strip.hpp"
+#include "eval/report/exploration/exploration_table.hpp"
 #include "eval/report/exploration/floor_moments.hpp"
+#include "files/text_rows.hpp"
 #include "tests/eval/report/figures/figure_files.hpp"
 
 #include <gmock/gmock.h>
@@ -59,6 +61,38 @@ TEST_F(ExplorationFigures, CurvesAreMeansOverStartsWithTheirRange) {
   EXPECT_EQ(testing::block(sheet.data, "# F1 over the way; ; direct").back(), "4 0.8 0.8 0.8");
   EXPECT_EQ(testing::block(sheet.data, "# coverage over time; ; direct")[40], "10 0.5 0.5 0.5");
   EXPECT_THAT(sheet.caption, HasSubstr("Mean over 2 starts; band: least to greatest"));
+}
+
+TEST_F(ExplorationFigures, CurvesOfOneStartHaveNoBand) {
+  const std::vector<FinishedExploration> runs{finished(folder_ / "0", 0, 0.7)};
+  const std::string caption = exploration_curves({}, groups_of(runs)).caption;
+  EXPECT_THAT(caption, HasSubstr("against all of it. One start. Those"));
+}
+
+TEST_F(ExplorationFigures, TablesForProgramsHoldNumbers) {
+  const std::vector<FinishedExploration> runs{finished(folder_ / "0", 0, 0.7),
+                                              finished(folder_ / "1", 1, 0.9)};
+  Study study;
+  study.methods.emplace_back().name = "direct";
+  const auto cells = [&](Reader reader) {
+    const Table table = exploration_table(study, groups_of(runs), reader);
+    std::map<std::string, std::string> row;
+    for (std::size_t n = 0; n < table.columns.size(); ++n)
+      row[table.columns[n]] = table.rows.at(0).at(n);
+    return row;
+  };
+  auto program = cells(Reader::program), terminal = cells(Reader::terminal);
+  EXPECT_EQ(terminal["metres to 90 %"], "6.0 [4.0, 8.0]");  // the budget, and the end
+  EXPECT_EQ(program["metres to 90 %"], "6");
+  EXPECT_EQ(program["metres to 90 % low"], "4");
+  EXPECT_EQ(program["metres to 90 % high"], "8");
+  EXPECT_EQ(terminal["reached"], "1/2");
+  EXPECT_EQ(program["reached"], "1");
+  EXPECT_EQ(program["starts"], "2");
+  EXPECT_EQ(terminal["ends"], "2 budget");
+  EXPECT_EQ(program["budget"], "2");
+  EXPECT_EQ(program["explored"], "0");
+  for (const auto& [column, cell] : program) EXPECT_TRUE(parse_number(cell)) << column;
 }
 
 TEST_F(ExplorationFigures, MomentsShowTheWaySoFarAndTheirOwnFrontier) {
