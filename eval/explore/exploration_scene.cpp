@@ -102,6 +102,11 @@ PlanarPose given_start(const std::array<double, 3>& start_m_deg, const sim::Driv
     throw Error(
         "exploration.start_m_deg: no floor near z = 0 under the wheels; move the start onto the "
         "floor, or leave it out");
+  if (clearance.ends_at(start))
+    throw Error(fmt::format(
+        "exploration.start_m_deg: the floor ends less than {:g} m before or behind the axle, where "
+        "the robot would tip over; move the start away from the edge, or leave it out",
+        sim::kEdgeSensorM));
   return start;
 }
 

@@ -53,6 +53,10 @@ void check_explorable(const Study& config) {
   if (!config.occupancy.carve)
     refuse("occupancy.carve", "is false, and a planner needs free space; write true");
   if (config.motion) refuse("motion", "moves the scene, and exploring takes it as it stands");
+  if (config.faults.time_offset_ms != 0.0)
+    refuse("faults.time_offset_ms",
+           "pairs images of a recording, and there is none yet; explore without it, and replay the "
+           "recording with it");
   if (depth_rate(config) != config.trajectory.frames_per_s)
     refuse("trajectory.depth_frames_per_s",
            "differs from frames_per_s; an exploration maps pairs of one instant, leave it out");

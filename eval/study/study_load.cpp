@@ -129,6 +129,20 @@ void refuse_overruled(const std::vector<Override>& overrides, const Study& study
   }
 }
 
+/// Who explores drives on wheels where nothing else is written.
+void put_explorers_on_wheels(Study& study, const YamlValue& root,
+                             const std::vector<Override>& overrides) {
+  const bool exploring =
+      explores(study) || std::ranges::any_of(study.scenes, [](const auto& scene) {
+        return std::ranges::count(scene.leaves, "exploration.planner",
+                                  [](const auto& leaf) { return leaf.first; }) > 0;
+      });
+  const bool in_file = root.has("trajectory") && root.at("trajectory").has("drive");
+  if (exploring && !in_file &&
+      std::ranges::find(overrides, "trajectory.drive", &Override::path) == overrides.end())
+    study.trajectory.drive = WheelDrive{};
+}
+
 /// Where a value came from: the last flag that set it, otherwise the file.
 YamlValue source_of(std::string_view path, const YamlValue& root,
                     const std::vector<Override>& overrides) {
@@ -195,6 +209,7 @@ Study parse_study(const std::string& text, const std::filesystem::path& file,
   study.sweep = sweep.read(study);
   sweep_scenes(study);
   refuse_overruled(overrides, study);
+  put_explorers_on_wheels(study, root, overrides);
   check(study, [&](std::string_view path, const std::string& problem) {
     source_of(path, root, overrides).fail(problem);
   });
