@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -128,6 +129,27 @@ TEST(Exploration, LanesAreDrivenInTheOpenToo) {
   int long_lanes = 0;
   for (const auto& [row, x_m] : least_m) long_lanes += greatest_m[row] - x_m > 4.5 ? 1 : 0;
   EXPECT_GE(long_lanes, 5);  // of the first lane it drives what is before it
+}
+
+// Where something bars the way and nothing else is known, lanes go on from where it came from,
+// once.
+TEST(Exploration, TheLawnMowerGoesBackFromWhereItIsBarred) {
+  OccupancyGrid grid({0.05, {}, 120, 120});
+  const SemanticMap map(0.05, Carving{.carve = true});
+  const auto explorer = make_explorer(LawnMower{}, flat_robot(), 1);
+  ExplorationState state{map, grid, {3.0, 3.0, 0.0}};
+  ASSERT_TRUE(explorer->next(state).view);  // the turn
+  ASSERT_TRUE(explorer->next(state).view);
+  state.T_map_base.x_m = 4.0;
+  grid.set(grid.cell_of({4.2, 3.0}), kOccupiedCell);
+  const ExplorationStep step = explorer->next(state);
+  ASSERT_TRUE(step.view);
+  EXPECT_EQ(step.view->way.front(), state.T_map_base);
+  EXPECT_EQ(step.view->way.back(), (PlanarPose{3.0, 3.0, std::numbers::pi}));
+  const ExplorationStep last = explorer->next(state);
+  EXPECT_FALSE(last.view);
+  EXPECT_EQ(last.end, ExplorationEnd::nothing_reachable);
+  EXPECT_EQ(last.reason, "the robot can get no farther than its own radius");
 }
 
 // Noise has closed the door to a room that is seen through it: before it gives up, it goes near and
