@@ -65,7 +65,8 @@ class LawnMowerExplorer : public Explorer {
       step.end = ExplorationEnd::nothing_reachable;
       step.reason = "the robot can get no farther than its own radius";
     } else {
-      if (now.floor.trust() == DrivableFloor::Trust::lidar) step.view = towards_next_lane(now);
+      const bool open = now.floor.trust() == DrivableFloor::Trust::lidar;
+      if (open || lanes_.empty()) step.view = towards_next_lane(now);
       step.reason = "all lanes that are known are driven";
     }
     return step;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -98,7 +99,9 @@ ExplorationRow exploration_row(const Study& study, const ExplorationGroup& first
   row.add(kWayToShare);
   row.add_reached();
   const auto &a = first.metres_at_most.mean, &b = group.metres_at_most.mean;
-  row.add("first / this", a && b && *b > 0.0 ? fmt::format("{:.2f}", *a / *b) : "-");
+  const auto ratio = a && b && *b > 0.0 ? std::optional(*a / *b) : std::nullopt;
+  row.add("first / this",
+          reader == Reader::program ? nine_digits(ratio) : cell_text(ratio, "{:.2f}"));
   for (const SpreadColumn& column : kOthers) row.add(column);
   row.add("bumps", fmt::format("{}", group.bump_contacts));
   row.add_ends();
