@@ -20,6 +20,7 @@ class DrawnWaypointsExplorer : public Explorer {
 
   ExplorationStep next(const ExplorationState& state) override {
     ExplorationStep step;
+    step.reason = "all waypoints were driven to";
     if (next_ == params_.T_map_waypoints.size()) return step;
     const PlanarPose& to = params_.T_map_waypoints[next_++];
     NextView view;

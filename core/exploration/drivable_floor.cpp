@@ -109,7 +109,7 @@ void for_each_cell_near(const OccupancyGrid& grid, const Eigen::Vector2d& p_map,
 
 DrivableFloor::DrivableFloor(const ExplorationState& state, const ExploringRobot& robot,
                              const KnownSpace& space, Trust trust)
-    : grid_(without_gaps(state.floor)), T_map_base_(state.T_map_base) {
+    : grid_(without_gaps(state.floor)), T_map_base_(state.T_map_base), trust_(trust) {
   check(state);
   const Eigen::Vector2d p_base(T_map_base_.x_m, T_map_base_.y_m);
   robot_cell_ = grid_.cell_of(p_base);

@@ -58,6 +58,7 @@ class DrivableFloor {
   /// The cell that the robot stands in; maybe beyond the grid.
   [[nodiscard]] const GridCell& robot_cell() const { return robot_cell_; }
   [[nodiscard]] const PlanarPose& T_map_base() const { return T_map_base_; }
+  [[nodiscard]] Trust trust() const { return trust_; }
 
  private:
   static constexpr std::uint8_t kNarrow = 1, kRoomy = 2;
@@ -66,6 +67,7 @@ class DrivableFloor {
   OccupancyGrid grid_;
   PlanarPose T_map_base_;
   GridCell robot_cell_;
+  Trust trust_ = Trust::camera_and_lidar;
   std::vector<std::int64_t> clearance_;
   std::vector<std::uint8_t> clear_;
 };

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace mapscore {
@@ -45,7 +46,7 @@ struct Frontier {
 
 /// Why an exploration ends.
 enum class ExplorationEnd {
-  explored,           ///< no view is left that shows enough that is new
+  explored,           ///< no view is left that shows enough that is new, or all lanes are driven
   nothing_reachable,  ///< something is left to be seen, from no place that the robot can get to
   budget              ///< metres, seconds or views are used up
 };
@@ -62,6 +63,7 @@ struct NextView {
 struct ExplorationStep {
   std::optional<NextView> view;
   ExplorationEnd end = ExplorationEnd::explored;  ///< where there is no view
+  std::string_view reason = {};  ///< why, of a planner that does not look for what is new
   std::vector<Frontier> frontiers;
 };
 

@@ -6,9 +6,12 @@
 #include "core/exploration/planners.hpp"
 #include "core/exploration/surroundings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -19,10 +22,17 @@ namespace {
 
 constexpr double kLeastRun_m = 0.2, kArrived_m = 0.3;
 constexpr int kMostFailures = 2;
+constexpr std::size_t kTrail = 4;  ///< places to go back to
 
 /// A stretch of a lane that is clear and was not driven yet; from the lower column.
 struct Run {
   GridCell first, last;
+};
+
+/// The place nearest to a lane that the robot tried to get to.
+struct Attempt {
+  std::int64_t rows_off = std::numeric_limits<std::int64_t>::max();
+  int tries = 0;
 };
 
 class LawnMowerExplorer : public Explorer {
@@ -39,6 +49,8 @@ class LawnMowerExplorer : public Explorer {
       return step;
     }
     note_driven(now);
+    if (!now.stuck()) trail_.push_back(now.floor.T_map_base());
+    if (trail_.size() > kTrail) trail_.erase(trail_.begin());
     // The nearest end of a run; ties to the lower lane, then to the lower column.
     std::optional<Run> nearest;
     double least_m = FloorPaths::kNoWay;
@@ -46,20 +58,84 @@ class LawnMowerExplorer : public Explorer {
       for (const Run& way : {run, Run{run.last, run.first}})
         if (now.paths.cost_m(way.first) < least_m)
           least_m = now.paths.cost_m(way.first), nearest = way;
-    if (nearest)
+    if (nearest) {
       step.view = drive(*nearest, now);
-    else if (now.stuck())
+    } else if (now.stuck()) {
+      step.view = back(now);
       step.end = ExplorationEnd::nothing_reachable;
+      step.reason = "the robot can get no farther than its own radius";
+    } else {
+      const bool open = now.floor.trust() == DrivableFloor::Trust::lidar;
+      if (open || lanes_.empty()) step.view = towards_next_lane(now);
+      step.reason = "all lanes that are known are driven";
+    }
     return step;
   }
 
  private:
+  /// Rows of cells between lanes.
+  [[nodiscard]] std::int64_t rows_apart(const OccupancyGrid& grid) const {
+    return std::max<std::int64_t>(1, std::llround(params_.lane_m / grid.frame().resolution_m));
+  }
   /// Lanes lie along x of the lidar's grid, in rows of cells that are lane_m apart.
   [[nodiscard]] bool in_lane(const OccupancyGrid& grid, const GridCell& cell) const {
-    const auto apart =
-        std::max<std::int64_t>(1, std::llround(params_.lane_m / grid.frame().resolution_m));
-    const std::int64_t row = lattice_cell(grid, cell).second % apart;
+    const std::int64_t apart = rows_apart(grid), row = lattice_cell(grid, cell).second % apart;
     return (row + apart) % apart == apart / 2;
+  }
+
+  /// In the open the robot knows floor about itself alone, maybe none of the lanes beside it. It
+  /// goes as near to the next one as it can, as long as that brings it nearer, and not twice in
+  /// vain.
+  [[nodiscard]] std::optional<NextView> towards_next_lane(const Surroundings& now) {
+    const OccupancyGrid& grid = now.floor.grid();
+    const std::int64_t here = lattice_cell(grid, now.floor.robot_cell()).second;
+    for (const std::int64_t lane : next_lanes(here, rows_apart(grid))) {
+      const auto off = [&](const GridCell& cell) {
+        return std::abs(lattice_cell(grid, cell).second - lane);
+      };
+      const auto nearest = std::ranges::min_element(
+          now.paths.reached(), {},
+          [&](const GridCell& cell) { return std::pair(off(cell), now.paths.cost_m(cell)); });
+      if (nearest != now.paths.reached().end() && off(*nearest) < std::abs(here - lane)) {
+        Attempt& attempt = attempts_[lane];
+        if (off(*nearest) < attempt.rows_off) attempt = {off(*nearest), 0};
+        if (attempt.tries++ < kMostFailures)
+          return now.view(*nearest, std::copysign(0.5 * std::numbers::pi, lane - here));
+      }
+      out_of_reach_.insert(lane);
+    }
+    return std::nullopt;
+  }
+
+  /// Straight to the last place that it left and that lies farther than its radius, each once: at
+  /// the end of a floor nothing may be known but what bars the way on.
+  [[nodiscard]] std::optional<NextView> back(const Surroundings& now) {
+    const PlanarPose& here = now.floor.T_map_base();
+    while (!trail_.empty()) {
+      const PlanarPose to = trail_.back();
+      trail_.pop_back();
+      const Eigen::Vector2d along(to.x_m - here.x_m, to.y_m - here.y_m);
+      if (along.norm() <= robot_.radius_m) continue;
+      NextView view;
+      view.way = {here, {to.x_m, to.y_m, std::atan2(along.y(), along.x())}};
+      view.way_m = along.norm();
+      return view;
+    }
+    return std::nullopt;
+  }
+
+  /// Rows of the next lanes on both sides of a row that were not taken up yet, the nearer one
+  /// first; none behind one that it cannot get to.
+  [[nodiscard]] std::vector<std::int64_t> next_lanes(std::int64_t row, std::int64_t apart) const {
+    const std::int64_t below = row - ((row - apart / 2) % apart + apart) % apart;
+    std::vector<std::int64_t> lanes;
+    for (const auto& [first, step] : {std::pair(below, -apart), std::pair(below + apart, apart)}) {
+      std::int64_t lane = first;
+      while (lanes_.contains(lane)) lane += step;
+      if (!out_of_reach_.contains(lane)) lanes.push_back(lane);
+    }
+    std::ranges::sort(lanes, {}, [row](std::int64_t lane) { return std::abs(lane - row); });
+    return lanes;
   }
 
   /// What is left of every stretch of clear cells between its first and its last cell that was not
@@ -101,6 +177,7 @@ class LawnMowerExplorer : public Explorer {
 
   NextView drive(const Run& run, const Surroundings& now) {
     const OccupancyGrid& grid = now.floor.grid();
+    lanes_.insert(lattice_cell(grid, run.first).second);
     const std::int32_t step = run.last.column > run.first.column ? 1 : -1;
     for (GridCell cell = run.first;; cell.column += step) {
       under_way_.push_back(lattice_cell(grid, cell));
@@ -120,7 +197,11 @@ class LawnMowerExplorer : public Explorer {
   ExploringRobot robot_;
   std::set<LatticeCell> driven_;
   std::map<LatticeCell, int> failures_;
-  std::vector<LatticeCell> under_way_;  ///< cells of the run that was decided last
+  std::set<std::int64_t> lanes_;              ///< rows of those that were taken up
+  std::set<std::int64_t> out_of_reach_;       ///< rows of others
+  std::map<std::int64_t, Attempt> attempts_;  ///< to get to a lane, by its row
+  std::vector<PlanarPose> trail_;             ///< where it was and could get on
+  std::vector<LatticeCell> under_way_;        ///< cells of the run that was decided last
   Eigen::Vector2d end_m_ = Eigen::Vector2d::Zero();
   bool first_ = true;
 };

@@ -11,6 +11,7 @@
 #include "eval/explore/exploration_summary.hpp"
 #include "eval/report/exploration/coverage_curves.hpp"
 #include "eval/report/exploration/exploration_strip.hpp"
+#include "eval/report/exploration/exploration_table.hpp"
 #include "eval/report/exploration/floor_moments.hpp"
 #include "eval/report/pictures/caption.hpp"
 #include "eval/report/tables/table_formats.hpp"
@@ -84,69 +85,6 @@ std::vector<PlannedExploration> chosen(const Study& study, const ExploreFlags& f
   return planned;
 }
 
-std::string spread_text(const SeedSummary& summary, const char* format) {
-  if (!summary.mean) return "-";
-  std::string text = fmt::format(fmt::runtime(format), *summary.mean);
-  if (summary.low && summary.high)
-    text += fmt::format(" [{}, {}]", fmt::format(fmt::runtime(format), *summary.low),
-                        fmt::format(fmt::runtime(format), *summary.high));
-  return text;
-}
-
-std::string ends_text(const ExplorationGroup& group) {
-  std::string text;
-  for (const auto& [end, count] : group.ends)
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, end);
-  return text;
-}
-
-/// A group of the same scene and other doses, for which the first planner is the measure.
-std::string ratio_text(const ExplorationGroup& first, const ExplorationGroup& group) {
-  const auto &a = first.metres_at_most.mean, &b = group.metres_at_most.mean;
-  return a && b && *b > 0.0 ? fmt::format("{:.2f}", *a / *b) : "-";
-}
-
-std::string scene_name(const ExplorationGroup& group) {
-  for (const auto& [path, value] : group.doses)
-    if (path == kSceneAxis) return value;
-  return "";
-}
-
-Table table_of(const Study& study, const std::vector<ExplorationGroup>& groups) {
-  Table table;
-  table.caption = {fmt::format(
-      "{}: metres to {:.0f} % of the visible surface, budget where it is not reached; area under "
-      "the coverage up to the budget; mean [{}]",
-      study.name, 100.0 * kCoveredShare,
-      groups.empty() ? "" : name_of(groups.front().metres_at_most.kind))};
-  if (!groups.empty())
-    for (const auto& [path, value] : groups.front().doses)
-      table.columns.push_back(path.substr(path.find_last_of('.') + 1));
-  if (study.methods.size() > 1) table.columns.emplace_back("method");
-  table.keys = table.columns.size();
-  for (const char* column :
-       {"metres to 90 %", "reached", "first / this", "area (metres)", "area (seconds)", "coverage",
-        "F1", "driven (m)", "views", "bumps", "ends"})
-    table.columns.emplace_back(column);
-  for (const ExplorationGroup& group : groups) {
-    const auto first = std::ranges::find_if(groups, [&](const ExplorationGroup& other) {
-      return scene_name(other) == scene_name(group) && other.method == group.method;
-    });
-    std::vector<std::string> row;
-    for (const auto& [path, value] : group.doses) row.push_back(value);
-    if (study.methods.size() > 1) row.push_back(group.method);
-    row.insert(row.end(),
-               {spread_text(group.metres_at_most, "{:.1f}"),
-                fmt::format("{}/{}", group.reached, group.runs.size()), ratio_text(*first, group),
-                spread_text(group.area_metres, "{:.3f}"), spread_text(group.area_seconds, "{:.3f}"),
-                spread_text(group.coverage, "{:.3f}"), spread_text(group.f1, "{:.3f}"),
-                spread_text(group.driven_m, "{:.1f}"), spread_text(group.views, "{:.0f}"),
-                fmt::format("{}", group.bump_contacts), ends_text(group)});
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
 void print_single(const FinishedExploration& run) {
   const KeptExploration& kept = run.kept;
   std::cout << fmt::format(
@@ -170,6 +108,20 @@ void draw_figures(const Study& study, const std::vector<ExplorationGroup>& group
     if (file.extension() == ".png") std::cout << shown(file) << '\n';
 }
 
+/// Says how many explorations of the folder are not among those that are shown.
+void note_others(const std::filesystem::path& folder,
+                 const std::vector<FinishedExploration>& finished) {
+  std::size_t others = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "runs"))
+    if (std::filesystem::exists(entry.path() / kRunFile) &&
+        std::ranges::find(finished, entry.path(), &FinishedExploration::folder) == finished.end())
+      ++others;
+  if (others > 0)
+    std::cerr << fmt::format(
+        "explore: note: {} holds {} more exploration{}, which the tables leave out\n",
+        shown(folder / "runs"), others, others == 1 ? "" : "s");
+}
+
 void explore_study(const ExploreFlags& flags) {
   const FigureStyle style = flags.style.style();  // refused before the work
   const Study study = flags.study.load();
@@ -184,6 +136,7 @@ void explore_study(const ExploreFlags& flags) {
                            });
     display.finish();
   }
+  note_others(folder, finished);
   const FolderLock lock(folder);
   write_whole_file(folder / "study.yaml", to_yaml(study));
   write_whole_file(folder / "exploration.csv", exploration_csv(finished));
@@ -191,7 +144,7 @@ void explore_study(const ExploreFlags& flags) {
   if (flags.format == "text")
     for (const FinishedExploration& run : finished) print_single(run);
   const std::vector<ExplorationGroup> groups = groups_of(finished);
-  std::cout << formatted(table_of(study, groups), flags.format);
+  std::cout << formatted(exploration_table(study, groups, reader_of(flags.format)), flags.format);
   if (flags.figures) draw_figures(study, groups, style, folder / "figures");
   if (flags.format != "text") return;
   for (const char* file : {"exploration.csv", "runs.csv"})
@@ -208,9 +161,10 @@ void add_explore(CLI::App& program) {
   verb->add_option("--seed", flags->seed, "Only the exploration of this seed's index [all]");
   verb->add_flag("--scores_only", flags->scores_only,
                  "Keep no recordings, which take a megabyte for ten frames and more");
-  verb->add_flag("--figures", flags->figures,
-                 "Draw curves, floors at four moments, and film strips where recordings are kept, "
-                 "below figures of the output folder");
+  verb->add_flag(
+      "--figures", flags->figures,
+      "Draw curves, floors at up to four moments, and film strips where recordings are kept, "
+      "below figures of the output folder");
   flags->style.add_to(*verb);
   flags->work.add_without_memory_to(*verb);
   add_format_flag(*verb, flags->format, {"text", "csv", "json", "markdown", "tex"});
@@ -221,7 +175,7 @@ void add_explore(CLI::App& program) {
       "map.ot. What is there already is not run again.\n"
       "Examples:\n"
       "  mapscore explore configs/explore.yaml --seed 0\n"
-      "  mapscore explore configs/explore.yaml --set exploration.budget_m=20 -o results/short\n"
+      "  mapscore explore configs/explore.yaml --set exploration.budget_s=300 -o results/short\n"
       "  mapscore explore configs/explore.yaml --scores_only --jobs 2\n"
       "  mapscore info results/explore/runs/home-next_best_view-seed0/recording");
 }

@@ -5,14 +5,18 @@
 
 #include "core/error.hpp"
 #include "eval/recording/grid_file.hpp"
+#include "eval/recording/recording.hpp"
 #include "files/csv.hpp"
 #include "files/file_bytes.hpp"
+#include "files/text.hpp"
 #include "files/text_rows.hpp"
 #include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 
 namespace mapscore::eval {
@@ -29,7 +33,72 @@ std::string word_of(auto value) {
   return std::string(names_of(value)[static_cast<std::size_t>(value)]);
 }
 
-std::string run_text(const ExplorationResult& result, const std::string& key) {
+std::string how_to_mend(const fs::path& folder) {
+  return fmt::format("remove {} to explore it anew", shown(folder));
+}
+
+[[noreturn]] void fail_on(const fs::path& file, const std::string& problem) {
+  throw Error(fmt::format("{}: {}; {}", shown(file), problem, how_to_mend(file.parent_path())));
+}
+
+/// Of a recording its content hash.
+std::string hash_at(const fs::path& file) {
+  return fs::is_directory(file) ? Recording::open(file).content_hash() : hash_of(read_file(file));
+}
+
+/// Hashes of what an exploration's folder holds, by name: all but what is measured, and run.yaml,
+/// which lists them.
+std::map<std::string, std::string> hashes_in(const fs::path& folder) {
+  std::map<std::string, std::string> hashes;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name == kRunFile || name == kTimesFile) continue;
+    hashes[name] = hash_at(entry.path());
+  }
+  return hashes;
+}
+
+/// What read() gives; to an Error of it how to mend it is added.
+auto or_anew(const fs::path& folder, auto&& read) try {
+  return read();
+} catch (const Error& error) {
+  throw Error(fmt::format("{}; or {}", error.what(), how_to_mend(folder)));
+}
+
+/// Refuses a folder of which a file is missing or not as it was written.
+void check_files_of(const fs::path& folder, const YamlValue& run) {
+  const auto hashes = or_anew(folder, [&] { return run.at("files").entries(); });
+  for (const auto& [name, hash] : hashes) {
+    const fs::path file = folder / name;
+    if (!fs::exists(file)) fail_on(file, "is missing");
+    const std::string now = or_anew(folder, [&] { return hash_at(file); });
+    if (now != hash.text()) fail_on(file, "is not as it was written");
+  }
+}
+
+/// What run.yaml says; without the curve.
+KeptExploration totals_of(const YamlValue& run) {
+  constexpr std::uint64_t kMost = 1ULL << 40;
+  const auto count = [&](const char* key) {
+    return static_cast<std::size_t>(run.at(key).whole(0, kMost));
+  };
+  const std::string end = run.at("end").text();
+  constexpr auto kEnds = names_of(ExplorationEnd{});
+  if (std::ranges::find(kEnds, end) == kEnds.end())
+    run.at("end").fail(fmt::format("is {}; write one of {}", end, fmt::join(kEnds, ", ")));
+  return {run.at("key").text(),
+          end,
+          run.at("reason").text(),
+          run.at("driven_m").number(),
+          run.at("duration_s").number(),
+          count("views"),
+          count("frames"),
+          count("bump_contacts"),
+          {}};
+}
+
+std::string run_text(const ExplorationResult& result, const std::string& key,
+                     const std::map<std::string, std::string>& hashes) {
   std::string text = fmt::format(
       "key: {}\nend: {}\nreason: {}\ndriven_m: {}\nduration_s: {}\nviews: {}\nframes: {}\n"
       "bump_contacts: {}\n",
@@ -38,6 +107,8 @@ std::string run_text(const ExplorationResult& result, const std::string& key) {
   if (result.objects)
     text += fmt::format("objects: {}\nobjects_missed: {}\nobjects_found_again: {}\n",
                         result.objects->kept, result.objects->missed, result.objects->found_again);
+  text += "files:\n";
+  for (const auto& [name, hash] : hashes) text += fmt::format("  {}: \"{}\"\n", name, hash);
   return text;
 }
 
@@ -63,7 +134,7 @@ std::string way_text(const std::vector<TrajectoryPose>& frames) {
   return text;
 }
 
-/// The last moment not beyond each share of the way.
+/// The last moment not beyond each share of the way, each once; the last of them is the end.
 std::vector<const FloorMoment*> kept_moments(const ExplorationResult& result) {
   std::vector<const FloorMoment*> kept;
   for (std::size_t n = 1; n <= kKeptMoments && !result.moments.empty(); ++n) {
@@ -71,8 +142,8 @@ std::vector<const FloorMoment*> kept_moments(const ExplorationResult& result) {
         result.driven_m * static_cast<double>(n) / static_cast<double>(kKeptMoments);
     const FloorMoment* last = &result.moments.front();
     for (const FloorMoment& moment : result.moments)
-      if (moment.driven_m <= until_m) last = &moment;
-    kept.push_back(last);
+      if (moment.driven_m <= until_m || n == kKeptMoments) last = &moment;
+    if (kept.empty() || kept.back() != last) kept.push_back(last);
   }
   return kept;
 }
@@ -97,7 +168,8 @@ CoveragePoint point_of(const std::vector<std::string>& cells, const std::string&
     if (const auto number = parse_number(cell)) numbers.push_back(*number);
   const bool scored = numbers.size() == kCurveColumns;
   if (!scored && numbers.size() != kCurveColumns - kMapColumns)
-    throw Error(fmt::format("{}:{}: is no line of a curve; explore again", file, line));
+    throw Error(fmt::format("{}:{}: is no line of a curve; {}", file, line,
+                            how_to_mend(fs::path(file).parent_path())));
   CoveragePoint point{numbers[0], numbers[1], static_cast<int>(numbers[2]),
                       numbers[3], numbers[4], std::nullopt};
   if (scored) point.map = MapState{numbers[5], numbers[6], numbers[7], numbers[8]};
@@ -119,8 +191,7 @@ std::string curve_text(const ExplorationCurve& curve) {
 }
 
 ExplorationCurve curve_of_text(const std::string& text, const std::string& file) {
-  if (!text.starts_with(kCurveHead))
-    throw Error(fmt::format("{}: is no curve of an exploration; explore again", file));
+  if (!text.starts_with(kCurveHead)) fail_on(file, "is no curve of an exploration");
   ExplorationCurve curve;
   TextLines lines(text);
   static_cast<void>(lines.next());
@@ -128,7 +199,7 @@ ExplorationCurve curve_of_text(const std::string& text, const std::string& file)
     const auto cells = csv_cells(*line, kCurveColumns);
     curve.push_back(point_of(cells.value_or(std::vector<std::string>{}), file, lines.number()));
   }
-  if (curve.empty()) throw Error(fmt::format("{}: holds no point; explore again", file));
+  if (curve.empty()) fail_on(file, "holds no point");
   return curve;
 }
 
@@ -141,26 +212,25 @@ void write_exploration(const ExplorationResult& result, const std::string& key,
   write_file(folder / kTimesFile,
              fmt::format("plans,plans_s,slowest_plan_s\n{},{},{}\n", result.moments.size(),
                          result.plans_s, result.slowest_plan_s));
-  write_file(folder / kRunFile, run_text(result, key));
+  write_file(folder / kRunFile, run_text(result, key, hashes_in(folder)));
+}
+
+std::optional<std::string> key_of_exploration(const fs::path& folder) {
+  if (!fs::exists(folder / kRunFile)) return std::nullopt;
+  return or_anew(folder, [&] { return load_yaml(folder / kRunFile).at("key").text(); });
 }
 
 std::optional<KeptExploration> read_exploration(const fs::path& folder) {
   if (!fs::exists(folder / kRunFile)) return std::nullopt;
-  const YamlValue run = load_yaml(folder / kRunFile);
-  constexpr std::uint64_t kMost = 1ULL << 40;
-  const auto count = [&](const char* key) {
-    return static_cast<std::size_t>(run.at(key).whole(0, kMost));
-  };
-  return KeptExploration{
-      run.at("key").text(),
-      run.at("end").text(),
-      run.at("reason").text(),
-      run.at("driven_m").number(),
-      run.at("duration_s").number(),
-      count("views"),
-      count("frames"),
-      count("bump_contacts"),
-      curve_of_text(read_file(folder / kCurveFile), (folder / kCurveFile).string())};
+  const YamlValue run = or_anew(folder, [&] { return load_yaml(folder / kRunFile); });
+  KeptExploration kept = or_anew(folder, [&] { return totals_of(run); });
+  check_files_of(folder, run);
+  const fs::path curve = folder / kCurveFile;
+  kept.curve = curve_of_text(read_file(curve), curve.string());
+  if (kept.curve.size() != kept.frames)
+    fail_on(curve, fmt::format("holds {} points, and {} says {} frames", kept.curve.size(),
+                               kRunFile, kept.frames));
+  return kept;
 }
 
 }  // namespace mapscore::eval

@@ -19,7 +19,7 @@ inline constexpr const char *kRunFile = "run.yaml", *kCurveFile = "curve.csv",
                             *kMomentsFile = "moments.csv", *kFrontiersFile = "frontiers.csv",
                             *kMapFile = "map.ot", *kTimesFile = "times.csv";
 
-/// Moments of which the floor is kept, at equal shares of the way.
+/// Moments of which the floor is kept at most, at equal shares of the way; the last is the end.
 inline constexpr std::size_t kKeptMoments = 4;
 
 /// What run.yaml and curve.csv hold of a finished exploration.
@@ -31,12 +31,18 @@ struct KeptExploration {
   ExplorationCurve curve;
 };
 
-/// Writes all but map and recording into a folder that is there. `floor(n)` of a moment is
-/// floor_N.yaml and .pgm. The same result, the same bytes, but for times.csv, which is measured.
+/// Writes all but map and recording, which are there already where they are kept, into a folder
+/// that is there; run.yaml lists the hashes of them all. `floor(n)` of a moment is floor_N.yaml and
+/// .pgm. The same result, the same bytes, but for times.csv, which is measured.
 void write_exploration(const ExplorationResult& result, const std::string& key,
                        const std::filesystem::path& folder);
 
-/// Nothing where the folder holds no finished exploration. Throws Error when its files are damaged.
+/// The key of a finished exploration; nothing where the folder holds none. Throws Error when its
+/// run.yaml is damaged.
+[[nodiscard]] std::optional<std::string> key_of_exploration(const std::filesystem::path& folder);
+
+/// Nothing where the folder holds no finished exploration. Throws Error naming the file and the
+/// folder to remove when one of its files is missing or not as it was written.
 [[nodiscard]] std::optional<KeptExploration> read_exploration(const std::filesystem::path& folder);
 
 /// Points of a figure's curve: comma-separated lines under the names of their columns.

@@ -34,7 +34,7 @@ struct ChosenView {
   std::string obstacle;  ///< body that blocked the way; empty where none did
 };
 
-/// What the robot knew of the floor when it chose a view; frame map.
+/// What the robot knew of the floor when it chose a view, or at the end; frame map.
 struct FloorMoment {
   double stamp_s = 0.0, driven_m = 0.0;
   OccupancyGrid floor;
@@ -53,7 +53,7 @@ struct ExplorationResult {
   std::string reason;  ///< for people
   ExplorationCurve curve;
   std::vector<ChosenView> views;
-  std::vector<FloorMoment> moments;    ///< at each view
+  std::vector<FloorMoment> moments;    ///< at each view, and at the end
   std::vector<TrajectoryPose> frames;  ///< true poses
   double driven_m = 0.0, duration_s = 0.0;
   std::size_t bump_contacts = 0;

@@ -84,11 +84,13 @@ class ExplorationRun {
     while (!out_of_budget()) {
       const ExplorationStep step = choose();
       if (!step.view) {
-        end(step.end);
+        end(step);
         break;
       }
       go_to(*step.view);
     }
+    if (result_.end == ExplorationEnd::budget)
+      static_cast<void>(choose());  // of which the moment alone counts
     score_last_point();
     if (sinks_.map) sinks_.map(mapper_.map());
     write_logs();
@@ -122,9 +124,10 @@ class ExplorationRun {
     return step;
   }
 
-  void end(ExplorationEnd why) {
-    result_.end = why;
-    result_.reason = why == ExplorationEnd::explored
+  void end(const ExplorationStep& step) {
+    result_.end = step.end;
+    result_.reason = !step.reason.empty() ? step.reason
+                     : step.end == ExplorationEnd::explored
                          ? "no view is left that shows enough that is new"
                          : "what is left can be seen from no place that the robot can get to";
   }
@@ -163,7 +166,10 @@ class ExplorationRun {
       catch_up();
     }
     finish_way(state);
-    drive_.rest_until(frame_stamp(next_frame_));  // looks once from where it stands
+    if (frame_stamp(next_frame_) <= settings_.budget_s)
+      drive_.rest_until(frame_stamp(next_frame_));  // looks once from where it stands
+    else
+      drive_.rest_until(settings_.budget_s);
     catch_up();
   }
 

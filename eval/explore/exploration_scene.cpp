@@ -102,6 +102,11 @@ PlanarPose given_start(const std::array<double, 3>& start_m_deg, const sim::Driv
     throw Error(
         "exploration.start_m_deg: no floor near z = 0 under the wheels; move the start onto the "
         "floor, or leave it out");
+  if (clearance.ends_at(start))
+    throw Error(fmt::format(
+        "exploration.start_m_deg: the floor ends less than {:g} m before or behind the axle, where "
+        "the robot would tip over; move the start away from the edge, or leave it out",
+        sim::kEdgeSensorM));
   return start;
 }
 
@@ -241,11 +246,14 @@ ExplorationScenes::Ready ExplorationScenes::ready(const PlannedExploration& plan
   deciding.name.clear();
   deciding.seeds = 1;
   deciding.methods.front().name = "method";
-  const std::string text = fmt::format(
-      "{}\n{}\n{}\n{}\n{}\n{}", scene->world.hash(), sim::mujoco_version(), build_identity(),
-      planned.spec.seed_index, records ? "recorded" : "scored", to_yaml(without_titles(deciding)));
+  const std::string settings = to_yaml(without_titles(deciding));
+  const auto key = [&](bool recorded) {
+    return hash_of(fmt::format("{}\n{}\n{}\n{}\n{}\n{}", scene->world.hash(), sim::mujoco_version(),
+                               build_identity(), planned.spec.seed_index,
+                               recorded ? "recorded" : "scored", settings));
+  };
   const auto& given = config.exploration.start_m_deg;
-  return {hash_of(text),
+  return {key(records), key(!records),
           given ? given_start(*given, scene->drive)
                 : drawn_start(*scene, config, planned.spec.seed_index),
           records};

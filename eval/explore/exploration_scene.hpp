@@ -24,7 +24,8 @@ class ExplorationScenes {
 
   /// An exploration whose scene is there and whose robot stands at its start.
   struct Ready {
-    std::string key;  ///< hash of all that decides it
+    std::string key;           ///< hash of all that decides it
+    std::string key_of_other;  ///< the same with a recording where it keeps none, and the reverse
     PlanarPose start;
     bool records = true;
   };

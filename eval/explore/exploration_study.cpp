@@ -53,6 +53,10 @@ void check_explorable(const Study& config) {
   if (!config.occupancy.carve)
     refuse("occupancy.carve", "is false, and a planner needs free space; write true");
   if (config.motion) refuse("motion", "moves the scene, and exploring takes it as it stands");
+  if (config.faults.time_offset_ms != 0.0)
+    refuse("faults.time_offset_ms",
+           "pairs images of a recording, and there is none yet; explore without it, and replay the "
+           "recording with it");
   if (depth_rate(config) != config.trajectory.frames_per_s)
     refuse("trajectory.depth_frames_per_s",
            "differs from frames_per_s; an exploration maps pairs of one instant, leave it out");
@@ -85,18 +89,27 @@ class AllExplorations {
   KeptExploration kept_or_run(std::size_t n) {
     const fs::path folder = folder_of(n);
     const ExplorationScenes::Ready ready = scenes_.ready(planned_[n], options_.keep_recordings);
-    if (auto kept = read_exploration(folder)) {
-      if (kept->key == ready.key) return std::move(*kept);
-      throw Error(fmt::format(
-          "{}: holds an exploration of another study, scene or build; remove it, or give another "
-          "-o",
-          shown(folder)));
+    if (const auto key = key_of_exploration(folder)) {
+      if (*key == ready.key) return read_exploration(folder).value();
+      refuse_other(folder, *key, ready);
     }
     WholeFolder whole(folder);
     scenes_.run(planned_[n], ready, whole.partial(),
                 [&](double driven_m, double coverage) { progress_(n, driven_m, coverage); });
     whole.finish();
     return read_exploration(folder).value();
+  }
+
+  [[noreturn]] static void refuse_other(const fs::path& folder, const std::string& key,
+                                        const ExplorationScenes::Ready& ready) {
+    if (key == ready.key_of_other)
+      throw Error(fmt::format(
+          "{}: holds this exploration {}; {} --scores_only, remove the folder, or give another -o",
+          shown(folder), ready.records ? "without its recording" : "with its recording",
+          ready.records ? "give" : "leave out"));
+    throw Error(fmt::format(
+        "{}: holds an exploration of another study, scene or build; remove it, or give another -o",
+        shown(folder)));
   }
 
   const std::vector<PlannedExploration>& planned_;

@@ -53,7 +53,8 @@ void check_input(const Study& study, const Blame& blame) {
     blame("scene", "is missing; write scene: PATH, or recording: PATH to replay one");
   if (study.trajectory.waypoints_m_deg.empty() && !explores(study))
     blame("trajectory.waypoints_m_deg",
-          "the trajectory is empty; write at least one waypoint, [[x, y, yaw], ...]");
+          "the trajectory is empty; write at least one waypoint, [[x, y, yaw], ...], or for "
+          "mapscore explore who chooses the way, exploration: {planner: next_best_view}");
 }
 
 /// Each has a scene or a recording of its own, with images of its own.
@@ -107,8 +108,10 @@ void check_ascending(const std::vector<T>& list, std::string_view path, const Bl
                               list[i - 1]));
 }
 
-/// Of an exploration that drives drawn waypoints.
 void check_exploration(const Study& study, const Blame& blame) {
+  if (explores(study) && std::holds_alternative<PoseDrive>(study.trajectory.drive))
+    blame("trajectory.drive",
+          "is poses, and who explores drives on wheels; write wheels, or leave it out");
   if (std::holds_alternative<DrawnWaypoints>(study.exploration.planner) &&
       study.trajectory.waypoints_m_deg.empty())
     blame("trajectory.waypoints_m_deg",

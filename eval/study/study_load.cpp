@@ -4,6 +4,8 @@
 #include "core/error.hpp"
 #include "eval/study/study_tree.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -103,6 +105,44 @@ void refuse_swept(const std::vector<Override>& overrides, const RawSweep& sweep)
       change.at.fail(fmt::format("is swept; set sweep.{}=[...] instead", change.path));
 }
 
+/// Nor by what a swept scene sets itself.
+void refuse_overruled(const std::vector<Override>& overrides, const Study& study) {
+  const auto within = [](const std::string& path, const std::string& of) {
+    return path == of || path.starts_with(of + '.');
+  };
+  const auto axis = std::ranges::find(study.sweep, kSceneAxis, &SweepAxis::path);
+  if (study.scenes.empty() || axis == study.sweep.end()) return;
+  for (const Override& change : overrides) {
+    const auto sets_it = [&](const auto& leaf) {
+      return within(leaf.first, change.path) || within(change.path, leaf.first);
+    };
+    std::vector<std::string> scenes;
+    for (const SceneSettings& scene : study.scenes)
+      if (std::ranges::count(axis->values, scene.name) > 0 &&
+          std::ranges::any_of(scene.leaves, sets_it))
+        scenes.push_back(scene.name);
+    if (scenes.empty()) continue;
+    change.at.fail(
+        fmt::format("{} set{} it below scenes, which wins; change it there, or set sweep.{}=[...] "
+                    "for all scenes",
+                    fmt::join(scenes, ", "), scenes.size() == 1 ? "s" : "", change.path));
+  }
+}
+
+/// Who explores drives on wheels where nothing else is written.
+void put_explorers_on_wheels(Study& study, const YamlValue& root,
+                             const std::vector<Override>& overrides) {
+  const bool exploring =
+      explores(study) || std::ranges::any_of(study.scenes, [](const auto& scene) {
+        return std::ranges::count(scene.leaves, "exploration.planner",
+                                  [](const auto& leaf) { return leaf.first; }) > 0;
+      });
+  const bool in_file = root.has("trajectory") && root.at("trajectory").has("drive");
+  if (exploring && !in_file &&
+      std::ranges::find(overrides, "trajectory.drive", &Override::path) == overrides.end())
+    study.trajectory.drive = WheelDrive{};
+}
+
 /// Where a value came from: the last flag that set it, otherwise the file.
 YamlValue source_of(std::string_view path, const YamlValue& root,
                     const std::vector<Override>& overrides) {
@@ -168,6 +208,8 @@ Study parse_study(const std::string& text, const std::filesystem::path& file,
   refuse_swept(overrides, sweep);
   study.sweep = sweep.read(study);
   sweep_scenes(study);
+  refuse_overruled(overrides, study);
+  put_explorers_on_wheels(study, root, overrides);
   check(study, [&](std::string_view path, const std::string& problem) {
     source_of(path, root, overrides).fail(problem);
   });

@@ -82,6 +82,13 @@ std::optional<double> Clearance::floor_at(const PlanarPose& place) {
   return std::max(*left, *right);
 }
 
+bool Clearance::ends_at(const PlanarPose& place) {
+  const double dx = kEdgeSensorM * std::cos(place.yaw_rad);
+  const double dy = kEdgeSensorM * std::sin(place.yaw_rad);
+  return !floor_at({place.x_m + dx, place.y_m + dy, place.yaw_rad}) ||
+         !floor_at({place.x_m - dx, place.y_m - dy, place.yaw_rad});
+}
+
 std::optional<double> Clearance::floor_below(double x_m, double y_m) {
   const mjtNum from[3] = {x_m, y_m, kHighestFloorM}, down[3] = {0, 0, -1};
   const double distance_m = cast_ray(*drive_.probe, *data_, from, down);

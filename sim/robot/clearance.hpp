@@ -14,6 +14,9 @@
 
 namespace mapscore::sim {
 
+/// Of an ideal edge sensor, before and behind the axle, beyond the casters.
+inline constexpr double kEdgeSensorM = 0.2;
+
 /// Something in the way.
 struct Obstacle {
   std::string body;                        ///< of the scene
@@ -37,6 +40,9 @@ class Clearance {
   /// Height of the higher of the floors under the two wheels, looked for within 6 cm above and 4 cm
   /// below z = 0; nothing where a wheel has none.
   [[nodiscard]] std::optional<double> floor_at(const PlanarPose& place);
+
+  /// Whether there is no floor kEdgeSensorM before or behind the axle.
+  [[nodiscard]] bool ends_at(const PlanarPose& place);
 
  private:
   std::optional<double> floor_below(double x_m, double y_m);

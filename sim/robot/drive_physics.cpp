@@ -68,7 +68,7 @@ void DrivePhysics::check_state() {
   if (tilt_rad < kTippedRad && pose[2] > kFallenM) return;
   throw Error(fmt::format(
       "drive: the robot {} at ({:.2f}, {:.2f} m) after {:.2f} s; move the "
-      "waypoints away from there",
+      "waypoints, or the start, away from there",
       tilt_rad < kTippedRad ? "falls off the floor" : "tips over", pose[0], pose[1], time_s()));
 }
 

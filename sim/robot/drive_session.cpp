@@ -16,8 +16,7 @@ namespace {
 constexpr double kReactionS = 0.1;  ///< from a command to the wheels' speed
 constexpr double kStuckS = 4.0;     ///< without getting anywhere
 constexpr double kStuckM = 0.005, kStuckRad = 0.01;
-constexpr double kPatience = 5.0;     ///< times the time that a waypoint should take
-constexpr double kEdgeSensorM = 0.2;  ///< before and behind the axle, beyond the casters
+constexpr double kPatience = 5.0;  ///< times the time that a waypoint should take
 constexpr double kBackMps = 0.1, kTurningRoomM = 0.03;
 constexpr double kGrazeM = 0.004;     ///< how far tyres and tilt may lower the bumper
 constexpr double kNoDeeperM = 0.001;  ///< counts as no nearer
@@ -199,11 +198,7 @@ bool DriveSession::deeper_at(const PlanarPose& place, double depth_m) {
 }
 
 bool DriveSession::edge_at(const PlanarPose& place) {
-  if (!minds_edges_) return false;
-  const double dx = kEdgeSensorM * std::cos(place.yaw_rad);
-  const double dy = kEdgeSensorM * std::sin(place.yaw_rad);
-  return !clearance_.floor_at({place.x_m + dx, place.y_m + dy, place.yaw_rad}) ||
-         !clearance_.floor_at({place.x_m - dx, place.y_m - dy, place.yaw_rad});
+  return minds_edges_ && clearance_.ends_at(place);
 }
 
 bool DriveSession::lost_patience() {

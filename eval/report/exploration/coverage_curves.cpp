@@ -127,6 +127,7 @@ class CurvesFigure {
     const double end = end_of(groups, row.axis);
     panel.settings = {fmt::format("set xrange [0:{:.6g}]; set yrange [0:1]", end),
                       "set xtics autofreq; set ytics 0.2"};
+    if (!sheet_.style.width_mm) panel.settings.emplace_back("set ylabel offset 0,0");
     std::vector<std::string> bands, lines;
     for (const ExplorationGroup* group : groups) {
       const std::string name = line_name(study_, *group);
@@ -160,11 +161,16 @@ class CurvesFigure {
 
   [[nodiscard]] std::string caption() const {
     const ExplorationGroup& any = *scenes_.begin()->second.front();
+    const std::string starts =
+        any.runs.size() == 1
+            ? "One start"
+            : fmt::format("Mean over {} starts; band: {}", any.runs.size(),
+                          any.coverage.kind == SpreadKind::interval ? "95 % interval"
+                                                                    : "least to greatest");
     return fmt::format(
         "{}: coverage of the visible surface, voxels of {:.6g} cm, and F1 of the detected classes "
-        "against all of it. Mean over {} starts; band: {}. Those that ended keep what they have.",
-        study_.name, 100.0 * study_.voxel_m, any.runs.size(),
-        any.coverage.kind == SpreadKind::interval ? "95 % interval" : "least to greatest");
+        "against all of it. {}. Those that ended keep what they have.",
+        study_.name, 100.0 * study_.voxel_m, starts);
   }
 
   const Study& study_;

@@ -9,11 +9,13 @@
 #include "eval/report/figures/layout.hpp"
 #include "files/csv.hpp"
 #include "files/file_bytes.hpp"
+#include "files/text.hpp"
 #include "files/text_rows.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -32,8 +34,8 @@ std::vector<std::vector<double>> numbers_in(const std::filesystem::path& file,
   while (const auto line = lines.next()) {
     auto numbers = parse_numbers(*line, columns);
     if (!numbers || numbers->size() != columns)
-      throw Error(fmt::format("{}:{}: is no line of {} numbers; explore again", file.string(),
-                              lines.number(), columns));
+      throw Error(fmt::format("{}:{}: is no line of {} numbers; remove {} to explore it anew",
+                              shown(file), lines.number(), columns, shown(file.parent_path())));
     rows.push_back(std::move(*numbers));
   }
   return rows;
@@ -57,9 +59,10 @@ char shade_of(Occupancy value) {
 }
 
 void add_moment(const ShownMoment& moment, const Eigen::AlignedBox2d& box, FigureSheet& sheet) {
-  const double step = moment.floor.frame().resolution_m;
-  const auto cells = [step](double length) { return static_cast<int>(std::ceil(length / step)); };
-  const int width = cells(box.sizes().x()), height = cells(box.sizes().y());
+  const OccupancyGrid& floor = moment.floor;
+  const double step = floor.frame().resolution_m;
+  const GridCell low = floor.cell_of(box.min()), high = floor.cell_of(box.max());
+  const Eigen::Vector2d p_low = floor.centre_of(low);
   Panel panel{fmt::format("{:.1f} m, {:.0f} %", moment.driven_m, 100.0 * moment.coverage), "x (m)",
               "y (m)"};
   panel.settings = {fmt::format("set xrange [{:.4f}:{:.4f}]; set yrange [{:.4f}:{:.4f}]",
@@ -67,6 +70,7 @@ void add_moment(const ShownMoment& moment, const Eigen::AlignedBox2d& box, Figur
                     "set border 15; set tics out; set xtics 2; set ytics 2; unset grid",
                     "set palette maxcolors 3 defined (0 '#464646', 1 '#DEDEDE', 2 '#FFFFFF'); "
                     "set cbrange [-0.5:2.5]; unset colorbox"};
+  if (!sheet.style.width_mm) panel.settings.emplace_back("set ylabel offset 0,0");
   const auto points = [&](const char* what, const std::vector<Eigen::Vector2d>& list) {
     const std::string data = sheet.start_block(what, "x y");
     for (const Eigen::Vector2d& p : list)
@@ -74,15 +78,14 @@ void add_moment(const ShownMoment& moment, const Eigen::AlignedBox2d& box, Figur
     return data;
   };
   const std::string grid = sheet.start_block("grid", "a line a row: 0 occupied, 1 unknown, 2 free");
-  for (int row = 0; row < height; ++row)
-    for (int column = 0; column < width; ++column) {
-      const Eigen::Vector2d p = box.min() + step * Eigen::Vector2d(column + 0.5, row + 0.5);
-      sheet.data += shade_of(moment.floor.at_or_unknown(moment.floor.cell_of(p)));
-      sheet.data += column + 1 < width ? ' ' : '\n';
+  for (GridCell cell = low; cell.row <= high.row; ++cell.row)
+    for (cell.column = low.column; cell.column <= high.column; ++cell.column) {
+      sheet.data += shade_of(floor.at_or_unknown(cell));
+      sheet.data += cell.column < high.column ? ' ' : '\n';
     }
   panel.elements.push_back(
       fmt::format("{} matrix using ({:.4f}+{:.4f}*$1):({:.4f}+{:.4f}*$2):3 with image notitle",
-                  grid, box.min().x() + 0.5 * step, step, box.min().y() + 0.5 * step, step));
+                  grid, p_low.x(), step, p_low.y(), step));
   if (!moment.frontier_map.empty())
     panel.elements.push_back(points("frontiers", moment.frontier_map) +
                              " using 1:2 with points pt 7 ps 0.25 lc rgb '#D55E00' notitle");
@@ -122,12 +125,14 @@ std::vector<ShownMoment> read_moments(const FinishedExploration& run) {
 
 FigureSheet exploration_moments(const FinishedExploration& run, const FigureStyle& style) {
   const std::vector<ShownMoment> moments = read_moments(run);
-  if (moments.empty()) throw Error(run.folder.string() + ": has no moments; explore again");
+  if (moments.empty())
+    throw Error(fmt::format("{}: has no moments; remove {} to explore it anew",
+                            shown(run.folder / kMomentsFile), shown(run.folder)));
   const Eigen::AlignedBox2d box = known_box(moments);
   FigureSheet sheet;
   sheet.name = "exploration_" + run.planned.name;
   sheet.style = style;
-  sheet.columns = 2;
+  sheet.columns = std::min(2, static_cast<int>(moments.size()));
   sheet.to_scale = true;
   sheet.panel_width_in = kMomentPanel_in;
   sheet.panel_height_in = kMomentPanel_in * box.sizes().y() / box.sizes().x();

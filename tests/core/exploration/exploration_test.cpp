@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -98,6 +101,55 @@ TEST(Exploration, WhoStartsWithinFurnitureEndsSoon) {
     EXPECT_LT(views, 300) << kind_of(planner);
     EXPECT_EQ(step.end, ExplorationEnd::nothing_reachable) << kind_of(planner);
   }
+}
+
+// A bare floor of 6 m x 6 m, whose end alone is known: no beam and no image shows any of it.
+TEST(Exploration, LanesAreDrivenInTheOpenToo) {
+  OccupancyGrid grid({0.05, {}, 120, 120});
+  for (std::int32_t n = 0; n < 120; ++n)
+    for (const GridCell cell : {GridCell{n, 0}, {n, 119}, {0, n}, {119, n}})
+      grid.set(cell, kOccupiedCell);
+  const SemanticMap map(0.05, Carving{.carve = true});
+  const auto explorer = make_explorer(LawnMower{}, flat_robot(), 1);
+  ExplorationState state{map, grid, {3.0, 3.0, 0.0}};
+  std::map<int, double> least_m, greatest_m;  // x of the places in each row of a metre
+  int views = 0;
+  ExplorationStep step = explorer->next(state);
+  for (; step.view && views < 500; step = explorer->next(state), ++views) {
+    state.T_map_base = step.view->way.back();
+    const int row = static_cast<int>(std::floor(state.T_map_base.y_m));
+    const double x_m = state.T_map_base.x_m;
+    least_m[row] = least_m.contains(row) ? std::min(least_m[row], x_m) : x_m;
+    greatest_m[row] = std::max(greatest_m[row], x_m);
+  }
+  EXPECT_EQ(step.end, ExplorationEnd::explored);
+  EXPECT_EQ(step.reason, "all lanes that are known are driven");
+  EXPECT_LT(views, 500);
+  EXPECT_EQ(least_m.size(), 6u);  // a lane in each
+  int long_lanes = 0;
+  for (const auto& [row, x_m] : least_m) long_lanes += greatest_m[row] - x_m > 4.5 ? 1 : 0;
+  EXPECT_GE(long_lanes, 5);  // of the first lane it drives what is before it
+}
+
+// Where something bars the way and nothing else is known, lanes go on from where it came from,
+// once.
+TEST(Exploration, TheLawnMowerGoesBackFromWhereItIsBarred) {
+  OccupancyGrid grid({0.05, {}, 120, 120});
+  const SemanticMap map(0.05, Carving{.carve = true});
+  const auto explorer = make_explorer(LawnMower{}, flat_robot(), 1);
+  ExplorationState state{map, grid, {3.0, 3.0, 0.0}};
+  ASSERT_TRUE(explorer->next(state).view);  // the turn
+  ASSERT_TRUE(explorer->next(state).view);
+  state.T_map_base.x_m = 4.0;
+  grid.set(grid.cell_of({4.2, 3.0}), kOccupiedCell);
+  const ExplorationStep step = explorer->next(state);
+  ASSERT_TRUE(step.view);
+  EXPECT_EQ(step.view->way.front(), state.T_map_base);
+  EXPECT_EQ(step.view->way.back(), (PlanarPose{3.0, 3.0, std::numbers::pi}));
+  const ExplorationStep last = explorer->next(state);
+  EXPECT_FALSE(last.view);
+  EXPECT_EQ(last.end, ExplorationEnd::nothing_reachable);
+  EXPECT_EQ(last.reason, "the robot can get no farther than its own radius");
 }
 
 // Noise has closed the door to a room that is seen through it: before it gives up, it goes near and

@@ -96,6 +96,11 @@ TEST_F(Explore, EndsWithAReasonAndRecordsWhatOtherVerbsTake) {
               ::testing::ContainsRegex("\nend: (explored|nothing_reachable|budget)\n"));
   EXPECT_THAT(bytes_of(run / "run.yaml"), HasSubstr("\nbump_contacts: 0\n"));
 
+  const std::string totals = bytes_of(run / "run.yaml");
+  const std::size_t driven = totals.find("driven_m: ") + 10;
+  const std::string driven_m = totals.substr(driven, totals.find('\n', driven) - driven);
+  EXPECT_TRUE(bytes_of(run / "moments.csv").ends_with(',' + driven_m + '\n'));  // the end
+
   const Outcome info = mapscore({"info", run / "recording"});
   expect_done(info);
   EXPECT_THAT(info.out, AllOf(HasSubstr("odometry: "), HasSubstr("scans of 180 beams")));
@@ -151,6 +156,27 @@ TEST_F(Explore, SameBytesForAnyNumberOfJobsAndNothingIsRunTwice) {
   // Of another study it is not taken for this one's.
   expect_refused(explore({"-q", "--set", "exploration.budget_m=2"}, "a"),
                  {"runs", "seed0", "another study"});
+  std::vector<std::string> without = one_job, one_seed = one_job;
+  without.emplace_back("--scores_only");
+  expect_refused(explore(without, "a"), {"with its recording", "leave out --scores_only"});
+  // Tables of some say so.
+  one_seed.insert(one_seed.end(), {"--seed", "0"});
+  const Outcome some = explore(one_seed, "a");
+  EXPECT_EQ(some.exit_code, 0);
+  EXPECT_THAT(some.err, HasSubstr("a/runs holds 1 more exploration, which the tables leave out"));
+  // What is damaged is not scored.
+  const std::string curve = bytes_of(folder() / "a/runs/seed0/curve.csv");
+  write_text(folder() / "a/runs/seed0/curve.csv", curve.substr(0, curve.find('\n', 200) + 1));
+  expect_refused(explore(one_job, "a"), {"seed0/curve.csv", "is not as it was written", "remove"});
+}
+
+TEST_F(Explore, TimeEndsItBeforeAFrameThatIsDueLater) {
+  const Outcome outcome =
+      explore({"-q", "--scores_only", "--set", "trajectory.frames_per_s=0.04", "--set",
+               "exploration.budget_s=30", "--set", "exploration.planner=lawn_mower"});
+  expect_done(outcome);
+  EXPECT_THAT(bytes_of(folder() / "out/runs/seed0/run.yaml"),
+              ::testing::ContainsRegex("\nduration_s: (2[0-9]|30)([.][0-9]*)?\n"));
 }
 
 TEST_F(Explore, ADoorTooNarrowEndsWithAReason) {
@@ -173,6 +199,20 @@ TEST_F(Explore, AStartBesideTheFloor) {
                                {"-q", "--set", "exploration.start_m_deg=[9, 9, 0]"});
 }
 
+TEST_F(Explore, AStartAtTheEdgeOfTheFloor) {
+  write_text(folder() / "rooms.xml",
+             "<mujoco><worldbody><body name='floor_1'><geom type='box' pos='0 0 -.05' size='2 2 "
+             ".05'/></body></worldbody></mujoco>");
+  fs::remove(folder() / "rooms.classes.yaml");
+  expect_refused_without_a_run({"exploration.start_m_deg", "the floor ends", "move the start"},
+                               {"-q", "--set", "exploration.start_m_deg=[1.9, 0, 0]"});
+}
+
+TEST_F(Explore, WithoutARobot) {
+  fs::remove(folder() / "robot.xml");
+  expect_refused_without_a_run({"robot.xml: no such robot file in ", "key robot"}, {"-q"});
+}
+
 TEST_F(Explore, ASceneWithoutAPlaceToStand) {
   write_text(folder() / "rooms.xml",
              "<mujoco><worldbody><body name='crate_1'><geom type='box' size='1 1 .5'/></body>"
@@ -193,6 +233,11 @@ TEST_F(Explore, WhatCannotActIsRefused) {
   expect_refused_without_a_run(
       {"faults.time_offset_ms", "recording"},
       {"-q", "--set", "faults.time_offset_ms=30", "--set", "trajectory.depth_frames_per_s=1"});
+  expect_refused_without_a_run({"faults.time_offset_ms", "recording"},
+                               {"-q", "--set", "faults.time_offset_ms=30"});
+  expect_refused_without_a_run({"trajectory.waypoints_m_deg", "exploration: {planner"},
+                               {"--set", "exploration.planner=none"});
+  expect_refused_without_a_run({"trajectory.drive", "wheels"}, {"--set", "trajectory.drive=poses"});
   expect_refused_without_a_run({"trajectory.waypoints_m_deg", "is empty"},
                                {"--set", "exploration.planner=waypoints"});
   // And other verbs say whose key it is.

@@ -39,6 +39,17 @@ TEST(ExplorationSettings, WhoExploresNeedsNoWaypointsAndDrivesOnWheels) {
   EXPECT_EQ(parse_study(to_yaml(one), "demo.yaml"), one);
 }
 
+TEST(ExplorationSettings, WhoExploresIsNotPutAtPoses) {
+  const std::string planner = "exploration: {planner: random}\n";
+  mapscore::testing::expect_error(
+      "demo.yaml:4: trajectory.drive: is poses, and who explores drives on wheels; write wheels",
+      [&] { (void)study(planner + "trajectory: {drive: poses}\n"); });
+  mapscore::testing::expect_error("flag trajectory.drive=poses",
+                                  [&] { (void)study(planner, {"trajectory.drive=poses"}); });
+  EXPECT_TRUE(std::holds_alternative<WheelDrive>(study(planner).trajectory.drive));
+  EXPECT_NO_THROW((void)study("trajectory: {waypoints_m_deg: [[0, 0, 0]], drive: poses}\n"));
+}
+
 TEST(ExplorationSettings, PlannersAreSwept) {
   const Study swept =
       study("sweep: {exploration.planner: [next_best_view, nearest_frontier]}\nseeds: 3\n");

@@ -109,6 +109,26 @@ TEST(Scenes, TrialsAreThoseOfTheStudyOfTheScene) {
   EXPECT_THROW((void)plan_of(study, "one"), Error);
 }
 
+TEST(Scenes, AFlagThatASceneOverrulesIsRefused) {
+  EXPECT_EQ(scenes_refusal("", {"trajectory.speed_mps=0.3"}), "accepted");
+  EXPECT_EQ(scenes_refusal("  attic:\n    scene: attic.xml\n    exploration: {budget_m: 9}\n"
+                           "    trajectory: {waypoints_m_deg: [[0, 0, 0]], speed_mps: 1}\n"
+                           "  cellar: {scene: cellar.xml, trajectory: "
+                           "{waypoints_m_deg: [[0, 0, 0]], speed_mps: 2}}\n",
+                           {"trajectory.speed_mps=0.3"}),
+            "flag trajectory.speed_mps=0.3: trajectory.speed_mps: attic, cellar set it below "
+            "scenes, which wins; change it there, or set sweep.trajectory.speed_mps=[...] for all "
+            "scenes");
+  const std::string attic =
+      "  attic: {scene: a.xml, trajectory: {waypoints_m_deg: [[0, 0, 0]], speed_mps: 1}}\n";
+  EXPECT_EQ(scenes_refusal(attic, {"speed_mps=0.3", "sweep.scene=[home]"}), "accepted");
+  EXPECT_THAT(scenes_refusal(attic, {"speed_mps=0.3"}), HasSubstr("attic sets it below scenes"));
+  const Study swept = two(attic, {"sweep.trajectory.speed_mps=[0.3]"});
+  for (const Cell& cell : cells(swept)) EXPECT_EQ(resolve(swept, cell).trajectory.speed_mps, 0.3);
+  // A choice that a scene makes anew takes its parameters with it.
+  EXPECT_THAT(scenes_refusal("", {"trajectory.drive=wheels"}), HasSubstr("home sets it"));
+}
+
 TEST(Scenes, WrongOnesAreRefused) {
   EXPECT_THAT(scenes_refusal("scene: other.xml\n"),
               HasSubstr("study.yaml:8: scene: stands beside scenes"));

@@ -224,7 +224,8 @@ TEST(BadStudyFile, WithAnEmptyTrajectory) {
   EXPECT_EQ(refusal("scene: a.xml\ntrajectory:\n  waypoints_m_deg: []\n"
                     "methods: {d: {segmentation: {direct: {}}}}\n"),
             "demo.yaml:3: trajectory.waypoints_m_deg: the trajectory is empty; write at least one "
-            "waypoint, [[x, y, yaw], ...]");
+            "waypoint, [[x, y, yaw], ...], or for mapscore explore who chooses the way, "
+            "exploration: {planner: next_best_view}");
 }
 
 TEST(BadStudyFile, WithoutMethods) {
