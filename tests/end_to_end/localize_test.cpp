@@ -95,5 +95,33 @@ TEST_F(LocalizeRun, SaysWhatASourceLacks) {
   EXPECT_THAT(localize("driven", {"--source", "truth"}).err, Not(HasSubstr("terminate")));
 }
 
+TEST_F(LocalizeRun, RefusesWhatChangesNothing) {
+  const auto refused = [&](std::vector<std::string> flags, const std::string& source,
+                           const std::vector<std::string>& parts) {
+    flags.insert(flags.end(), {"--source", source});
+    expect_refused(localize("driven", flags), parts);
+  };
+  for (const char* key : {"voxel_m=0.1", "faults.pose.sigma_xy_m=0.01", "faults.time_offset_ms=10",
+                          "faults.pose.reported_scale=4", "localization.source=truth"})
+    for (const char* source : {"all", "visual_odometry", "odometry"})
+      refused({"--set", key}, source, {"--set", key, "no effect", "localization."});
+  refused({"--global", "--model", "beam"}, "visual_slam", {"--model", "localization.visual"});
+  refused({"--global"}, "odometry", {"--global", "localization.odometry_noise"});
+  refused({"--set", "temper=0.2"}, "visual_odometry", {"temper=0.2", "faults.depth"});
+  refused({"--set", "localization.visual.loop_way_m=2"}, "visual_odometry", {"loop_way_m"});
+  refused({"--set", "localization.visual.corrected=true"}, "visual_odometry", {"corrected"});
+  refused({"--set", "faults.depth.preset=astra"}, "particle_filter", {"faults.lidar"});
+  EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+}
+
+TEST_F(LocalizeRun, ObeysWhatOneOfTheSourcesObeys) {
+  std::vector<std::string> flags{"--source", "all", "--global", "--model", "beam"};
+  for (const char* key : {"temper=0.2", "localization.visual.loop_way_m=2", "faults.lidar.scale=2",
+                          "faults.mount.magnitude_m=0.01", "most_particles=300",
+                          "least_particles=100", "alpha1=0.01"})
+    flags.insert(flags.end(), {"--set", key});
+  expect_done(localize("driven", flags));
+}
+
 }  // namespace
 }  // namespace mapscore::testing
