@@ -11,11 +11,9 @@
 
 namespace mapscore::eval {
 
-FolderPoses find_poses(const LabelledFolder& folder, bool loops,
+FolderPoses find_poses(const LabelledFolder& folder, VisualOdometryParams params,
                        const std::function<void(int, int)>& progress) {
-  VisualOdometryParams params;
   params.wheeled = false;
-  if (loops) params.loops.emplace();
   VisualOdometry odometry(params, folder.calibration(), Pose::Identity());
   VisualTrajectory visual;
   FolderPoses found;
@@ -37,7 +35,7 @@ FolderPoses find_poses(const LabelledFolder& folder, bool loops,
     throw Error(
         "depth.txt: no depth image has enough depth to find poses by; check --depth_scale and "
         "--range_m, or give groundtruth.txt");
-  if (loops)
+  if (params.loops)
     for (std::size_t n = 0; const CorrectedPose& pose : odometry.corrected())
       found.trajectory[n++].T_world_base = pose.T_map_base;
   return found;

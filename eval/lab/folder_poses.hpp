@@ -23,11 +23,11 @@ struct FolderPoses {
   double sigma_m = 0.0;  ///< largest standard deviation of a position, at its moment, as believed
 };
 
-/// Runs visual odometry, or with loop closure visual SLAM, over all depth images of a folder,
-/// without wheels, as of a camera that may move freely. With loops each pose is that after all of
-/// them. `progress(images done, all)`. Throws Error as LabelledFolder::read_depth, and where no
-/// image has depth enough to begin with.
-[[nodiscard]] FolderPoses find_poses(const LabelledFolder& folder, bool loops,
+/// Runs visual odometry, or where `params` close loops visual SLAM, over all depth images of a
+/// folder, without wheels, as of a camera that may move freely. With loops each pose is that after
+/// all of them. `progress(images done, all)`. Throws Error as LabelledFolder::read_depth, and where
+/// no image has depth enough to begin with.
+[[nodiscard]] FolderPoses find_poses(const LabelledFolder& folder, VisualOdometryParams params,
                                      const std::function<void(int, int)>& progress = {});
 
 }  // namespace mapscore::eval

@@ -135,6 +135,25 @@ TEST_F(MapWithoutPoses, TheMapIsThatOfThePosesThatWereFound) {
   }
 }
 
+TEST_F(MapWithoutPoses, TheStudySaysHowTheyAreFound) {
+  write_text(folder() / "study.yaml",
+             "recording: hand\nmethods: {direct: {segmentation: {direct: {}}}}\n");
+  const auto by = [&](const std::string& poses, const std::string& change) {
+    return map("study.ot", {"--poses", poses, "--study", path("study.yaml"), "--set", change});
+  };
+  expect_done(found());
+  expect_done(by("visual_odometry", "voxel_m=0.05"));
+  EXPECT_EQ(bytes_of(folder() / "study_poses.txt"), bytes_of(folder() / "map_poses.txt"));
+  expect_done(by("visual_odometry", "localization.visual.points_across=40"));
+  EXPECT_NE(bytes_of(folder() / "study_poses.txt"), bytes_of(folder() / "map_poses.txt"));
+  expect_done(by("visual_slam", "localization.visual.loop_way_m=2"));
+  for (const char* change : {"localization.visual.wheels=false", "localization.filter.temper=0.2",
+                             "localization.visual.loop_way_m=2", "localization.source=odometry",
+                             "faults.depth.preset=astra"})
+    expect_refused(by("visual_odometry", change), {change, "no effect", "localization.visual"});
+  expect_refused(by("file", "localization.visual.points_across=40"), {"points_across", "--poses"});
+}
+
 TEST_F(MapWithoutPoses, WithoutTheFlagTheErrorSaysHow) {
   expect_refused(map("map.ot", {}), {"groundtruth.txt", "is missing", "--poses visual_odometry"});
   expect_refused(map("map.ot", {"--poses", "guessed"}), {"--poses"});
