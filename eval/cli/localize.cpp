@@ -158,7 +158,8 @@ void localize(const LocalizeFlags& flags) {
   if (sources.empty())
     throw Error(
         fmt::format("{}: no source has anything to go by; record it with trajectory.drive: "
-                    "{{wheels: {{}}}}, or give a trajectory",
+                    "{{wheels: {{}}}}, give a trajectory, or go by its depth images: --set "
+                    "localization.visual.wheels=false",
                     shown(recording.folder())));
   const fs::path folder = flags.output;
   const FolderLock lock(folder);

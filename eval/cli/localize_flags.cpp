@@ -27,9 +27,10 @@ bool localises(PoseSource source) {
 std::string missing_for(const std::string& source, const Study& study, const Recording& recording) {
   if (source == kTrajectorySource)
     return study.localization.trajectory ? "" : "no --set localization.trajectory=FILE";
-  const bool without_wheels =
-      source.starts_with("visual") && !study.localization.visual.visual.wheels;
-  if (!recording.has_odometry() && !without_wheels) return "no odometry.txt";
+  const bool visual = source.starts_with("visual");
+  if (!recording.has_odometry() && !(visual && !study.localization.visual.visual.wheels))
+    return fmt::format("no odometry.txt{}",
+                       visual ? "; --set localization.visual.wheels=false goes without" : "");
   if (source == kFilterSource && !recording.has_scans()) return "no scan/scans.bin";
   return "";
 }

@@ -3,7 +3,7 @@
 
 #include "eval/lab/folder_poses.hpp"
 
-#include "core/error.hpp"
+#include "eval/localization/visual_run.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,10 +31,8 @@ FolderPoses find_poses(const LabelledFolder& folder, VisualOdometryParams params
   }
   visual.loops = odometry.loops();
   found.tracking = TrackingCounts::of(visual);
-  if (found.tracking.images_blind == found.tracking.images())
-    throw Error(
-        "depth.txt: no depth image has enough depth to find poses by; check --depth_scale and "
-        "--range_m, or give groundtruth.txt");
+  refuse_all_blind(visual.steps, "depth.txt",
+                   "check --depth_scale and --range_m, or give groundtruth.txt");
   if (params.loops)
     for (std::size_t n = 0; const CorrectedPose& pose : odometry.corrected())
       found.trajectory[n++].T_world_base = pose.T_map_base;

@@ -86,9 +86,14 @@ TEST_F(LocalizeRun, TakesATrajectoryWhereThereAreNoLogs) {
 TEST_F(LocalizeRun, SaysWhatASourceLacks) {
   const Outcome none = localize("plain", {"--source", "all"});
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_THAT(none.err, AllOf(HasSubstr("not odometry: no odometry.txt"),
+  EXPECT_THAT(none.err, AllOf(HasSubstr("not odometry: no odometry.txt\n"),
+                              HasSubstr("not visual_slam: no odometry.txt; --set "
+                                        "localization.visual.wheels=false goes without\n"),
                               HasSubstr("no source has anything to go by")));
   EXPECT_EQ(localize("plain", {}).exit_code, 2);
+  expect_refused(localize("plain", {"--source", "visual_slam"}),
+                 {"visual_slam needs odometry.txt", "localization.visual.wheels=false"});
+  expect_done(localize("plain", {"--source", "visual_slam", "--set", "wheels=false"}));
   const Outcome trajectory = localize("driven", {"--source", "trajectory"});
   EXPECT_EQ(trajectory.exit_code, 2);
   EXPECT_THAT(trajectory.err, HasSubstr("localization.trajectory: is missing"));
