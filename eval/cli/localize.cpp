@@ -35,6 +35,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kScoresFile = "localization_scores.csv";
+
 /// The grid that the filter localises on, or that was given to be drawn. Of all sources the filter
 /// is taken out where no grid can be cut for it; `notes` says so.
 std::optional<OccupancyGrid> filter_grid(const LocalizeFlags& flags, const Study& study,
@@ -74,6 +76,36 @@ std::string tracking_csv(const VisualTrajectory& visual) {
   return text;
 }
 
+/// Names of all files that `localize` writes, but for what a figure adds to its name.
+std::vector<std::string> written_names() {
+  std::vector<std::string> names{"localization.txt", "localization.csv", kScoresFile,
+                                 "truth_at_frames.txt"};
+  for (const char* figure : {"errors_over_time", "trajectory_on_grid", "poses_by_source"})
+    for (const char* suffix : {".dat", ".gp", ".png", ".pdf", ".svg"})
+      names.push_back(std::string(figure) + suffix);
+  for (const std::string& source : localizing_sources())
+    for (const char* name : {"localization_{}.txt", "{}_at_frames.txt", "{}_tracking.csv"})
+      names.push_back(fmt::format(fmt::runtime(name), source));
+  return names;
+}
+
+/// Removes what an earlier run left, so that figures and poses of one recording never stand beside
+/// scores of another; what this run is to read stays.
+void remove_earlier(const fs::path& folder, const Study& study) {
+  if (!fs::exists(folder / kScoresFile)) return;
+  std::vector<std::string> names = written_names();
+  if (!study.localization.grid) names.insert(names.end(), {"grid.yaml", "grid.pgm"});
+  int removed = 0;
+  for (const std::string& name : names) {
+    std::error_code none;  // there is no such trajectory, so it is another file
+    const auto& read = study.localization.trajectory;
+    if (read && fs::equivalent(resolve_path(study, *read), folder / name, none)) continue;
+    removed += fs::remove(folder / name) ? 1 : 0;
+  }
+  std::cerr << fmt::format("localize: removed {} files of an earlier run from {}\n", removed,
+                           shown(folder));
+}
+
 /// Of one repetition; says how visual odometry fared.
 BelievedTrajectory believed_by(const Recording& recording, const Task& task,
                                const OccupancyGrid* grid, const fs::path& folder,
@@ -94,7 +126,8 @@ SourceScores localised(const Study& study, const Recording& recording, const Occ
                        const LocalizeFlags& flags, const std::vector<TrajectoryPose>& truth) {
   const fs::path folder = flags.output;
   const std::string name = leaf_text(study, "localization.source");
-  Progress progress("localize", "turns", flags.quiet);
+  Progress progress("localize", is_visual(study.localization.source) ? "depth images" : "turns",
+                    flags.quiet);
   SourceScores scores{name, {}};
   for (int run = 0; run < study.seeds; ++run) {
     Task task;
@@ -129,7 +162,7 @@ std::vector<SourceScores> all_localised(Study study, const Recording& recording,
     scores.push_back(localised(study, recording, grid, flags, truth));
   }
   write_whole_file(folder / "localization.csv", frame_errors_csv(scores));
-  write_whole_file(folder / "localization_scores.csv", scores_csv(scores));
+  write_whole_file(folder / kScoresFile, scores_csv(scores));
   return scores;
 }
 
@@ -164,6 +197,7 @@ void localize(const LocalizeFlags& flags) {
   const fs::path folder = flags.output;
   const FolderLock lock(folder);
   fs::create_directories(folder);
+  remove_earlier(folder, study);
   if (grid) save_grid(*grid, folder / "grid.yaml");
   const std::vector<SourceScores> scores =
       all_localised(study, recording, sources, grid ? &*grid : nullptr, flags);
@@ -182,8 +216,10 @@ void localize(const LocalizeFlags& flags) {
 void add_localize(CLI::App& program) {
   const auto [verb, flags] = add_verb<LocalizeFlags>(
       program, "localize", "Localise the robot anew from a recording's logs", localize);
-  verb->add_option("RECORDING", flags->recording,
-                   "Folder with odometry.txt, and scan/scans.bin for the filter")
+  verb->add_option(
+          "RECORDING", flags->recording,
+          "Folder with odometry.txt for the wheels, depth images for visual odometry and SLAM, "
+          "and scan/scans.bin for the filter")
       ->required();
   verb->add_option("-o,--output", flags->output, "Folder for the results")->required();
   flags->add_to(*verb);
@@ -199,11 +235,14 @@ void add_localize(CLI::App& program) {
       "SOURCE_tracking.csv (how\n"
       "each depth image was placed; counted on standard error). Prints the errors after "
       "convergence, then\n"
-      "ATE, RPE and NEES of all frames (docs/metrics.md).\n"
+      "ATE, RPE and NEES of all frames (docs/metrics.md). What an earlier run left of these files "
+      "is removed.\n"
       "Examples:\n"
       "  mapscore localize results/home/recordings/home-* -o results/home/localized --seeds 10\n"
       "  mapscore localize /data/home -o out --global --grid /data/home/map.yaml\n"
       "  mapscore localize /data/home -o out --source all --seeds 5\n"
+      "  mapscore localize /data/home -o out --source visual_slam "
+      "--set faults.depth.preset=astra\n"
       "  mapscore localize /data/home -o out --source trajectory "
       "--set localization.trajectory=slam.txt\n"
       "  mapscore localize /data/home -o out --set localization.grid_resolution_m=0.05 "

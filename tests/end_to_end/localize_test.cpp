@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -71,6 +72,40 @@ TEST_F(LocalizeRun, ComparesEverySourceOfARecording) {
        {"truth_at_frames.txt", "odometry_at_frames.txt", "particle_filter_at_frames.txt",
         "localization_odometry.txt", "poses_by_source.png", "errors_over_time.png", "grid.yaml"})
     EXPECT_TRUE(std::filesystem::exists(folder() / "out" / file)) << file;
+}
+
+TEST_F(LocalizeRun, CountsWhatItGoesBy) {
+  const auto progress = [&](const std::string& source) {
+    return mapscore({"localize", path("driven"), "-o", path("out"), "--source", source}).err;
+  };
+  EXPECT_THAT(progress("visual_slam"), HasSubstr("localize 4/4 depth images"));
+  EXPECT_THAT(progress("particle_filter"), HasSubstr("localize 4/4 turns"));
+}
+
+TEST_F(LocalizeRun, LeavesNothingOfAnEarlierRunBesideItsScores) {
+  expect_done(localize("driven", {"--source", "all"}));
+  write_text(folder() / "out/notes.txt", "mine");
+  const Outcome again = localize("driven", {"--source", "visual_odometry"});
+  expect_done(again);
+  EXPECT_THAT(again.err, HasSubstr("of an earlier run from "));
+  std::set<std::string> stems;
+  for (const std::string& file : contents_of(folder() / "out"))
+    stems.insert(std::filesystem::path(file).stem().string());
+  EXPECT_THAT(stems,
+              ::testing::ElementsAre("errors_over_time", "localization", "localization_scores",
+                                     "notes", "trajectory_on_grid", "truth_at_frames",
+                                     "visual_odometry_at_frames", "visual_odometry_tracking"));
+}
+
+TEST_F(LocalizeRun, KeepsWhatItReadsOfAnEarlierRun) {
+  expect_done(localize("driven", {"--source", "all"}));
+  const std::string slam = path("out/localization_visual_slam.txt");
+  expect_done(
+      localize("driven", {"--source", "trajectory", "--set", "localization.trajectory=" + slam,
+                          "--grid", path("out/grid.yaml")}));
+  EXPECT_TRUE(std::filesystem::exists(slam));
+  EXPECT_TRUE(std::filesystem::exists(folder() / "out/grid.pgm"));
+  EXPECT_FALSE(std::filesystem::exists(folder() / "out/localization_odometry.txt"));
 }
 
 TEST_F(LocalizeRun, TakesATrajectoryWhereThereAreNoLogs) {
