@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 #include <string>
 
@@ -43,6 +44,13 @@ void check_pose_keys(Study study, const MapVerbFlags& flags) {
 
 FolderPoses found_poses(const MapVerbFlags& flags, const std::optional<Study>& study,
                         LabelledFolder& folder) {
+  if (std::filesystem::exists(std::filesystem::path(flags.folder) / "groundtruth.txt"))
+    std::cerr << fmt::format(
+        "mapscore: note: --poses {} finds the poses in the depth images; those of groundtruth.txt "
+        "are not used\n",
+        flags.poses);
+  if (const std::string odd = odd_stamps(folder.depth_images()); !odd.empty())
+    std::cerr << fmt::format("mapscore: warning: {}\n", odd);
   Progress progress("map", "poses", flags.quiet);
   FolderPoses found = find_poses(folder, visual_of(pose_settings(study, flags)),
                                  [&](int done, int all) { progress.show(done, all); });

@@ -135,6 +135,23 @@ TEST_F(MapWithoutPoses, TheMapIsThatOfThePosesThatWereFound) {
   }
 }
 
+TEST_F(MapWithoutPoses, PosesOfAFileAreSaidNotToBeUsed) {
+  write_text(folder() / "hand/groundtruth.txt", "0 nan 0 0 0 0 0 1\n");
+  const Outcome outcome = found();
+  expect_done(outcome);
+  EXPECT_EQ(outcome.err,
+            "mapscore: note: --poses visual_odometry finds the poses in the depth images; those of "
+            "groundtruth.txt are not used\n");
+}
+
+TEST_F(MapWithoutPoses, StampsThatAreNoSecondsAreSaid) {
+  list([](int n) { return n < 15 ? 0.1 * n : 0.1 * n + 1e6; });
+  EXPECT_THAT(found().err, HasSubstr("warning: depth.txt: 1000001.5 s comes 1e+06 s after"));
+  list([](int n) { return 1e-6 * n; });  // written with six decimals
+  EXPECT_THAT(found().err, AllOf(HasSubstr("warning: depth.txt: from 0 s on images come 1e-06 s"),
+                                 HasSubstr("stamps are seconds")));
+}
+
 TEST_F(MapWithoutPoses, TheStudySaysHowTheyAreFound) {
   write_text(folder() / "study.yaml",
              "recording: hand\nmethods: {direct: {segmentation: {direct: {}}}}\n");
