@@ -4,7 +4,7 @@
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
 #include "eval/cli/localization_table.hpp"
-#include "eval/cli/shared/figure_flags.hpp"
+#include "eval/cli/localize_flags.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/pose_sources.hpp"
@@ -20,7 +20,6 @@
 #include "files/text.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -36,100 +35,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kAll = "all", *kOdometry = "odometry", *kFilter = "particle_filter",
-                     *kTrajectory = "trajectory";
+constexpr const char* kScoresFile = "localization_scores.csv";
 
-struct LocalizeFlags {
-  std::string recording, output, source = "particle_filter", model = "likelihood_field";
-  std::optional<std::string> grid;
-  bool global_start = false;
-  int seeds = 1;
-  std::uint64_t seed = 1;
-  std::vector<std::string> overrides;
-  bool quiet = false;
-  FigureFlags style;
-};
-
-/// A study of nothing but the localisation, with a lidar as one buys it.
-Study study_of(const LocalizeFlags& flags) {
-  Study study;
-  study.name =
-      shown((fs::absolute(flags.recording) / "").lexically_normal().parent_path().filename());
-  study.recording = flags.recording;
-  study.methods = {{"direct", Direct{}}};  // a study has one; nothing is mapped here
-  study.seed = flags.seed;
-  study.seeds = flags.seeds;
-  if (flags.source != kAll) set_leaf(study, "localization.source", flags.source);
-  set_leaf(study, "localization.filter.scan_model", flags.model);
-  set_leaf(study, "faults.lidar.preset", "rplidar_a2");
-  if (flags.global_start) set_leaf(study, "localization.filter.start", "global");
-  study.localization.grid = flags.grid;
-  set_leaves(study, flags.overrides);
-  check(study);
-  return study;
-}
-
-/// Sources that move a robot through a recording by its logs or a file; the others move the truth.
-bool localises(PoseSource source) {
-  return source != PoseSource::gaussian && source != PoseSource::truth;
-}
-
-std::vector<std::string> source_names() {
-  std::vector<std::string> names;
-  constexpr auto kNames = names_of(PoseSource{});
-  for (std::size_t n = 0; n < kNames.size(); ++n)
-    if (localises(static_cast<PoseSource>(n))) names.emplace_back(kNames[n]);
-  return names;
-}
-
-/// Why a recording, or what was given with it, has nothing for a source; empty where it has.
-std::string missing_for(const std::string& source, const Study& study, const Recording& recording) {
-  if (source == kTrajectory)
-    return study.localization.trajectory ? "" : "no --set localization.trajectory=FILE";
-  const bool without_wheels =
-      source.starts_with("visual") && !study.localization.visual.visual.wheels;
-  if (!recording.has_odometry() && !without_wheels) return "no odometry.txt";
-  if (source == kFilter && !recording.has_scans()) return "no scan/scans.bin";
-  return "";
-}
-
-std::string left_out(const std::string& source, const std::string& why) {
-  return fmt::format("localize: not {}: {}\n", source, why);
-}
-
-/// The source of the flags, or all that the recording has something for.
-std::vector<std::string> chosen_sources(const LocalizeFlags& flags, const Study& study,
-                                        const Recording& recording) {
-  if (flags.source != kAll) return {flags.source};
-  std::vector<std::string> sources;
-  for (const std::string& source : source_names()) {
-    const std::string missing = missing_for(source, study, recording);
-    if (missing.empty())
-      sources.push_back(source);
-    else
-      std::cerr << left_out(source, missing);
-  }
-  if (sources.empty())
-    throw Error(
-        fmt::format("{}: no source has anything to go by; record it with trajectory.drive: "
-                    "{{wheels: {{}}}}, or give a trajectory",
-                    shown(recording.folder())));
-  return sources;
-}
-
-/// The grid that the filter localises on, or that was given. Of all sources the filter is taken out
-/// where no grid can be cut for it.
+/// The grid that the filter localises on, or that was given to be drawn. Of all sources the filter
+/// is taken out where no grid can be cut for it; `notes` says so.
 std::optional<OccupancyGrid> filter_grid(const LocalizeFlags& flags, const Study& study,
                                          const Recording& recording,
-                                         std::vector<std::string>& sources) {
-  const bool filter = std::ranges::find(sources, kFilter) != sources.end();
-  if (!filter && !study.localization.grid) return {};
+                                         std::vector<std::string>& sources, std::string& notes) {
+  const bool filter = std::ranges::find(sources, kFilterSource) != sources.end();
+  if (!filter && !(study.localization.grid && recording.has_scans())) return {};
   try {
     return grid_of(recording, study);
   } catch (const Error& error) {
-    if (flags.source != kAll || study.localization.grid) throw;
-    std::cerr << left_out(kFilter, error.what());
-    std::erase(sources, kFilter);
+    if (flags.source != kAllSources || study.localization.grid) throw;
+    notes += left_out(kFilterSource, error.what());
+    std::erase(sources, kFilterSource);
     return {};
   }
 }
@@ -156,6 +76,36 @@ std::string tracking_csv(const VisualTrajectory& visual) {
   return text;
 }
 
+/// Names of all files that `localize` writes, but for what a figure adds to its name.
+std::vector<std::string> written_names() {
+  std::vector<std::string> names{"localization.txt", "localization.csv", kScoresFile,
+                                 "truth_at_frames.txt"};
+  for (const char* figure : {"errors_over_time", "trajectory_on_grid", "poses_by_source"})
+    for (const char* suffix : {".dat", ".gp", ".png", ".pdf", ".svg"})
+      names.push_back(std::string(figure) + suffix);
+  for (const std::string& source : localizing_sources())
+    for (const char* name : {"localization_{}.txt", "{}_at_frames.txt", "{}_tracking.csv"})
+      names.push_back(fmt::format(fmt::runtime(name), source));
+  return names;
+}
+
+/// Removes what an earlier run left, so that figures and poses of one recording never stand beside
+/// scores of another; what this run is to read stays.
+void remove_earlier(const fs::path& folder, const Study& study) {
+  if (!fs::exists(folder / kScoresFile)) return;
+  std::vector<std::string> names = written_names();
+  if (!study.localization.grid) names.insert(names.end(), {"grid.yaml", "grid.pgm"});
+  int removed = 0;
+  for (const std::string& name : names) {
+    std::error_code none;  // there is no such trajectory, so it is another file
+    const auto& read = study.localization.trajectory;
+    if (read && fs::equivalent(resolve_path(study, *read), folder / name, none)) continue;
+    removed += fs::remove(folder / name) ? 1 : 0;
+  }
+  std::cerr << fmt::format("localize: removed {} files of an earlier run from {}\n", removed,
+                           shown(folder));
+}
+
 /// Of one repetition; says how visual odometry fared.
 BelievedTrajectory believed_by(const Recording& recording, const Task& task,
                                const OccupancyGrid* grid, const fs::path& folder,
@@ -176,7 +126,8 @@ SourceScores localised(const Study& study, const Recording& recording, const Occ
                        const LocalizeFlags& flags, const std::vector<TrajectoryPose>& truth) {
   const fs::path folder = flags.output;
   const std::string name = leaf_text(study, "localization.source");
-  Progress progress("localize", "turns", flags.quiet);
+  Progress progress("localize", is_visual(study.localization.source) ? "depth images" : "turns",
+                    flags.quiet);
   SourceScores scores{name, {}};
   for (int run = 0; run < study.seeds; ++run) {
     Task task;
@@ -187,9 +138,10 @@ SourceScores localised(const Study& study, const Recording& recording, const Occ
           progress.show(std::int64_t{run} * total + done, std::int64_t{study.seeds} * total);
         });
     if (run == 0) {
-      write_whole_file(folder / (flags.source == kAll ? fmt::format("localization_{}.txt", name)
-                                                      : "localization.txt"),
-                       believed_text(believed));
+      write_whole_file(
+          folder / (flags.source == kAllSources ? fmt::format("localization_{}.txt", name)
+                                                : "localization.txt"),
+          believed_text(believed));
       write_whole_file(folder / (name + "_at_frames.txt"), frame_poses_text(believed, truth));
     }
     scores.seeds.push_back(score_localization(believed, truth));
@@ -210,8 +162,16 @@ std::vector<SourceScores> all_localised(Study study, const Recording& recording,
     scores.push_back(localised(study, recording, grid, flags, truth));
   }
   write_whole_file(folder / "localization.csv", frame_errors_csv(scores));
-  write_whole_file(folder / "localization_scores.csv", scores_csv(scores));
+  write_whole_file(folder / kScoresFile, scores_csv(scores));
   return scores;
+}
+
+/// The wheels stand beside any other source.
+std::vector<std::string> drawn_sources(const LocalizeFlags& flags, const Recording& recording,
+                                       std::vector<std::string> sources) {
+  if (flags.source != kAllSources && flags.source != kOdometrySource && recording.has_odometry())
+    sources.emplace_back(kOdometrySource);
+  return sources;
 }
 
 void list_files(const std::vector<fs::path>& files) {
@@ -222,61 +182,47 @@ void localize(const LocalizeFlags& flags) {
   const FigureStyle style = flags.style.style();
   const Recording recording = Recording::open(flags.recording);
   Study study = study_of(flags);
-  std::vector<std::string> sources = chosen_sources(flags, study, recording);
-  const std::optional<OccupancyGrid> grid = filter_grid(flags, study, recording, sources);
+  std::string notes;
+  std::vector<std::string> sources = chosen_sources(flags, study, recording, notes);
+  const std::optional<OccupancyGrid> grid = filter_grid(flags, study, recording, sources, notes);
+  const std::vector<std::string> drawn = drawn_sources(flags, recording, sources);
+  if (!sources.empty()) refuse_without_effect(flags, study, recording, drawn);
+  std::cerr << notes;
+  if (sources.empty())
+    throw Error(
+        fmt::format("{}: no source has anything to go by; record it with trajectory.drive: "
+                    "{{wheels: {{}}}}, give a trajectory, or go by its depth images: --set "
+                    "localization.visual.wheels=false",
+                    shown(recording.folder())));
   const fs::path folder = flags.output;
   const FolderLock lock(folder);
   fs::create_directories(folder);
+  remove_earlier(folder, study);
   if (grid) save_grid(*grid, folder / "grid.yaml");
   const std::vector<SourceScores> scores =
       all_localised(study, recording, sources, grid ? &*grid : nullptr, flags);
   const StudySummary summary = pose_summary(study, scores);
-  if (flags.source != kAll && flags.source != kOdometry && recording.has_odometry())
-    sources.emplace_back(kOdometry);  // drawn beside it
-  study.sweep = {{"localization.source", sources}};
+  study.sweep = {{"localization.source", drawn}};
   const Pictures pictures = draw_believed(study, recording, {}, folder, style);
   list_files(pictures.files);
   if (!pictures.skipped.empty())
     std::cerr << fmt::format("localize: no trajectory_on_grid: {}\n", shown(pictures.skipped));
-  if (flags.source == kAll) list_files(draw(pose_figure(summary, style).value(), folder));
+  if (flags.source == kAllSources) list_files(draw(pose_figure(summary, style).value(), folder));
   std::cout << converged_rows(scores) << '\n' << to_text(trajectory_scores_table(summary));
 }
 
 }  // namespace
 
 void add_localize(CLI::App& program) {
-  std::vector<std::string> sources = source_names();
-  sources.emplace_back(kAll);
   const auto [verb, flags] = add_verb<LocalizeFlags>(
       program, "localize", "Localise the robot anew from a recording's logs", localize);
-  verb->add_option("RECORDING", flags->recording,
-                   "Folder with odometry.txt, and scan/scans.bin for the filter")
+  verb->add_option(
+          "RECORDING", flags->recording,
+          "Folder with odometry.txt for the wheels, depth images for visual odometry and SLAM, "
+          "and scan/scans.bin for the filter")
       ->required();
   verb->add_option("-o,--output", flags->output, "Folder for the results")->required();
-  verb->add_option("--source", flags->source,
-                   fmt::format("One of {}; all: each that the recording has something for, side by "
-                               "side",
-                               fmt::join(sources, ", ")))
-      ->check(CLI::IsMember(sources))
-      ->capture_default_str();
-  verb->add_option("--model", flags->model, "Of a scan: likelihood_field or beam")
-      ->check(CLI::IsMember({"likelihood_field", "beam"}))
-      ->capture_default_str();
-  verb->add_flag("--global", flags->global_start, "Start anywhere, not near the true start");
-  verb->add_option("--grid", flags->grid,
-                   "YAML of a ROS map_server grid in the scene's world; default: cut from the "
-                   "truth at the lidar's height");
-  verb->add_option("--seeds", flags->seeds,
-                   "Repetitions, each with noise and draws of its own: those of a study")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  verb->add_option("--seed", flags->seed, "Of all draws, as a study's `seed`")
-      ->capture_default_str();
-  verb->add_option("--set", flags->overrides,
-                   "A key localization.* or faults.lidar.* of a study; may be repeated")
-      ->allow_extra_args(false);
-  verb->add_flag("-q,--quiet", flags->quiet, "No progress");
-  flags->style.add_to(*verb);
+  flags->add_to(*verb);
   verb->footer(
       "Writes grid.yaml and .pgm of the filter; of the first seed localization.txt, the poses at "
       "the "
@@ -289,11 +235,14 @@ void add_localize(CLI::App& program) {
       "SOURCE_tracking.csv (how\n"
       "each depth image was placed; counted on standard error). Prints the errors after "
       "convergence, then\n"
-      "ATE, RPE and NEES of all frames (docs/metrics.md).\n"
+      "ATE, RPE and NEES of all frames (docs/metrics.md). What an earlier run left of these files "
+      "is removed.\n"
       "Examples:\n"
       "  mapscore localize results/home/recordings/home-* -o results/home/localized --seeds 10\n"
       "  mapscore localize /data/home -o out --global --grid /data/home/map.yaml\n"
       "  mapscore localize /data/home -o out --source all --seeds 5\n"
+      "  mapscore localize /data/home -o out --source visual_slam "
+      "--set faults.depth.preset=astra\n"
       "  mapscore localize /data/home -o out --source trajectory "
       "--set localization.trajectory=slam.txt\n"
       "  mapscore localize /data/home -o out --set localization.grid_resolution_m=0.05 "

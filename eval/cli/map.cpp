@@ -4,11 +4,11 @@
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
 #include "eval/cli/map_flags.hpp"
+#include "eval/cli/map_poses.hpp"
 #include "eval/cli/shared/options.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/folder_mapping.hpp"
-#include "eval/lab/folder_poses.hpp"
 #include "eval/lab/map_frame.hpp"
 #include "eval/map_files/clouds/cloud_file.hpp"
 #include "eval/recording/frame_selection.hpp"
@@ -38,7 +38,11 @@ const MethodSettings& method_of(const Study& study, const std::string& name) {
 
 /// The study that the flags name, if they do.
 std::optional<Study> study_of(const MapVerbFlags& flags) {
-  if (!flags.study.empty()) return load_study(flags.study, flags.overrides);
+  if (!flags.study.empty()) {
+    Study study = load_study(flags.study, flags.overrides);
+    check_pose_keys(study, flags);
+    return study;
+  }
   if (!flags.method.empty())
     throw Error("--method: names a method of a study; give --study, or --segmentation");
   if (!flags.overrides.empty())
@@ -117,20 +121,6 @@ std::filesystem::path poses_file(const MapVerbFlags& flags) {
   return map.parent_path() / (map.stem().string() + "_poses.txt");
 }
 
-/// Finds the poses of a folder in its depth images, and warns where they are guessed.
-FolderPoses found_poses(const MapVerbFlags& flags, LabelledFolder& folder) {
-  Progress progress("map", "poses", flags.quiet);
-  FolderPoses found = find_poses(folder, flags.poses == kVisualSlam,
-                                 [&](int done, int all) { progress.show(done, all); });
-  folder.place(found.trajectory);
-  if (found.tracking.untracked() > 0)
-    std::cerr << fmt::format(
-        "mapscore: warning: of {} depth images the pose is a guess, the first at {} s; what was "
-        "mapped from there on may lie beside the rest\n",
-        found.tracking.untracked(), found.first_untracked_s.value_or(0.0));
-  return found;
-}
-
 /// A map and what is told of it.
 struct Mapped {
   SemanticMap map;
@@ -204,7 +194,7 @@ Mapped mapped_folder(const MapVerbFlags& flags, const FramesDone& shown_done) {
   MappedCounts counts;
   std::string poses, poses_text;
   if (!reading.poses) {
-    const FolderPoses found = found_poses(flags, folder);
+    const FolderPoses found = found_poses(flags, study, folder);
     poses_text = fmt::format("{}: {}; positions believed to {:.2g} m and better\n", flags.poses,
                              found.tracking.text(), found.sigma_m);
     poses = trajectory_text(found.trajectory);

@@ -62,8 +62,8 @@ void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags) {
   };
   add("--study", flags.study,
       "Takes voxel size, detected classes, segmentation, place, fusion, occupancy, frames and "
-      "refinement "
-      "of this study, no faults; a frame is drawn once, at its pose");
+      "refinement of this study, with --poses visual_... its localization.visual, no faults; a "
+      "frame is drawn once, at its pose");
   add("--set", flags.overrides, "A key of the study, path=value; may be repeated")
       ->allow_extra_args(false);
   add("--method", flags.method, "Name of its method [the first]");

@@ -3,19 +3,20 @@
 
 #include "eval/lab/folder_poses.hpp"
 
-#include "core/error.hpp"
+#include "eval/localization/visual_run.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace mapscore::eval {
 
-FolderPoses find_poses(const LabelledFolder& folder, bool loops,
+FolderPoses find_poses(const LabelledFolder& folder, VisualOdometryParams params,
                        const std::function<void(int, int)>& progress) {
-  VisualOdometryParams params;
   params.wheeled = false;
-  if (loops) params.loops.emplace();
   VisualOdometry odometry(params, folder.calibration(), Pose::Identity());
   VisualTrajectory visual;
   FolderPoses found;
@@ -33,14 +34,32 @@ FolderPoses find_poses(const LabelledFolder& folder, bool loops,
   }
   visual.loops = odometry.loops();
   found.tracking = TrackingCounts::of(visual);
-  if (found.tracking.images_blind == found.tracking.images())
-    throw Error(
-        "depth.txt: no depth image has enough depth to find poses by; check --depth_scale and "
-        "--range_m, or give groundtruth.txt");
-  if (loops)
+  refuse_all_blind(visual.steps, "depth.txt",
+                   "check --depth_scale and --range_m, or give groundtruth.txt");
+  if (params.loops)
     for (std::size_t n = 0; const CorrectedPose& pose : odometry.corrected())
       found.trajectory[n++].T_world_base = pose.T_map_base;
   return found;
+}
+
+std::string odd_stamps(std::span<const StampedImage> images) {
+  std::vector<double> gaps_s;
+  for (std::size_t n = 1; n < images.size(); ++n) {
+    gaps_s.push_back(images[n].stamp_s - images[n - 1].stamp_s);
+    if (gaps_s.back() > kLongestGap_s)
+      return fmt::format(
+          "depth.txt: {} s comes {:.6g} s after the image before; stamps are seconds, and over "
+          "such a gap a pose is little more than a guess",
+          images[n].stamp_s, gaps_s.back());
+  }
+  if (gaps_s.empty()) return "";
+  const auto middle = gaps_s.begin() + static_cast<std::ptrdiff_t>(gaps_s.size() / 2);
+  std::ranges::nth_element(gaps_s, middle);
+  if (*middle >= kShortestGap_s) return "";
+  return fmt::format(
+      "depth.txt: from {} s on images come {:.3g} s apart; stamps are seconds, and in so short a "
+      "time no camera is expected to move",
+      images.front().stamp_s, *middle);
 }
 
 }  // namespace mapscore::eval

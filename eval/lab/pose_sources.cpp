@@ -36,9 +36,10 @@ void check_logs(const Recording& recording, PoseSource source) {
   if (recording.has_odometry() && (recording.has_scans() || !needs_scans)) return;
   throw Error(fmt::format(
       "localization.source: {} needs odometry.txt{}, which {} does not hold; record it with "
-      "trajectory.drive: {{wheels: {{}}}}",
+      "trajectory.drive: {{wheels: {{}}}}{}",
       names_of(source)[static_cast<std::size_t>(source)], needs_scans ? " and scan/scans.bin" : "",
-      recording.folder().string()));
+      recording.folder().string(),
+      is_visual(source) ? ", or go without: localization.visual.wheels=false" : ""));
 }
 
 /// True pose at the first line of the odometry.
@@ -183,7 +184,7 @@ TrialPoses PoseSources::believed_at(const Task& task, const std::vector<int>& de
 } catch (const Error& error) {
   const LocalizationSettings& settings = task.config.localization;
   if (settings.source != PoseSource::trajectory) throw;
-  throw Error(fmt::format("localization.trajectory: {}: {}", *settings.trajectory, error.what()));
+  throw Error(fmt::format("localization.trajectory: {}", error.what()));
 }
 
 std::shared_ptr<const OccupancyGrid> PoseSources::grid(const Task& task) {

@@ -42,20 +42,21 @@ PoseBelief BelievedTrajectory::at(double stamp_s) const {
   const auto after = std::ranges::upper_bound(entries, stamp_s, {}, &StampedBelief::stamp_s);
   const PoseBelief& latest =
       after == entries.begin() ? entries.front().belief : std::prev(after)->belief;
-  return {latest.T_map_odom, odometry_at(odometry, stamp_s), latest.covariance};
+  return {latest.T_map_odom, odometry_at(odometry, stamp_s, file), latest.covariance};
 }
 
-Pose odometry_at(const std::vector<OdometryPose>& odometry, double stamp_s) {
-  if (odometry.empty()) throw Error("odometry: has no pose; record the drive again");
+Pose odometry_at(const std::vector<OdometryPose>& odometry, double stamp_s,
+                 const std::string& file) {
+  if (odometry.empty()) throw Error(file + ": has no pose; record the drive again");
   const std::size_t count = odometry.size();
   const OdometryPose &first = odometry.front(), &last = odometry.back();
   const double spacing_first_s = count > 1 ? odometry[1].stamp_s - first.stamp_s : 0.0;
   const double spacing_last_s = count > 1 ? last.stamp_s - odometry[count - 2].stamp_s : 0.0;
   if (!(stamp_s >= first.stamp_s - spacing_first_s && stamp_s <= last.stamp_s + spacing_last_s))
     throw Error(
-        fmt::format("trajectory: reaches from {} to {} s, not to the stamp {} s; give poses for "
+        fmt::format("{}: reaches from {} to {} s, not to the stamp {} s; give poses for "
                     "the whole drive, with stamps of the same clock",
-                    first.stamp_s, last.stamp_s, stamp_s));
+                    file, first.stamp_s, last.stamp_s, stamp_s));
   const auto after = first_from(odometry, stamp_s);
   if (after == odometry.end()) return last.T_odom_base;
   if (after == odometry.begin() || after->stamp_s == stamp_s) return after->T_odom_base;
@@ -86,6 +87,7 @@ std::string believed_text(const BelievedTrajectory& believed) {
 
 BelievedTrajectory read_believed(const std::filesystem::path& file) {
   BelievedTrajectory believed;
+  believed.file = file.string();
   const LineFormat format{
       {kPoseColumns, kBelievedColumns},
       "'stamp_s tx ty tz qx qy qz qw', alone or with the 36 numbers of a covariance",

@@ -24,6 +24,7 @@ struct StampedBelief {
 struct BelievedTrajectory {
   std::vector<StampedBelief> entries;  ///< by stamp, at least one
   std::vector<OdometryPose> odometry;  ///< by stamp, at least one
+  std::string file = "odometry.txt";   ///< where the odometry is from
 
   /// What the robot knew at a stamp, as ROS tf answers: T_odom_base between two lines of the
   /// odometry, T_map_odom and covariance of the latest entry not after the stamp (of the first one
@@ -33,8 +34,9 @@ struct BelievedTrajectory {
 
 /// T_odom_base at a stamp, between two lines interpolated (position linearly, attitude along the
 /// great circle). A stamp beyond either end by no more than the spacing of the lines there gets the
-/// pose of that end. Throws Error beyond, and when there is no line.
-[[nodiscard]] Pose odometry_at(const std::vector<OdometryPose>& odometry, double stamp_s);
+/// pose of that end. Throws Error, beginning with the file, beyond, and when there is no line.
+[[nodiscard]] Pose odometry_at(const std::vector<OdometryPose>& odometry, double stamp_s,
+                               const std::string& file = "odometry.txt");
 
 /// T_map_base and its covariance, x y yaw.
 [[nodiscard]] PoseEstimate planar_estimate(const PoseBelief& belief);

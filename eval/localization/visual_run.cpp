@@ -3,9 +3,13 @@
 
 #include "eval/localization/visual_run.hpp"
 
+#include "core/error.hpp"
 #include "core/frame.hpp"
 #include "sim/faults/depth_noise.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace mapscore::eval {
@@ -15,6 +19,7 @@ namespace {
 void append(BelievedTrajectory& believed, double stamp_s, const Pose& T_map_base,
             const Covariance6& covariance, const std::vector<OdometryPose>& odometry) {
   if (odometry.empty()) {
+    believed.file = "depth.txt";
     believed.odometry.push_back({stamp_s, T_map_base});
     believed.entries.push_back({stamp_s, {Pose::Identity(), T_map_base, covariance}});
     return;
@@ -30,6 +35,14 @@ std::array<int, names_of(Tracking{}).size()> VisualTrajectory::frames_by_trackin
   std::array<int, names_of(Tracking{}).size()> frames{};
   for (const OdometryStep& step : steps) ++frames[static_cast<std::size_t>(step.tracking)];
   return frames;
+}
+
+void refuse_all_blind(std::span<const OdometryStep> steps, const std::string& file,
+                      const std::string& mend) {
+  const auto is_blind = [](const OdometryStep& step) { return step.tracking == Tracking::blind; };
+  if (std::ranges::all_of(steps, is_blind))
+    throw Error(
+        fmt::format("{}: no depth image has enough depth to find poses by; {}", file, mend));
 }
 
 VisualTrajectory run_visual(const Recording& recording, const VisualRun& run,
@@ -50,6 +63,9 @@ VisualTrajectory run_visual(const Recording& recording, const VisualRun& run,
     result.steps.push_back(visual.add(frame));
     if (progress) progress(n + 1, recording.depth_count());
   }
+  refuse_all_blind(result.steps, (recording.folder() / "depth.txt").string(),
+                   "check faults.depth and the camera's range, or take another "
+                   "localization.source");
   const std::vector<CorrectedPose> corrected = visual.corrected();
   for (std::size_t n = 0; n < result.steps.size(); ++n) {
     const OdometryStep& step = result.steps[n];

@@ -12,6 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace mapscore::eval {
@@ -51,9 +53,15 @@ struct VisualTrajectory {
   [[nodiscard]] std::array<int, names_of(Tracking{}).size()> frames_by_tracking() const;
 };
 
+/// Throws Error, beginning with the file that lists the images and ending with how to mend it,
+/// where none of them has depth enough to find a pose by: all that is believed would be made up.
+void refuse_all_blind(std::span<const OdometryStep> steps, const std::string& file,
+                      const std::string& mend);
+
 /// Runs visual odometry or SLAM over all depth images of a recording from `T_map_base_start`, the
 /// pose at the first one. `progress(images done, all)`. Throws Error as Recording and
-/// VisualOdometry do, and where the wheels are asked for and the recording has no odometry.
+/// VisualOdometry do, where the wheels are asked for and the recording has no odometry, and where
+/// no image has depth (refuse_all_blind).
 [[nodiscard]] VisualTrajectory run_visual(const Recording& recording, const VisualRun& run,
                                           const Pose& T_map_base_start,
                                           const std::function<void(int, int)>& progress = {});

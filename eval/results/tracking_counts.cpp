@@ -41,6 +41,15 @@ std::int64_t TrackingCounts::untracked() const {
   return sum;
 }
 
+std::vector<std::string> TrackingCounts::untracked_names() const {
+  std::vector<std::string> names;
+  const auto fields = counts();
+  for (std::size_t n = 0; n < kTrackingWords; ++n)
+    if (is_untracked(static_cast<Tracking>(n)) && this->*fields[n].member > 0)
+      names.emplace_back(fields[n].name);
+  return names;
+}
+
 std::string TrackingCounts::text() const {
   std::string text;
   const auto fields = counts();

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace mapscore::eval {
 
@@ -52,6 +53,8 @@ struct TrackingCounts {
   [[nodiscard]] std::int64_t images() const;
   /// Those that are (is_untracked).
   [[nodiscard]] std::int64_t untracked() const;
+  /// Names of the counts of such images that are not 0: images_blind, images_lost.
+  [[nodiscard]] std::vector<std::string> untracked_names() const;
   /// Those that are there: `1 started, 2433 tracked, 2 slipped of 2436 depth images; 4 loops
   /// closed`.
   [[nodiscard]] std::string text() const;

@@ -6,6 +6,7 @@
 #include "eval/study/study.hpp"
 #include "eval/truth/floor_grid.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -42,6 +43,11 @@ VisualOdometrySettings resolved_visual(const LocalizationSettings& settings) {
   else
     visual.visual.corrected = false;
   return visual;
+}
+
+/// A leaf itself, or below a section.
+bool is_below(std::string_view path, std::string_view key) {
+  return path.starts_with(key) && (path.size() == key.size() || path[key.size()] == '.');
 }
 
 }  // namespace
@@ -109,6 +115,40 @@ void resolve_localization(LocalizationSettings& localization, FaultSettings& fau
     localization.grid = content;
   else
     localization.grid_resolution_m = grid_resolution_m(given);
+}
+
+std::vector<std::string> keys_of_poses(const LocalizationSettings& settings) {
+  const std::string noise = "localization.odometry_noise";
+  switch (settings.source) {
+    case PoseSource::gaussian:
+      return {"faults.pose"};
+    case PoseSource::truth:
+      return {};
+    case PoseSource::odometry:
+      return {noise};
+    case PoseSource::particle_filter:
+      return {"localization.filter", "localization.grid", "localization.grid_resolution_m", noise,
+              "faults.lidar"};
+    case PoseSource::trajectory:
+      return {"localization.trajectory"};
+    case PoseSource::visual_odometry:
+    case PoseSource::visual_slam:
+      break;
+  }
+  std::vector<std::string> keys{"localization.visual", "faults.depth", "faults.mount"};
+  if (settings.visual.visual.wheels) keys.push_back(noise);
+  return keys;
+}
+
+bool decides_poses(const Study& study, std::string_view path) {
+  const auto holds = [&](const std::string& key) { return is_below(path, key); };
+  Study resolved = study;
+  resolve_localization(resolved.localization, resolved.faults, "content");
+  const bool is_used = leaf_text(resolved, path) != "-";  // throws where there is no such leaf
+  if (std::ranges::none_of(keys_of_poses(study.localization), holds)) return false;
+  if (path == "localization.visual.corrected")
+    return study.localization.source == PoseSource::visual_slam;
+  return is_used || !path.starts_with("localization.");
 }
 
 }  // namespace mapscore::eval

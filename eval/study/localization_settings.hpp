@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mapscore::eval {
 
@@ -137,11 +138,20 @@ struct LocalizationSettings {
 [[nodiscard]] Dosed<sim::LidarNoise> canonical_lidar(const Dosed<sim::LidarNoise>& settings);
 
 struct FaultSettings;
+struct Study;
 
 /// Canonical settings of the poses of a study, equal exactly where the poses are: every default
 /// that the source uses is written out, and nothing that it does not use. `content`: hash of what
 /// the file holds that the source reads.
 void resolve_localization(LocalizationSettings& localization, FaultSettings& faults,
                           const std::string& content);
+
+/// What decides the poses of a source along a whole recording: sections and leaves of a study, by
+/// dotted path. Beside them do the recording and the seed.
+[[nodiscard]] std::vector<std::string> keys_of_poses(const LocalizationSettings& settings);
+
+/// Whether the leaf at a dotted path decides the poses of a study's source, as the study stands: a
+/// key of the loops does not where none are closed. Throws Error where there is no such leaf.
+[[nodiscard]] bool decides_poses(const Study& study, std::string_view path);
 
 }  // namespace mapscore::eval

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -73,6 +74,40 @@ TEST_F(LocalizeRun, ComparesEverySourceOfARecording) {
     EXPECT_TRUE(std::filesystem::exists(folder() / "out" / file)) << file;
 }
 
+TEST_F(LocalizeRun, CountsWhatItGoesBy) {
+  const auto progress = [&](const std::string& source) {
+    return mapscore({"localize", path("driven"), "-o", path("out"), "--source", source}).err;
+  };
+  EXPECT_THAT(progress("visual_slam"), HasSubstr("localize 4/4 depth images"));
+  EXPECT_THAT(progress("particle_filter"), HasSubstr("localize 4/4 turns"));
+}
+
+TEST_F(LocalizeRun, LeavesNothingOfAnEarlierRunBesideItsScores) {
+  expect_done(localize("driven", {"--source", "all"}));
+  write_text(folder() / "out/notes.txt", "mine");
+  const Outcome again = localize("driven", {"--source", "visual_odometry"});
+  expect_done(again);
+  EXPECT_THAT(again.err, HasSubstr("of an earlier run from "));
+  std::set<std::string> stems;
+  for (const std::string& file : contents_of(folder() / "out"))
+    stems.insert(std::filesystem::path(file).stem().string());
+  EXPECT_THAT(stems,
+              ::testing::ElementsAre("errors_over_time", "localization", "localization_scores",
+                                     "notes", "trajectory_on_grid", "truth_at_frames",
+                                     "visual_odometry_at_frames", "visual_odometry_tracking"));
+}
+
+TEST_F(LocalizeRun, KeepsWhatItReadsOfAnEarlierRun) {
+  expect_done(localize("driven", {"--source", "all"}));
+  const std::string slam = path("out/localization_visual_slam.txt");
+  expect_done(
+      localize("driven", {"--source", "trajectory", "--set", "localization.trajectory=" + slam,
+                          "--grid", path("out/grid.yaml")}));
+  EXPECT_TRUE(std::filesystem::exists(slam));
+  EXPECT_TRUE(std::filesystem::exists(folder() / "out/grid.pgm"));
+  EXPECT_FALSE(std::filesystem::exists(folder() / "out/localization_odometry.txt"));
+}
+
 TEST_F(LocalizeRun, TakesATrajectoryWhereThereAreNoLogs) {
   std::filesystem::copy(folder() / "plain/groundtruth.txt", folder() / "slam.txt");
   const Outcome outcome = localize(
@@ -86,13 +121,46 @@ TEST_F(LocalizeRun, TakesATrajectoryWhereThereAreNoLogs) {
 TEST_F(LocalizeRun, SaysWhatASourceLacks) {
   const Outcome none = localize("plain", {"--source", "all"});
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_THAT(none.err, AllOf(HasSubstr("not odometry: no odometry.txt"),
+  EXPECT_THAT(none.err, AllOf(HasSubstr("not odometry: no odometry.txt\n"),
+                              HasSubstr("not visual_slam: no odometry.txt; --set "
+                                        "localization.visual.wheels=false goes without\n"),
                               HasSubstr("no source has anything to go by")));
   EXPECT_EQ(localize("plain", {}).exit_code, 2);
+  expect_refused(localize("plain", {"--source", "visual_slam"}),
+                 {"visual_slam needs odometry.txt", "localization.visual.wheels=false"});
+  expect_done(localize("plain", {"--source", "visual_slam", "--set", "wheels=false"}));
   const Outcome trajectory = localize("driven", {"--source", "trajectory"});
   EXPECT_EQ(trajectory.exit_code, 2);
   EXPECT_THAT(trajectory.err, HasSubstr("localization.trajectory: is missing"));
   EXPECT_THAT(localize("driven", {"--source", "truth"}).err, Not(HasSubstr("terminate")));
+}
+
+TEST_F(LocalizeRun, RefusesWhatChangesNothing) {
+  const auto refused = [&](std::vector<std::string> flags, const std::string& source,
+                           const std::vector<std::string>& parts) {
+    flags.insert(flags.end(), {"--source", source});
+    expect_refused(localize("driven", flags), parts);
+  };
+  for (const char* key : {"voxel_m=0.1", "faults.pose.sigma_xy_m=0.01", "faults.time_offset_ms=10",
+                          "faults.pose.reported_scale=4", "localization.source=truth"})
+    for (const char* source : {"all", "visual_odometry", "odometry"})
+      refused({"--set", key}, source, {"--set", key, "no effect", "localization."});
+  refused({"--global", "--model", "beam"}, "visual_slam", {"--model", "localization.visual"});
+  refused({"--global"}, "odometry", {"--global", "localization.odometry_noise"});
+  refused({"--set", "temper=0.2"}, "visual_odometry", {"temper=0.2", "faults.depth"});
+  refused({"--set", "localization.visual.loop_way_m=2"}, "visual_odometry", {"loop_way_m"});
+  refused({"--set", "localization.visual.corrected=true"}, "visual_odometry", {"corrected"});
+  refused({"--set", "faults.depth.preset=astra"}, "particle_filter", {"faults.lidar"});
+  EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+}
+
+TEST_F(LocalizeRun, ObeysWhatOneOfTheSourcesObeys) {
+  std::vector<std::string> flags{"--source", "all", "--global", "--model", "beam"};
+  for (const char* key : {"temper=0.2", "localization.visual.loop_way_m=2", "faults.lidar.scale=2",
+                          "faults.mount.magnitude_m=0.01", "most_particles=300",
+                          "least_particles=100", "alpha1=0.01"})
+    flags.insert(flags.end(), {"--set", key});
+  expect_done(localize("driven", flags));
 }
 
 }  // namespace

@@ -135,6 +135,42 @@ TEST_F(MapWithoutPoses, TheMapIsThatOfThePosesThatWereFound) {
   }
 }
 
+TEST_F(MapWithoutPoses, PosesOfAFileAreSaidNotToBeUsed) {
+  write_text(folder() / "hand/groundtruth.txt", "0 nan 0 0 0 0 0 1\n");
+  const Outcome outcome = found();
+  expect_done(outcome);
+  EXPECT_EQ(outcome.err,
+            "mapscore: note: --poses visual_odometry finds the poses in the depth images; those of "
+            "groundtruth.txt are not used\n");
+}
+
+TEST_F(MapWithoutPoses, StampsThatAreNoSecondsAreSaid) {
+  list([](int n) { return n < 15 ? 0.1 * n : 0.1 * n + 1e6; });
+  EXPECT_THAT(found().err, HasSubstr("warning: depth.txt: 1000001.5 s comes 1e+06 s after"));
+  list([](int n) { return 1e-6 * n; });  // written with six decimals
+  EXPECT_THAT(found().err, AllOf(HasSubstr("warning: depth.txt: from 0 s on images come 1e-06 s"),
+                                 HasSubstr("stamps are seconds")));
+}
+
+TEST_F(MapWithoutPoses, TheStudySaysHowTheyAreFound) {
+  write_text(folder() / "study.yaml",
+             "recording: hand\nmethods: {direct: {segmentation: {direct: {}}}}\n");
+  const auto by = [&](const std::string& poses, const std::string& change) {
+    return map("study.ot", {"--poses", poses, "--study", path("study.yaml"), "--set", change});
+  };
+  expect_done(found());
+  expect_done(by("visual_odometry", "voxel_m=0.05"));
+  EXPECT_EQ(bytes_of(folder() / "study_poses.txt"), bytes_of(folder() / "map_poses.txt"));
+  expect_done(by("visual_odometry", "localization.visual.points_across=40"));
+  EXPECT_NE(bytes_of(folder() / "study_poses.txt"), bytes_of(folder() / "map_poses.txt"));
+  expect_done(by("visual_slam", "localization.visual.loop_way_m=2"));
+  for (const char* change : {"localization.visual.wheels=false", "localization.filter.temper=0.2",
+                             "localization.visual.loop_way_m=2", "localization.source=odometry",
+                             "faults.depth.preset=astra"})
+    expect_refused(by("visual_odometry", change), {change, "no effect", "localization.visual"});
+  expect_refused(by("file", "localization.visual.points_across=40"), {"points_across", "--poses"});
+}
+
 TEST_F(MapWithoutPoses, WithoutTheFlagTheErrorSaysHow) {
   expect_refused(map("map.ot", {}), {"groundtruth.txt", "is missing", "--poses visual_odometry"});
   expect_refused(map("map.ot", {"--poses", "guessed"}), {"--poses"});

@@ -25,7 +25,8 @@ using ::testing::HasSubstr;
 class OdometryInput : public ::testing::Test {
  protected:
   /// The driven recording after a change of its frames, with the odometry of what is left.
-  void record(const std::function<void(std::vector<Frame>&)>& change) const {
+  void record(const std::function<void(std::vector<Frame>&)>& change,
+              double wheels_late_s = 0.0) const {
     std::vector<Frame> frames = tiny_frames();
     change(frames);
     eval::RecordingInfo info = tiny_info();
@@ -33,14 +34,20 @@ class OdometryInput : public ::testing::Test {
     eval::RecordingWriter writer(folder() / "driven", info);
     for (const Frame& frame : frames) write_frame(writer, frame);
     writer.write_shapes(eval::testing::driven_home());
-    writer.write_odometry(eval::testing::driven_odometry(frames));
+    std::vector<eval::OdometryPose> odometry = eval::testing::driven_odometry(frames);
+    for (eval::OdometryPose& line : odometry) line.stamp_s += wheels_late_s;
+    writer.write_odometry(odometry);
     writer.finish();
     write_text(folder() / "study.yaml",
                "recording: driven\nmethods: {direct: {segmentation: {direct: {}}}}\n"
                "localization: {source: visual_odometry}\n");
   }
-  [[nodiscard]] Outcome localize(const std::string& source) const {
-    return mapscore({"localize", path("driven"), "-o", path("out"), "-q", "--source", source});
+  [[nodiscard]] Outcome localize(const std::string& source,
+                                 const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words{"localize", path("driven"), "-o",  path("out"),
+                                   "-q",       "--source",     source};
+    words.insert(words.end(), more.begin(), more.end());
+    return mapscore(words);
   }
   [[nodiscard]] Outcome run() const {
     return mapscore({"run", path("study.yaml"), "-o", path("results"), "-q"});
@@ -67,14 +74,20 @@ TEST_F(OdometryInput, OneFrameIsAtItsStart) {
   EXPECT_THAT(mapped.out, HasSubstr("# poses: 1 started of 1 depth images"));
 }
 
-TEST_F(OdometryInput, WithoutDepthTheWheelsCarryAndItIsSaid) {
+TEST_F(OdometryInput, WithoutAnyDepthThereAreNoPoses) {
   record([](std::vector<Frame>& frames) {
     for (Frame& frame : frames) frame.depth.setTo(0);
   });
-  const Outcome outcome = localize("visual_odometry");
-  expect_done(outcome);
-  EXPECT_THAT(outcome.err, HasSubstr("4 blind of 4 depth images"));
-  EXPECT_THAT(bytes_of(folder() / "out/visual_odometry_tracking.csv"), HasSubstr(",blind,0,0,"));
+  for (const char* source : {"visual_odometry", "visual_slam"})
+    expect_refused(localize(source), {"depth.txt", "no depth image has enough depth"});
+  expect_refused(run(), {"depth.txt", "no depth image has enough depth"});
+}
+
+TEST_F(OdometryInput, NorWhereTheStudysCameraSeesNone) {
+  record([](std::vector<Frame>&) {});
+  expect_refused(localize("visual_odometry", {"--set", "faults.depth.range=1", "--set",
+                                              "faults.depth.range_max_m=0.61"}),
+                 {"depth.txt", "no depth image has enough depth", "faults.depth"});
 }
 
 TEST_F(OdometryInput, ADarkFrameInATrialIsSaidByRunAndInTheTidyTable) {
@@ -115,11 +128,15 @@ TEST_F(OdometryInput, OdometryThatEndsBeforeTheImagesIsOneLine) {
   const std::string log = bytes_of(folder() / "driven/odometry.txt");
   const std::size_t third = log.rfind('\n', log.rfind('\n', log.size() - 2) - 1);
   write_text(folder() / "driven/odometry.txt", log.substr(0, third + 1));
-  const std::string info = bytes_of(folder() / "driven/recording.yaml");
   std::filesystem::remove(folder() / "driven/hashes.txt");
-  const Outcome outcome = localize("visual_odometry");
-  EXPECT_EQ(outcome.exit_code, 2) << info << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("odometry"));
+  expect_refused(localize("visual_odometry"), {"odometry.txt", "2 lines"});
+}
+
+TEST_F(OdometryInput, OdometryThatStartsAfterTheImagesIsOneLine) {
+  const std::vector<Frame> frames = tiny_frames();
+  record([](std::vector<Frame>&) {}, 2.5 * (frames[1].stamp_s - frames[0].stamp_s));
+  for (const char* source : {"odometry", "visual_odometry"})
+    expect_refused(localize(source), {"odometry.txt: reaches from", "not to the stamp"});
 }
 
 }  // namespace

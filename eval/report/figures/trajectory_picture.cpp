@@ -20,6 +20,7 @@ namespace {
 constexpr double kThinnestM =
     1e-3;  ///< axis of a drawn ellipse; gnuplot takes 0 for its own default
 constexpr double kLongestSide_in = 6.2, kHighest_in = 7.5, kMargin_m = 0.25;
+constexpr double kThinnest_lw = 1.4, kStep_lw = 0.6;
 constexpr double kTurned_rad = 1e-9;  ///< a grid turned by less lies along the map's axes
 constexpr const char* kTruthColour = "#999999";
 /// Occupied, neither, unknown, free.
@@ -98,6 +99,13 @@ class TrajectoryFigure {
     return trajectory == 1 ? "1" : "(7,3)";
   }
 
+  /// The later a line is drawn, the thinner it is: where lines run as one, each still shows.
+  [[nodiscard]] double width(std::size_t trajectory) const {
+    const auto above = static_cast<double>(trajectories_.size() - 1 - trajectory);
+    return trajectory == 0 ? kThinnest_lw + kStep_lw * std::max(4.0, above)
+                           : kThinnest_lw + kStep_lw * above;
+  }
+
   /// Everything that must be in the picture, in the map.
   [[nodiscard]] Eigen::AlignedBox2d drawn() const {
     Eigen::AlignedBox2d box;
@@ -158,8 +166,8 @@ class TrajectoryFigure {
       const std::string of = sheet_.start_block(trajectories_[t].name, "x y");
       for (const Eigen::Vector2d& p : trajectories_[t].points_map) write(p);
       const std::string style =
-          t == 0 ? fmt::format("lines lw 3.4 lc rgb '{}'", colour(t))
-                 : fmt::format("lines lw 1.5 dt {} lc rgb '{}'", dash(t), colour(t));
+          t == 0 ? fmt::format("lines lw {:.1f} lc rgb '{}'", width(t), colour(t))
+                 : fmt::format("lines lw {:.1f} dt {} lc rgb '{}'", width(t), dash(t), colour(t));
       plot(of, style, trajectories_[t].name);
     }
   }

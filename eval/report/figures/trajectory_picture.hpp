@@ -42,11 +42,12 @@ struct PlanarEllipse {
 
 /// Trajectories on a grid: free white, occupied dark, unknown light grey; metres of the map on both
 /// axes at one scale; the first trajectory, as a rule the truth, is a broad line below the others
-/// and has its start and end marked. Cropped to the known cells and what is drawn. The grid is
-/// shown on a lattice along the map's axes: its own, or, where it is turned, one of half its cells.
-/// A block of the data file is the grid (a matrix), then trajectories (`x y`), ellipses (`x y
-/// first_axis_m second_axis_m angle_deg`), waypoints, start and end. Throws Error where there is
-/// nothing to draw, or a point or covariance is not finite.
+/// and has its start and end marked; each of the others is thinner than those before, from the
+/// second on dashed, so that lines that run as one all show. Cropped to the known cells and what is
+/// drawn. The grid is shown on a lattice along the map's axes: its own, or, where it is turned, one
+/// of half its cells. A block of the data file is the grid (a matrix), then trajectories (`x y`),
+/// ellipses (`x y first_axis_m second_axis_m angle_deg`), waypoints, start and end. Throws Error
+/// where there is nothing to draw, or a point or covariance is not finite.
 [[nodiscard]] FigureSheet trajectory_figure(const OccupancyGrid& grid,
                                             std::span<const DrawnTrajectory> trajectories,
                                             const TrajectoryNotes& notes,

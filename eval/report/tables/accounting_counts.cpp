@@ -4,6 +4,7 @@
 #include "eval/report/tables/accounting_counts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdint>
 
@@ -59,20 +60,20 @@ Estimate accounting_estimate(const ResultLine& line, std::string_view name) {
 }
 
 std::string tracking_note(const StudySummary& summary) {
-  std::int64_t images = 0, guessed = 0, trials = 0, with_guesses = 0;
+  std::int64_t trials = 0, with_guesses = 0;
+  TrackingCounts all;
   for (const ResultLine& line : summary.trials)
     for (const Accounting& accounting : accountings_of(line)) {
       if (!accounting.tracking) continue;
       ++trials;
-      images += accounting.tracking->images();
-      guessed += accounting.tracking->untracked();
+      all += *accounting.tracking;
       with_guesses += accounting.tracking->untracked() > 0 ? 1 : 0;
     }
-  if (guessed == 0) return "";
+  if (all.untracked() == 0) return "";
   return fmt::format(
       "the pose of {} of {} depth images is a guess (unsure, blind, lost or restarted), in {} of "
-      "the {} trials whose poses come from them; --metric images_lost shows where",
-      guessed, images, with_guesses, trials);
+      "the {} trials whose poses come from them; --metric {} shows where",
+      all.untracked(), all.images(), with_guesses, trials, fmt::join(all.untracked_names(), ","));
 }
 
 }  // namespace mapscore::eval

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "eval/localization/localization_run.hpp"
 #include "files/file_bytes.hpp"
+#include "tests/support/expect_error.hpp"
 #include "tests/support/mutations.hpp"
 
 #include <gmock/gmock.h>
@@ -48,6 +49,8 @@ TEST(BelievedTrajectory, ReachesOneSpacingBeyondItsEnds) {
   EXPECT_THROW((void)believed.at(2.5001), Error);
   EXPECT_THROW((void)believed.at(NAN), Error);
   EXPECT_THROW((void)odometry_at({}, 0.0), Error);
+  mapscore::testing::expect_error("odometry.txt: reaches from 1 to 2 s",
+                                  [&] { (void)believed.at(0.4); });
 }
 
 TEST(OdometryRun, KeepsItsStartAndGrowsUncertain) {

@@ -5,6 +5,7 @@
 
 #include "eval/results/store.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace mapscore::eval {
@@ -25,6 +26,14 @@ TEST(TrackingCounts, EveryImageIsCountedOnceUnderItsVerdict) {
   EXPECT_EQ(counts, (TrackingCounts{1, 1, 1, 1, 1, 1, 2, 1, 1, 3}));
   EXPECT_EQ(counts.images(), 10);
   EXPECT_EQ(counts.untracked(), 5) << "unsure, blind, two lost, restarted";
+}
+
+TEST(TrackingCounts, GuessesAreNamedThatAreThere) {
+  EXPECT_THAT(
+      TrackingCounts::of(one_of_each()).untracked_names(),
+      ::testing::ElementsAre("images_unsure", "images_blind", "images_lost", "images_restarted"));
+  EXPECT_THAT((TrackingCounts{.images_tracked = 40, .images_blind = 2}.untracked_names()),
+              ::testing::ElementsAre("images_blind"));
 }
 
 TEST(TrackingCounts, TextNamesWhatIsThere) {

@@ -131,6 +131,21 @@ TEST(TrajectoryFigure, WritesEllipsesInDegreesAndWaypoints) {
   EXPECT_THAT(sheet.caption, HasSubstr("Ellipses: 2 sigma"));
 }
 
+TEST(TrajectoryFigure, LinesThatRunAsOneAllShow) {
+  std::vector<DrawnTrajectory> same(5, along_the_row());
+  for (std::size_t n = 1; n < same.size(); ++n) same[n].name = "source " + std::to_string(n);
+  const FigureSheet sheet = trajectory_figure(small_grid(), same, {});
+  double below = 100.0;
+  for (std::size_t n = 0; n < same.size(); ++n) {
+    const std::string& line = sheet.legend[n].plotting;
+    const double width = std::stod(line.substr(line.find("lw ") + 3));
+    EXPECT_LT(width, below - 0.3) << line;
+    EXPECT_EQ(line.find("dt (") != std::string::npos, n > 1) << line << ": gaps show what is below";
+    below = width;
+  }
+  EXPECT_GT(below, 1.0);
+}
+
 TEST(TrajectoryFigure, RefusesWhatCannotBeDrawn) {
   const OccupancyGrid nothing({0.5, {}, 4, 3});
   EXPECT_THROW((void)trajectory_figure(nothing, {}, {}), Error);

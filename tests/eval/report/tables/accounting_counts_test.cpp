@@ -56,7 +56,14 @@ TEST(AccountingFigures, GuessedPosesAreNotedBelowATable) {
   EXPECT_EQ(tracking_note(summary_of(2)), "");
   EXPECT_THAT(tracking_note(tracked_summary()),
               HasSubstr("the pose of 2 of 100 depth images is a guess (unsure, blind, lost or "
-                        "restarted), in 1 of the 2 trials"));
+                        "restarted), in 1 of the 2 trials whose poses come from them; --metric "
+                        "images_lost shows where"));
+  StudySummary dark = tracked_summary();
+  TrackingCounts& tracking = *dark.trials.front().results[0].accounting.tracking;
+  tracking.images_unsure = 1;
+  tracking.images_blind = 3;
+  dark.trials.front().results[1].accounting.tracking->images_lost = 0;
+  EXPECT_THAT(tracking_note(dark), HasSubstr("--metric images_unsure,images_blind shows where"));
   EXPECT_THAT(pivot_table(tracked_summary(), {.metrics = {"f1"}}, Reader::terminal).caption,
               Contains(HasSubstr("note: the pose of 2 of 100")));
 }

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/cli/map_poses.hpp"
+
+#include "core/error.hpp"
+#include "eval/cli/shared/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+namespace mapscore::eval {
+namespace {
+
+/// How poses are found in depth images: as a study says, if there is one.
+LocalizationSettings pose_settings(const std::optional<Study>& study, const MapVerbFlags& flags) {
+  LocalizationSettings settings = study ? study->localization : LocalizationSettings{};
+  settings.source =
+      flags.poses == kVisualSlam ? PoseSource::visual_slam : PoseSource::visual_odometry;
+  settings.visual.visual = {.wheels = false, .corrected = true};
+  return settings;
+}
+
+}  // namespace
+
+void check_pose_keys(Study study, const MapVerbFlags& flags) {
+  study.localization = pose_settings(study, flags);
+  for (const std::string& change : flags.overrides) {
+    const std::string path = whole_path(study, change.substr(0, change.find('=')));
+    const bool of_poses = path.starts_with("localization."),
+               own_words = path.ends_with("wheels") || path.ends_with("corrected");
+    if (!of_poses && !path.starts_with("faults.")) continue;
+    if (of_poses && !own_words && flags.poses != kPosesOfFile && decides_poses(study, path))
+      continue;
+    throw Error(fmt::format(
+        "--set {}: has no effect, `map` adds no faults and has no wheels; leave it out (of the "
+        "poses count, with --poses visual_odometry or visual_slam, keys of localization.visual)",
+        change));
+  }
+}
+
+FolderPoses found_poses(const MapVerbFlags& flags, const std::optional<Study>& study,
+                        LabelledFolder& folder) {
+  if (std::filesystem::exists(std::filesystem::path(flags.folder) / "groundtruth.txt"))
+    std::cerr << fmt::format(
+        "mapscore: note: --poses {} finds the poses in the depth images; those of groundtruth.txt "
+        "are not used\n",
+        flags.poses);
+  if (const std::string odd = odd_stamps(folder.depth_images()); !odd.empty())
+    std::cerr << fmt::format("mapscore: warning: {}\n", odd);
+  Progress progress("map", "poses", flags.quiet);
+  FolderPoses found = find_poses(folder, visual_of(pose_settings(study, flags)),
+                                 [&](int done, int all) { progress.show(done, all); });
+  folder.place(found.trajectory);
+  if (found.tracking.untracked() > 0)
+    std::cerr << fmt::format(
+        "mapscore: warning: of {} depth images the pose is a guess, the first at {} s; what was "
+        "mapped from there on may lie beside the rest\n",
+        found.tracking.untracked(), found.first_untracked_s.value_or(0.0));
+  return found;
+}
+
+}  // namespace mapscore::eval
