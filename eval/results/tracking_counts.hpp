@@ -14,10 +14,12 @@
 
 namespace mapscore::eval {
 
-/// Whether no depth image vouches for such a pose.
+/// Whether no depth image vouches for such a pose, or one alone, which may show a place that looks
+/// the same.
 [[nodiscard]] constexpr bool is_untracked(Tracking tracking) {
   return tracking == Tracking::unsure || tracking == Tracking::blind ||
-         tracking == Tracking::lost || tracking == Tracking::restarted;
+         tracking == Tracking::lost || tracking == Tracking::restarted ||
+         tracking == Tracking::relocated;
 }
 
 /// How the poses of a recording's depth images came about (Tracking), each image once, and how many

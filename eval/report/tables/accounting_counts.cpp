@@ -71,8 +71,8 @@ std::string tracking_note(const StudySummary& summary) {
     }
   if (all.untracked() == 0) return "";
   return fmt::format(
-      "the pose of {} of {} depth images is a guess (unsure, blind, lost or restarted), in {} of "
-      "the {} trials whose poses come from them; --metric {} shows where",
+      "the pose of {} of {} depth images is a guess (unsure, blind, lost, restarted or "
+      "relocated), in {} of the {} trials whose poses come from them; --metric {} shows where",
       all.untracked(), all.images(), with_guesses, trials, fmt::join(all.untracked_names(), ","));
 }
 

@@ -25,13 +25,13 @@ TEST(TrackingCounts, EveryImageIsCountedOnceUnderItsVerdict) {
   const TrackingCounts counts = TrackingCounts::of(one_of_each());
   EXPECT_EQ(counts, (TrackingCounts{1, 1, 1, 1, 1, 1, 2, 1, 1, 3}));
   EXPECT_EQ(counts.images(), 10);
-  EXPECT_EQ(counts.untracked(), 5) << "unsure, blind, two lost, restarted";
+  EXPECT_EQ(counts.untracked(), 6) << "unsure, blind, two lost, restarted, relocated";
 }
 
 TEST(TrackingCounts, GuessesAreNamedThatAreThere) {
-  EXPECT_THAT(
-      TrackingCounts::of(one_of_each()).untracked_names(),
-      ::testing::ElementsAre("images_unsure", "images_blind", "images_lost", "images_restarted"));
+  EXPECT_THAT(TrackingCounts::of(one_of_each()).untracked_names(),
+              ::testing::ElementsAre("images_unsure", "images_blind", "images_lost",
+                                     "images_restarted", "images_relocated"));
   EXPECT_THAT((TrackingCounts{.images_tracked = 40, .images_blind = 2}.untracked_names()),
               ::testing::ElementsAre("images_blind"));
 }

@@ -54,10 +54,12 @@ TEST(AccountingFigures, StandInTablesBesideOtherFigures) {
 
 TEST(AccountingFigures, GuessedPosesAreNotedBelowATable) {
   EXPECT_EQ(tracking_note(summary_of(2)), "");
-  EXPECT_THAT(tracking_note(tracked_summary()),
-              HasSubstr("the pose of 2 of 100 depth images is a guess (unsure, blind, lost or "
-                        "restarted), in 1 of the 2 trials whose poses come from them; --metric "
-                        "images_lost shows where"));
+  EXPECT_THAT(
+      tracking_note(tracked_summary()),
+      HasSubstr(
+          "the pose of 2 of 100 depth images is a guess (unsure, blind, lost, "
+          "restarted or relocated), in 1 of the 2 trials whose poses come from them; --metric "
+          "images_lost shows where"));
   StudySummary dark = tracked_summary();
   TrackingCounts& tracking = *dark.trials.front().results[0].accounting.tracking;
   tracking.images_unsure = 1;
