@@ -5,19 +5,18 @@
 
 #include "core/error.hpp"
 #include "core/odometry/motion_prior.hpp"
+#include "core/odometry/odometry_numbers.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace mapscore {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-/// Key frames whose planes the local map keeps, and of how many near ones it is made anew.
-constexpr std::size_t kHorizon = 60, kRebuilt = 60;
+using namespace odometry_numbers;
+
 /// A scan after less than both since the last one that counted is matched, but leaves the filter as
 /// it is: from nearly the same place it holds the same errors of the map, which would count twice.
 constexpr double kMatchWay = 0.05, kMatchTurn = 5.0 * kDegree;
@@ -29,10 +28,9 @@ constexpr double kLeastSupport = 0.3, kLittle = 0.3;
 /// A scan that moves the prior by more than this (squared, over its covariance) contradicts it, and
 /// the factor that the prior's covariance grows by then.
 constexpr double kContradiction = 50.0, kDistrust = 100.0;
-/// A scan that contradicts the prior, or is to end a loss, is believed where it has this share of
-/// the support of the last one that was; one that does not contradict it, with this much more of it
-/// than by the prior.
-constexpr double kStillSeen = 0.75, kSlipGain = 0.15;
+/// A scan that does not contradict the prior is believed elsewhere where it has this much more
+/// support than by the prior.
+constexpr double kSlipGain = 0.15;
 /// Below this share of what should be seen other turns are tried, in steps of kSlipTurn: on a rug's
 /// edge a base twists by degrees that its wheels do not feel.
 constexpr double kDoubtful = 0.75, kSlipTurn = 1.5 * kDegree;
@@ -48,19 +46,10 @@ double taken_over(double new_share) {
   return std::max(kLeast, std::pow(new_share, 5));
 }
 
-/// Of a key frame's place against the map it is put into.
-Covariance6 key_frame_floor() {
-  return sigmas6(0.0003, 0.0003, 0.01 * kDegree, 0.01 * kDegree);
-}
 /// Of a pose in the map, however often it is matched: the map's own errors are the same each time.
 Covariance6 map_bias() {
   return sigmas6(0.002, 0.002, 0.05 * kDegree, 0.04 * kDegree);
 }
-/// How far a robot that is lost may be from where it believes to be.
-Covariance6 lost_jump() {
-  return sigmas6(0.5, 0.05, 2.0 * kDegree, 30.0 * kDegree);
-}
-
 /// Whether the encoders say what no wheels can do.
 bool wheels_jump(const OdometryFrame& before, const OdometryFrame& after) {
   if (!before.T_odom_base || !after.T_odom_base) return false;
@@ -113,12 +102,6 @@ ScanMatch VisualOdometry::searched(const DepthScan& scan, const PosePrior& loose
     if (match.support() > best.support()) best = match;
   }
   return best;
-}
-
-bool VisualOdometry::sees_through_key(const cv::Mat1w& depth, const KeyFrame& key,
-                                      const Pose& T_map_base) const {
-  return sees_through(depth, key.scan, key.T_map_base, believed_,
-                      T_map_base.inverse() * key.T_map_base);
 }
 
 Tracking VisualOdometry::track(const DepthScan& scan, const OdometryFrame& frame,
@@ -175,17 +158,7 @@ OdometryStep VisualOdometry::place(const OdometryFrame& frame) {
   OdometryStep step{.stamp_s = frame.stamp_s};
   DepthScan scan = scan_of(frame.depth, believed_, params_.sampling);
   if (keys_.empty()) {
-    if (last_) {
-      const PosePrior prior = expect(frame).prior;
-      state_.T_map_base = prior.mean;
-      state_.relative = prior.covariance;
-    }
-    if (scan.size() < kLeastPoints) {
-      step.tracking = Tracking::blind;
-    } else {
-      state_.drift = std::exchange(state_.relative, Covariance6::Zero());
-      keep(std::move(scan), frame, step);
-    }
+    begin(std::move(scan), frame, step);
   } else {
     const Expected expected = expect(frame);
     const State before = state_;
@@ -200,15 +173,7 @@ OdometryStep VisualOdometry::place(const OdometryFrame& frame) {
     way_m_ += (T_map_last.inverse() * state_.T_map_base).translation().norm();
     T_before_last_base_ = T_map_last.inverse() * state_.T_map_base;
     last_step_s_ = frame.stamp_s - last_->stamp_s;
-    const bool lost = step.tracking == Tracking::lost;
-    if (lost && ++lost_for_ == 1) state_.relative += jump_when_lost();
-    if (lost && relocate(scan, frame)) {
-      step.tracking = Tracking::relocated;
-      step.key_frame = step.closed_loop = true;
-    } else if (lost && lost_for_ > kMostLost) {
-      local_map_ = LocalMap(params_.map, kHorizon);
-      step.tracking = Tracking::restarted;
-    }
+    if (step.tracking == Tracking::lost) recover(scan, frame, step);
     if (step.tracking != Tracking::lost && step.tracking != Tracking::blind) lost_for_ = 0;
     const bool places = step.tracking == Tracking::tracked || step.tracking == Tracking::slipped ||
                         step.tracking == Tracking::beside;
@@ -219,6 +184,32 @@ OdometryStep VisualOdometry::place(const OdometryFrame& frame) {
   }
   last_ = {frame.stamp_s, {}, frame.T_odom_base};
   return placed(step, state_);
+}
+
+void VisualOdometry::begin(DepthScan scan, const OdometryFrame& frame, OdometryStep& step) {
+  if (last_) {
+    const PosePrior prior = expect(frame).prior;
+    state_.T_map_base = prior.mean;
+    state_.relative = prior.covariance;
+  }
+  if (scan.size() < kLeastPoints) {
+    step.tracking = Tracking::blind;
+    return;
+  }
+  state_.drift = std::exchange(state_.relative, Covariance6::Zero());
+  keep(std::move(scan), frame, step);
+}
+
+void VisualOdometry::recover(const DepthScan& scan, const OdometryFrame& frame,
+                             OdometryStep& step) {
+  if (++lost_for_ == 1) state_.relative += jump_when_lost();
+  if (relocate(scan, frame)) {
+    step.tracking = Tracking::relocated;
+    step.key_frame = step.closed_loop = true;
+  } else if (lost_for_ > kMostLost) {
+    local_map_ = LocalMap(params_.map, kHorizon);
+    step.tracking = Tracking::restarted;
+  }
 }
 
 Covariance6 VisualOdometry::jump_when_lost() const {
@@ -236,7 +227,7 @@ OdometryStep VisualOdometry::placed(OdometryStep step, const State& state) {
   step.T_map_base = state.T_map_base;
   step.covariance = state.relative + state.drift + map_bias();
   if (keys_.empty())
-    placed_.push_back({step.stamp_s, 0, state.T_map_base});
+    placed_.push_back({step.stamp_s, {}, state.T_map_base});
   else
     placed_.push_back(
         {step.stamp_s, keys_.size() - 1, keys_.back().T_map_base.inverse() * state.T_map_base});
@@ -265,75 +256,11 @@ void VisualOdometry::keep(DepthScan scan, const OdometryFrame& frame, OdometrySt
     step.closed_loop = close_loop(frame.depth, false);
 }
 
-bool VisualOdometry::close_loop(const cv::Mat1w& depth, bool anywhere) {
-  const KeyFrame& current = keys_.back();
-  const double reach_m =
-      3.0 * std::sqrt((state_.drift + state_.relative).topLeftCorner<2, 2>().trace());
-  for (const std::size_t n : loop_candidates(keys_, current, *params_.loops, reach_m, anywhere)) {
-    if (n + 1 == keys_.size()) continue;
-    const PosePrior prior =
-        anywhere
-            ? PosePrior{keys_[n].T_map_base, jump_when_lost()}
-            : PosePrior{current.T_map_base, state_.drift + state_.relative + key_frame_floor()};
-    const auto match = verified_loop(keys_, n, current, prior, params_.map, *params_.loops);
-    if (!match || (anywhere && (match->support() < kStillSeen * last_support_ ||
-                                sees_through_key(depth, keys_[n], match->T_map_base))))
-      continue;
-    const Covariance6 weak = lost_jump().inverse();
-    edges_.push_back({n, keys_.size() - 1, keys_[n].T_map_base.inverse() * match->T_map_base,
-                      (match->information + weak).inverse() + key_frame_floor(), true});
-    keys_.back().T_map_base = match->T_map_base;
-    spread();
-    return true;
-  }
-  return false;
-}
-
-bool VisualOdometry::relocate(const DepthScan& scan, const OdometryFrame& frame) {
-  if (!params_.loops) return false;
-  keys_.push_back({frame.stamp_s, state_.T_map_base, way_m_, scan,
-                   small_depth_of(frame.depth, believed_.range_max_m)});
-  edges_.push_back({keys_.size() - 2, keys_.size() - 1,
-                    keys_[keys_.size() - 2].T_map_base.inverse() * state_.T_map_base,
-                    state_.relative + key_frame_floor(), false});
-  if (close_loop(frame.depth, true)) return true;
-  keys_.pop_back();
-  edges_.pop_back();
-  return false;
-}
-
-void VisualOdometry::spread() {
-  std::vector<Pose> nodes;
-  for (const KeyFrame& key : keys_) nodes.push_back(key.T_map_base);
-  const OptimisedPoses optimal = optimised(std::move(nodes), edges_);
-  for (std::size_t n = 0; n < keys_.size(); ++n) keys_[n].T_map_base = optimal.nodes[n];
-  state_.T_map_base = keys_.back().T_map_base;
-  state_.drift = optimal.last_covariance;
-  state_.relative = key_frame_floor();
-  loop_closed_at_m_ = way_m_;
-  ++loops_;
-  rebuild();
-}
-
-void VisualOdometry::rebuild() {
-  std::vector<std::pair<double, std::size_t>> by_distance;
-  for (std::size_t n = 0; n < keys_.size(); ++n)
-    by_distance.emplace_back(
-        (keys_[n].T_map_base.translation() - state_.T_map_base.translation()).norm(), n);
-  std::ranges::sort(by_distance);
-  by_distance.resize(std::min(by_distance.size(), kRebuilt));
-  std::ranges::sort(by_distance, {}, &std::pair<double, std::size_t>::second);
-  local_map_ = LocalMap(params_.map, kHorizon);
-  for (const auto& [distance, n] : by_distance)
-    local_map_.insert(keys_[n].scan, keys_[n].T_map_base);
-}
-
 std::vector<CorrectedPose> VisualOdometry::corrected() const {
   std::vector<CorrectedPose> poses;
   for (const Placed& placed : placed_)
-    poses.push_back({placed.stamp_s, keys_.empty()
-                                         ? placed.T_key_base
-                                         : keys_[placed.key].T_map_base * placed.T_key_base});
+    poses.push_back({placed.stamp_s, placed.key ? keys_[*placed.key].T_map_base * placed.T_key_base
+                                                : placed.T_key_base});
   return poses;
 }
 

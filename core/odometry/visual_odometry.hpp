@@ -103,7 +103,7 @@ class VisualOdometry {
  private:
   struct Placed {
     double stamp_s = 0.0;
-    std::size_t key = 0;
+    std::optional<std::size_t> key;  ///< none before the first key frame: then in the map's axes
     Pose T_key_base = Pose::Identity();
   };
   struct State {
@@ -121,6 +121,9 @@ class VisualOdometry {
   [[nodiscard]] bool hardly_moved(const OdometryFrame& frame) const;
   [[nodiscard]] Covariance6 jump_when_lost() const;
   OdometryStep place(const OdometryFrame& frame);
+  /// Until an image has depth the wheels carry; with it the map begins where they say.
+  void begin(DepthScan scan, const OdometryFrame& frame, OdometryStep& step);
+  void recover(const DepthScan& scan, const OdometryFrame& frame, OdometryStep& step);
   OdometryStep placed(OdometryStep step, const State& state);
   /// The best supported of matches from several turns, and of the first one.
   [[nodiscard]] ScanMatch searched(const DepthScan& scan, const PosePrior& loose,

@@ -134,6 +134,8 @@ TEST(VisualOdometry, BlindFromTheStartTheWheelsCarryAndUncertaintyGrows) {
   for (std::size_t n = 0; n < 14; ++n) EXPECT_GT(run.sigma_m(n + 1), run.sigma_m(n)) << n;
   for (std::size_t n = 0; n < 60; ++n) EXPECT_LT(run.error_m(n), 3.0 * run.sigma_m(n) + 0.01) << n;
   EXPECT_GT(run.sigma_m(59), 0.5 * run.sigma_m(14));  // nothing told it since where it began
+  for (std::size_t n = 0; n < 60; ++n)
+    EXPECT_TRUE(run.corrected[n].T_map_base.isApprox(run.steps[n].T_map_base, 1e-9)) << n;
 }
 
 TEST(VisualOdometry, WheelsThatJumpByMetresAreNotBelieved) {
