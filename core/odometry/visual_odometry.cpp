@@ -31,9 +31,9 @@ constexpr double kContradiction = 50.0, kDistrust = 100.0;
 /// A scan that does not contradict the prior is believed elsewhere where it has this much more
 /// support than by the prior.
 constexpr double kSlipGain = 0.15;
-/// Below this share of what should be seen other turns are tried, in steps of kSlipTurn: on a rug's
-/// edge a base twists by degrees that its wheels do not feel.
-constexpr double kDoubtful = 0.75, kSlipTurn = 1.5 * kDegree;
+/// Of the turns that are tried then: on a rug's edge a base twists by degrees that its wheels do
+/// not feel.
+constexpr double kSlipTurn = 1.5 * kDegree;
 /// No base on wheels moves faster (m/s, rad/s); an encoder that says so tells nothing.
 constexpr double kFastest = 5.0, kFastestTurn = 720.0 * kDegree;
 /// Frames lost in a row after which a new map begins.
@@ -114,7 +114,7 @@ Tracking VisualOdometry::track(const DepthScan& scan, const OdometryFrame& frame
   ScanMatch match = local_map_.match(scan, expected.prior);
   Tracking tracking = expected.wheels_jumped ? Tracking::slipped : Tracking::tracked;
   const bool moved = squared_sigmas(expected.prior, match.T_map_base) > kContradiction;
-  if (moved || lost_for_ > 0 || match.support() < kDoubtful * seen_before) {
+  if (moved || match.support() < still_seen) {
     PosePrior loose = expected.prior;
     loose.covariance *= kDistrust;
     const ScanMatch again = searched(scan, loose, match);
