@@ -55,6 +55,8 @@ struct ScanMatch {
 
   /// Share of all points that lie on the map's planes.
   [[nodiscard]] double support() const { return known_share * inlier_share; }
+  /// That of the upright ones, which alone tell one place on a floor from another; 0 of too few.
+  [[nodiscard]] double upright_support() const { return upright ? upright->on_plane_share : 0.0; }
 };
 
 /// A map of planes, one in each cube of a lattice, from the scans of key frames. Scans are matched

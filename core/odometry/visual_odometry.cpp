@@ -28,8 +28,8 @@ constexpr double kLeastSupport = 0.3, kLittle = 0.3;
 /// A scan that moves the prior by more than this (squared, over its covariance) contradicts it, and
 /// the factor that the prior's covariance grows by then.
 constexpr double kContradiction = 50.0, kDistrust = 100.0;
-/// A scan that does not contradict the prior is believed elsewhere where it has this much more
-/// support than by the prior.
+/// A scan that does not contradict the prior is believed elsewhere where this much more of its
+/// upright points lies on planes than by the prior.
 constexpr double kSlipGain = 0.15;
 /// Of the turns that are tried then: on a rug's edge a base twists by degrees that its wheels do
 /// not feel.
@@ -99,7 +99,7 @@ ScanMatch VisualOdometry::searched(const DepthScan& scan, const PosePrior& loose
   for (const int step : {0, 1, -1, 2, -2, 3, -3}) {
     const Pose turned = loose.mean * Eigen::AngleAxisd(step * kSlipTurn, Eigen::Vector3d::UnitZ());
     const ScanMatch match = local_map_.match(scan, loose, turned);
-    if (match.support() > best.support()) best = match;
+    if (match.upright_support() > best.upright_support()) best = match;
   }
   return best;
 }
@@ -117,9 +117,10 @@ Tracking VisualOdometry::track(const DepthScan& scan, const OdometryFrame& frame
   if (moved || match.support() < still_seen) {
     PosePrior loose = expected.prior;
     loose.covariance *= kDistrust;
+    if (loose.on_floor) loose = on_floor(loose);  // a slip lifts no base and tilts none far
     const ScanMatch again = searched(scan, loose, match);
     if (again.support() >= still_seen &&
-        (moved || again.support() >= match.support() + kSlipGain)) {
+        (moved || again.upright_support() >= match.upright_support() + kSlipGain)) {
       match = again;
       tracking = Tracking::slipped;
     } else if (moved) {
