@@ -88,6 +88,13 @@ struct Degrees {
 //   enum class Decay { hit, view };
 //   constexpr auto names_of(Decay) { return std::to_array<std::string_view>({"hit", "view"}); }
 
+/// The word of one of its values.
+template <class Enum>
+requires std::is_enum_v<Enum>
+[[nodiscard]] constexpr std::string_view word_of(Enum value) {
+  return names_of(value)[static_cast<std::size_t>(value)];
+}
+
 struct AnyVisitor {
   void operator()(auto&, const Field&) const {}
 };

@@ -9,6 +9,7 @@
 #include "core/mapping/semantic_map.hpp"
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -50,6 +51,9 @@ enum class ExplorationEnd {
   nothing_reachable,  ///< something is left to be seen, from no place that the robot can get to
   budget              ///< metres, seconds or views are used up
 };
+constexpr auto names_of(ExplorationEnd) {
+  return std::to_array<std::string_view>({"explored", "nothing_reachable", "budget"});
+}
 
 /// The next place to look from.
 struct NextView {

@@ -13,6 +13,18 @@ constexpr double kBehind = 1.05;
 constexpr double kMostSeenThrough = 0.25, kLeastOnPlanes = 0.3, kLeastShown = 0.3;
 constexpr std::size_t kLeastShownPoints = 50;
 
+/// visit(depth of the point, depth that the image shows there) in metres, 0 where it shows none.
+void for_each_in_view(const DepthScan& scan, const std::vector<std::size_t>& points,
+                      const cv::Mat1w& depth, const Calibration& believed, const Pose& T_image_scan,
+                      auto&& visit) {
+  const Pose T_camera_scan = believed.T_base_depth.inverse() * T_image_scan;
+  for (const std::size_t i : points) {
+    const Eigen::Vector3d p = T_camera_scan * scan.points[i];
+    if (const auto pixel = pixel_in_view(p, believed))
+      visit(p.z(), depth(*pixel) / kDepthUnitsPerMetre);
+  }
+}
+
 }  // namespace
 
 std::optional<cv::Point> pixel_in_view(const Eigen::Vector3d& p, const Calibration& believed) {
@@ -27,15 +39,13 @@ std::optional<cv::Point> pixel_in_view(const Eigen::Vector3d& p, const Calibrati
 
 bool sees_through(const cv::Mat1w& depth, const DepthScan& scan, const Pose& T_map_scan,
                   const Calibration& believed, const Pose& T_depth_scan) {
-  const Pose T_camera_scan = believed.T_base_depth.inverse() * T_depth_scan;
   std::size_t shown = 0, through = 0;
-  for (const std::size_t i : upright_points(scan, T_map_scan)) {
-    const Eigen::Vector3d p = T_camera_scan * scan.points[i];
-    const auto pixel = pixel_in_view(p, believed);
-    if (!pixel || depth(*pixel) == 0) continue;
-    ++shown;
-    if (depth(*pixel) / kDepthUnitsPerMetre > kBehind * p.z()) ++through;
-  }
+  for_each_in_view(scan, upright_points(scan, T_map_scan), depth, believed, T_depth_scan,
+                   [&](double z_m, double shown_z_m) {
+                     if (shown_z_m == 0.0) return;
+                     ++shown;
+                     if (shown_z_m > kBehind * z_m) ++through;
+                   });
   return shown >= kLeastShownPoints &&
          static_cast<double>(through) > kMostSeenThrough * static_cast<double>(shown);
 }
@@ -43,14 +53,11 @@ bool sees_through(const cv::Mat1w& depth, const DepthScan& scan, const Pose& T_m
 bool KeyView::misses(const DepthScan& scan, const ScanMatch& match, const Calibration& believed,
                      const Pose& T_key_base) const {
   if (!match.upright) return false;
-  const Pose T_camera_base = believed.T_base_depth.inverse() * T_key_base;
   const std::vector<std::size_t> upright = upright_points(scan, match.T_map_base);
   std::size_t shown = 0;
-  for (const std::size_t i : upright) {
-    const Eigen::Vector3d p = T_camera_base * scan.points[i];
-    const auto pixel = pixel_in_view(p, believed);
-    if (pixel && p.z() <= kBehind * depth_(*pixel) / kDepthUnitsPerMetre) ++shown;
-  }
+  for_each_in_view(scan, upright, depth_, believed, T_key_base, [&](double z_m, double shown_z_m) {
+    if (z_m <= kBehind * shown_z_m) ++shown;
+  });
   const double known =
       upright_share_ * static_cast<double>(shown) / static_cast<double>(upright.size());
   return known >= kLeastShown && match.upright->on_plane_share < kLeastOnPlanes * known;

@@ -104,6 +104,12 @@ ScanMatch VisualOdometry::searched(const DepthScan& scan, const PosePrior& loose
   return best;
 }
 
+bool VisualOdometry::sees_through_key(const cv::Mat1w& depth, const KeyFrame& key,
+                                      const Pose& T_map_base) const {
+  return sees_through(depth, key.scan, key.T_map_base, believed_,
+                      T_map_base.inverse() * key.T_map_base);
+}
+
 Tracking VisualOdometry::track(const DepthScan& scan, const OdometryFrame& frame,
                                const Expected& expected, OdometryStep& step) {
   if (scan.size() < kLeastPoints) return Tracking::blind;
@@ -113,17 +119,17 @@ Tracking VisualOdometry::track(const DepthScan& scan, const OdometryFrame& frame
   const double still_seen = kStillSeen * last_support_;
   ScanMatch match = local_map_.match(scan, expected.prior);
   Tracking tracking = expected.wheels_jumped ? Tracking::slipped : Tracking::tracked;
-  const bool moved = squared_sigmas(expected.prior, match.T_map_base) > kContradiction;
-  if (moved || match.support() < still_seen) {
+  const bool contradicts = squared_sigmas(expected.prior, match.T_map_base) > kContradiction;
+  if (contradicts || match.support() < still_seen) {
     PosePrior loose = expected.prior;
     loose.covariance *= kDistrust;
     if (loose.on_floor) loose = on_floor(loose);  // a slip lifts no base and tilts none far
     const ScanMatch again = searched(scan, loose, match);
     if (again.support() >= still_seen &&
-        (moved || again.upright_support() >= match.upright_support() + kSlipGain)) {
+        (contradicts || again.upright_support() >= match.upright_support() + kSlipGain)) {
       match = again;
       tracking = Tracking::slipped;
-    } else if (moved) {
+    } else if (contradicts) {
       tracking = Tracking::unsure;
     }
   }

@@ -47,7 +47,8 @@ struct OdometryFrame {
 enum class Tracking {
   started,    ///< the first frame with depth, at the pose that was given
   tracked,    ///< by the scan and the motion prior together
-  slipped,    ///< the scan contradicts the prior, which then counts for little
+  slipped,    ///< the scan contradicts the prior, or fits better elsewhere, or the wheels jump: the
+              ///< prior then counts for little
   unsure,     ///< the scan contradicts the prior and fits no better elsewhere: by the prior alone
   beside,     ///< most of what the frame shows is new, as expected: scan and prior
   blind,      ///< hardly any depth: by the prior alone, whose uncertainty adds up
@@ -125,7 +126,8 @@ class VisualOdometry {
   void begin(DepthScan scan, const OdometryFrame& frame, OdometryStep& step);
   void recover(const DepthScan& scan, const OdometryFrame& frame, OdometryStep& step);
   OdometryStep placed(OdometryStep step, const State& state);
-  /// The best supported of matches from several turns, and of the first one.
+  /// Of matches from several turns, and the first one, that with most of its upright points on
+  /// planes.
   [[nodiscard]] ScanMatch searched(const DepthScan& scan, const PosePrior& loose,
                                    const ScanMatch& first) const;
   [[nodiscard]] bool sees_through_key(const cv::Mat1w& depth, const KeyFrame& key,

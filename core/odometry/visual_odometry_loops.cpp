@@ -14,12 +14,6 @@ namespace mapscore {
 
 using namespace odometry_numbers;
 
-bool VisualOdometry::sees_through_key(const cv::Mat1w& depth, const KeyFrame& key,
-                                      const Pose& T_map_base) const {
-  return sees_through(depth, key.scan, key.T_map_base, believed_,
-                      T_map_base.inverse() * key.T_map_base);
-}
-
 bool VisualOdometry::close_loop(const cv::Mat1w& depth, bool anywhere) {
   const KeyFrame& current = keys_.back();
   const double reach_m =

@@ -4,6 +4,7 @@
 #include "eval/cli/map_flags.hpp"
 
 #include "eval/cli/shared/options.hpp"
+#include "eval/study/localization_settings.hpp"
 
 #include <algorithm>
 #include <set>
@@ -47,7 +48,9 @@ void add_reading_flags(CLI::App& verb, MapVerbFlags& flags) {
   add("--poses", flags.poses,
       "groundtruth.txt (file), or found in the depth images, from the first one's camera or base: "
       "visual_odometry, or visual_slam, which closes loops too [file]")
-      ->check(CLI::IsMember({kPosesOfFile, kVisualOdometry, kVisualSlam}));
+      ->check(CLI::IsMember({std::string(kPosesOfFile),
+                             std::string(word_of(PoseSource::visual_odometry)),
+                             std::string(word_of(PoseSource::visual_slam))}));
   add("--frames", flags.frames, "Of the frames: 3,7,9 or first:end:step, from 0 [all]");
   verb.add_flag("--follow", reading.follow,
                 "Images may lie outside of FOLDER: links and paths in its lists are followed")

@@ -16,10 +16,8 @@
 
 namespace mapscore::eval {
 
-/// Where poses come from: groundtruth.txt, or the depth images.
+/// Of --poses: groundtruth.txt; else a PoseSource that finds them in the depth images.
 constexpr const char* kPosesOfFile = "file";
-constexpr const char* kVisualOdometry = "visual_odometry";
-constexpr const char* kVisualSlam = "visual_slam";
 
 /// What `mapscore map` is asked for.
 struct MapVerbFlags {

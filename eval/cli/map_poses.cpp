@@ -18,8 +18,8 @@ namespace {
 /// How poses are found in depth images: as a study says, if there is one.
 LocalizationSettings pose_settings(const std::optional<Study>& study, const MapVerbFlags& flags) {
   LocalizationSettings settings = study ? study->localization : LocalizationSettings{};
-  settings.source =
-      flags.poses == kVisualSlam ? PoseSource::visual_slam : PoseSource::visual_odometry;
+  settings.source = flags.poses == word_of(PoseSource::visual_slam) ? PoseSource::visual_slam
+                                                                    : PoseSource::visual_odometry;
   settings.visual.visual = {.wheels = false, .corrected = true};
   return settings;
 }

@@ -31,10 +31,6 @@ struct SegmentFlags {
   double voxel_m = 0.05;
 };
 
-std::string_view name_of(SkipReason reason) {
-  return names_of(reason)[static_cast<std::size_t>(reason)];
-}
-
 std::vector<std::string> columns() {
   return {"instance", "name",        "class",        "score",       "skipped",
           "points",   "voxels",      "x_min_m",      "y_min_m",     "z_min_m",
@@ -49,7 +45,7 @@ std::vector<std::string> cells_of(const Segment& segment, const ClassTable& tabl
                                  table.instances.at(segment.instance).name,
                                  table.classes.at(segment.class_id).name,
                                  fmt::format("{}", segment.score),
-                                 std::string(name_of(segment.skipped)),
+                                 std::string(word_of(segment.skipped)),
                                  std::to_string(segment.points.size()),
                                  std::to_string(segment.voxel_centres.size())};
   const auto box = upright_box(segment.points, up_in_depth(T_base_depth));
@@ -89,7 +85,7 @@ void write_all(const std::vector<Segment>& segments, const ClassTable& table,
     csv += csv_line(cells_of(found, table, T_base_depth));
     std::cout << fmt::format("{:<8} {:<16} {:>8} {:>8}  {}\n", found.instance,
                              table.classes.at(found.class_id).name, found.points.size(),
-                             found.voxel_centres.size(), name_of(found.skipped));
+                             found.voxel_centres.size(), word_of(found.skipped));
   }
   write_whole_file(folder / "segments.csv", csv);
   std::cout << shown(folder / "segments.csv") << '\n';

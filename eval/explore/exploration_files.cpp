@@ -29,10 +29,6 @@ constexpr const char* kCurveHead =
     "stamp_s,driven_m,views,coverage,coverage_detected,precision,recall,f1,known_m3\n";
 constexpr std::size_t kCurveColumns = 9, kMapColumns = 4;
 
-std::string word_of(auto value) {
-  return std::string(names_of(value)[static_cast<std::size_t>(value)]);
-}
-
 std::string how_to_mend(const fs::path& folder) {
   return fmt::format("remove {} to explore it anew", shown(folder));
 }

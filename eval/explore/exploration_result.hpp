@@ -21,9 +21,6 @@ enum class WayEnd { arrived, blocked, stuck, budget };
 constexpr auto names_of(WayEnd) {
   return std::to_array<std::string_view>({"arrived", "blocked", "stuck", "budget"});
 }
-constexpr auto names_of(ExplorationEnd) {
-  return std::to_array<std::string_view>({"explored", "nothing_reachable", "budget"});
-}
 
 /// A view that the planner chose, and what became of it.
 struct ChosenView {

@@ -12,14 +12,6 @@
 #include <fmt/format.h>
 
 namespace mapscore::eval {
-namespace {
-
-std::string name_of_source(PoseSource source) {
-  return std::string(names_of(source)[static_cast<std::size_t>(source)]);
-}
-
-}  // namespace
-
 LiveBelief::LiveBelief(const Task& task, const Pose& T_map_world)
     : task_(task), T_map_world_(T_map_world) {
   const PoseSource source = task.config.localization.source;
@@ -31,7 +23,7 @@ LiveBelief::LiveBelief(const Task& task, const Pose& T_map_world)
     throw Error(
         fmt::format("localization.source: {} is computed from a whole recording, and there is none "
                     "yet; explore with gaussian, truth or odometry, and replay what it recorded",
-                    name_of_source(source)));
+                    word_of(source)));
   }
   covariance_ = sim::reported_covariance(noise);
   errors_.emplace(sim::covariance_of(noise), noise.kind, trial_seed(task));

@@ -37,8 +37,7 @@ void check_logs(const Recording& recording, PoseSource source) {
   throw Error(fmt::format(
       "localization.source: {} needs odometry.txt{}, which {} does not hold; record it with "
       "trajectory.drive: {{wheels: {{}}}}{}",
-      names_of(source)[static_cast<std::size_t>(source)], needs_scans ? " and scan/scans.bin" : "",
-      recording.folder().string(),
+      word_of(source), needs_scans ? " and scan/scans.bin" : "", recording.folder().string(),
       is_visual(source) ? ", or go without: localization.visual.wheels=false" : ""));
 }
 

@@ -3,6 +3,7 @@
 
 #include "eval/networks/network_model.hpp"
 
+#include "core/parameters.hpp"
 #include "files/file_bytes.hpp"
 
 #include <fmt/format.h>
@@ -17,9 +18,8 @@ std::string content_of(const NetworkModel& network) {
 
 std::string settings_text(const NetworkModel& network) {
   return fmt::format("channels {}, scale {}, mean [{}], std [{}], output {}",
-                     names_of(network.channels)[static_cast<std::size_t>(network.channels)],
-                     network.scale, fmt::join(network.mean, ", "), fmt::join(network.std, ", "),
-                     names_of(network.output)[static_cast<std::size_t>(network.output)]);
+                     word_of(network.channels), network.scale, fmt::join(network.mean, ", "),
+                     fmt::join(network.std, ", "), word_of(network.output));
 }
 
 }  // namespace mapscore::eval

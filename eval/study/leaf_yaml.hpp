@@ -107,9 +107,7 @@ struct Leaf<Enum> {
       if (word == names[i]) return static_cast<Enum>(i);
     at.ask_for("one of " + type());
   }
-  [[nodiscard]] static std::string text(Enum value) {
-    return std::string(names_of(value)[static_cast<std::size_t>(value)]);
-  }
+  [[nodiscard]] static std::string text(Enum value) { return std::string(word_of(value)); }
   [[nodiscard]] static std::string type() {
     return fmt::format("{}", fmt::join(names_of(Enum{}), ", "));
   }

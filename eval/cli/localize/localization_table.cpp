@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/cli/localization_table.hpp"
+#include "eval/cli/localize/localization_table.hpp"
 
 #include <fmt/format.h>
 

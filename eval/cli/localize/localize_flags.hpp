@@ -12,17 +12,17 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mapscore::eval {
 
-/// Words of --source.
-inline constexpr const char *kAllSources = "all", *kOdometrySource = "odometry",
-                            *kFilterSource = "particle_filter", *kTrajectorySource = "trajectory";
+/// Of --source: all that the recording has something for.
+inline constexpr const char* kAllSources = "all";
 
 /// What `mapscore localize` is asked for.
 struct LocalizeFlags {
-  std::string recording, output, source = kFilterSource;
+  std::string recording, output, source{word_of(PoseSource::particle_filter)};
   std::optional<std::string> grid, model;
   bool global_start = false;
   int seeds = 1;
@@ -42,7 +42,7 @@ struct LocalizeFlags {
 [[nodiscard]] Study study_of(const LocalizeFlags& flags);
 
 /// What is said of a source that is left out.
-[[nodiscard]] std::string left_out(const std::string& source, const std::string& why);
+[[nodiscard]] std::string left_out(std::string_view source, std::string_view why);
 
 /// The source of the flags, or all that the recording has something for, which may be none; `notes`
 /// says of the others why they are left out.

@@ -3,8 +3,8 @@
 
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
-#include "eval/cli/localization_table.hpp"
-#include "eval/cli/localize_flags.hpp"
+#include "eval/cli/localize/localization_table.hpp"
+#include "eval/cli/localize/localize_flags.hpp"
 #include "eval/cli/shared/progress.hpp"
 #include "eval/cli/verbs.hpp"
 #include "eval/lab/pose_sources.hpp"
@@ -42,14 +42,15 @@ constexpr const char* kScoresFile = "localization_scores.csv";
 std::optional<OccupancyGrid> filter_grid(const LocalizeFlags& flags, const Study& study,
                                          const Recording& recording,
                                          std::vector<std::string>& sources, std::string& notes) {
-  const bool filter = std::ranges::find(sources, kFilterSource) != sources.end();
+  constexpr std::string_view kFilter = word_of(PoseSource::particle_filter);
+  const bool filter = std::ranges::find(sources, kFilter) != sources.end();
   if (!filter && !(study.localization.grid && recording.has_scans())) return {};
   try {
     return grid_of(recording, study);
   } catch (const Error& error) {
     if (flags.source != kAllSources || study.localization.grid) throw;
-    notes += left_out(kFilterSource, error.what());
-    std::erase(sources, kFilterSource);
+    notes += left_out(kFilter, error.what());
+    std::erase(sources, kFilter);
     return {};
   }
 }
@@ -69,8 +70,7 @@ std::string frame_poses_text(const BelievedTrajectory& believed,
 std::string tracking_csv(const VisualTrajectory& visual) {
   std::string text = "stamp_s,tracking,key_frame,closed_loop,known_share,inlier_share\n";
   for (const OdometryStep& step : visual.steps)
-    text += fmt::format("{},{},{},{},{:.4f},{:.4f}\n", step.stamp_s,
-                        names_of(step.tracking)[static_cast<std::size_t>(step.tracking)],
+    text += fmt::format("{},{},{},{},{:.4f},{:.4f}\n", step.stamp_s, word_of(step.tracking),
                         step.key_frame ? 1 : 0, step.closed_loop ? 1 : 0, step.known_share,
                         step.inlier_share);
   return text;
@@ -169,8 +169,9 @@ std::vector<SourceScores> all_localised(Study study, const Recording& recording,
 /// The wheels stand beside any other source.
 std::vector<std::string> drawn_sources(const LocalizeFlags& flags, const Recording& recording,
                                        std::vector<std::string> sources) {
-  if (flags.source != kAllSources && flags.source != kOdometrySource && recording.has_odometry())
-    sources.emplace_back(kOdometrySource);
+  constexpr std::string_view kWheels = word_of(PoseSource::odometry);
+  if (flags.source != kAllSources && flags.source != kWheels && recording.has_odometry())
+    sources.emplace_back(kWheels);
   return sources;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "eval/cli/localize_flags.hpp"
+#include "eval/cli/localize/localize_flags.hpp"
 
 #include "core/error.hpp"
 #include "files/text.hpp"
@@ -25,13 +25,14 @@ bool localises(PoseSource source) {
 
 /// Why a recording, or what was given with it, has nothing for a source; empty where it has.
 std::string missing_for(const std::string& source, const Study& study, const Recording& recording) {
-  if (source == kTrajectorySource)
+  if (source == word_of(PoseSource::trajectory))
     return study.localization.trajectory ? "" : "no --set localization.trajectory=FILE";
   const bool visual = source.starts_with("visual");
   if (!recording.has_odometry() && !(visual && !study.localization.visual.visual.wheels))
     return fmt::format("no odometry.txt{}",
                        visual ? "; --set localization.visual.wheels=false goes without" : "");
-  if (source == kFilterSource && !recording.has_scans()) return "no scan/scans.bin";
+  if (source == word_of(PoseSource::particle_filter) && !recording.has_scans())
+    return "no scan/scans.bin";
   return "";
 }
 
@@ -83,7 +84,7 @@ Study study_of(const LocalizeFlags& flags) {
   return study;
 }
 
-std::string left_out(const std::string& source, const std::string& why) {
+std::string left_out(std::string_view source, std::string_view why) {
   return fmt::format("localize: not {}: {}\n", source, why);
 }
 
