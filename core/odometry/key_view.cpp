@@ -10,7 +10,7 @@ namespace {
 
 /// A surface is behind another where it is this many times as far.
 constexpr double kBehind = 1.05;
-constexpr double kMostSeenThrough = 0.25, kLeastOnPlanes = 0.3, kLeastShown = 0.3;
+constexpr double kLeastOnPlanes = 0.3, kLeastShown = 0.3;
 constexpr std::size_t kLeastShownPoints = 50;
 
 /// visit(depth of the point, depth that the image shows there) in metres, 0 where it shows none.
@@ -37,17 +37,17 @@ std::optional<cv::Point> pixel_in_view(const Eigen::Vector3d& p, const Calibrati
                    static_cast<int>(std::floor(pixel.y() + 0.5)));
 }
 
-bool sees_through(const cv::Mat1w& depth, const DepthScan& scan, const Pose& T_map_scan,
-                  const Calibration& believed, const Pose& T_depth_scan) {
+double seen_through(const cv::Mat1w& depth, const Pose& T_map_image, const DepthScan& scan,
+                    const Pose& T_map_scan, const Calibration& believed) {
   std::size_t shown = 0, through = 0;
-  for_each_in_view(scan, upright_points(scan, T_map_scan), depth, believed, T_depth_scan,
-                   [&](double z_m, double shown_z_m) {
+  for_each_in_view(scan, upright_points(scan, T_map_scan), depth, believed,
+                   T_map_image.inverse() * T_map_scan, [&](double z_m, double shown_z_m) {
                      if (shown_z_m == 0.0) return;
                      ++shown;
                      if (shown_z_m > kBehind * z_m) ++through;
                    });
-  return shown >= kLeastShownPoints &&
-         static_cast<double>(through) > kMostSeenThrough * static_cast<double>(shown);
+  return shown < kLeastShownPoints ? 0.0
+                                   : static_cast<double>(through) / static_cast<double>(shown);
 }
 
 bool KeyView::misses(const DepthScan& scan, const ScanMatch& match, const Calibration& believed,

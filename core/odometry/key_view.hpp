@@ -16,13 +16,13 @@ namespace mapscore {
 [[nodiscard]] std::optional<cv::Point> pixel_in_view(const Eigen::Vector3d& p,
                                                      const Calibration& believed);
 
-/// Whether an image sees through a quarter of the upright points of an earlier scan, of those where
-/// it shows anything: it shows something more than 5 % farther. Where they stood is nothing now, or
-/// the pose is wrong. Never of fewer than 50 points. `T_depth_scan`: of the scan's base in the
-/// image's. Thread-safe.
-[[nodiscard]] bool sees_through(const cv::Mat1w& depth, const DepthScan& scan,
-                                const Pose& T_map_scan, const Calibration& believed,
-                                const Pose& T_depth_scan);
+/// Share of the upright points of an earlier scan that an image sees through, of those where it
+/// shows anything: it shows something more than 5 % farther. Where they stood is nothing now, or
+/// one of the poses is wrong. 0 of fewer than 50 points. `T_map_image`: of the image's base.
+/// Thread-safe.
+[[nodiscard]] double seen_through(const cv::Mat1w& depth, const Pose& T_map_image,
+                                  const DepthScan& scan, const Pose& T_map_scan,
+                                  const Calibration& believed);
 
 /// What a key frame showed, to tell whether a later match can be right: any floor fits any other,
 /// upright surfaces do not. Const members are safe from several threads.

@@ -36,6 +36,11 @@ constexpr double kSlipGain = 0.15;
 constexpr double kSlipTurn = 1.5 * kDegree;
 /// No base on wheels moves faster (m/s, rad/s); an encoder that says so tells nothing.
 constexpr double kFastest = 5.0, kFastestTurn = 720.0 * kDegree;
+/// An image that sees through more than kSeenThrough of the upright points of the last key frame is
+/// elsewhere, and so is a new key frame that sees through more than kMostlyThrough of
+/// kLeastContradicting earlier ones.
+constexpr double kSeenThrough = 0.25, kMostlyThrough = 0.5;
+constexpr std::ptrdiff_t kLeastContradicting = 3;
 /// Frames lost in a row after which a new map begins.
 constexpr int kMostLost = 5;
 /// Share of a pose's uncertainty that the part of the map takes over which a key frame adds: all of
@@ -106,8 +111,20 @@ ScanMatch VisualOdometry::searched(const DepthScan& scan, const PosePrior& loose
 
 bool VisualOdometry::sees_through_key(const cv::Mat1w& depth, const KeyFrame& key,
                                       const Pose& T_map_base) const {
-  return sees_through(depth, key.scan, key.T_map_base, believed_,
-                      T_map_base.inverse() * key.T_map_base);
+  return seen_through(depth, T_map_base, key.scan, key.T_map_base, believed_) > kSeenThrough;
+}
+
+bool VisualOdometry::contradicts(const cv::Mat1w& depth, const Pose& T_map_base,
+                                 std::span<const KeyFrame> keys) const {
+  return std::ranges::count_if(keys, [&](const KeyFrame& key) {
+           return seen_through(depth, T_map_base, key.scan, key.T_map_base, believed_) >
+                  kMostlyThrough;
+         }) >= kLeastContradicting;
+}
+
+std::span<const KeyFrame> VisualOdometry::keys_of_map() const {
+  const std::span<const KeyFrame> keys = std::span(keys_).subspan(map_begins_);
+  return keys.last(std::min(keys.size(), kHorizon));
 }
 
 Tracking VisualOdometry::track(const DepthScan& scan, const OdometryFrame& frame,
@@ -180,14 +197,18 @@ OdometryStep VisualOdometry::place(const OdometryFrame& frame) {
     way_m_ += (T_map_last.inverse() * state_.T_map_base).translation().norm();
     T_before_last_base_ = T_map_last.inverse() * state_.T_map_base;
     last_step_s_ = frame.stamp_s - last_->stamp_s;
-    if (step.tracking == Tracking::lost) recover(scan, frame, step);
-    if (step.tracking != Tracking::lost && step.tracking != Tracking::blind) lost_for_ = 0;
+    if (step.tracking == Tracking::lost) recover(scan, frame, step, kMostLost);
     const bool places = step.tracking == Tracking::tracked || step.tracking == Tracking::slipped ||
                         step.tracking == Tracking::beside;
     const Pose T_key_base = keys_.back().T_map_base.inverse() * state_.T_map_base;
-    if (step.tracking == Tracking::restarted ||
-        (places && is_key_frame(params_.key, frame.depth, believed_, T_key_base)))
-      keep(std::move(scan), frame, step);
+    bool keeps = places && is_key_frame(params_.key, frame.depth, believed_, T_key_base);
+    if (keeps && contradicts(frame.depth, state_.T_map_base, keys_of_map())) {
+      // Carried away unseen, some images ago: where it has been since is no better known.
+      keeps = false;
+      recover(scan, frame, step, 0);
+    }
+    if (step.tracking != Tracking::lost && step.tracking != Tracking::blind) lost_for_ = 0;
+    if (keeps || step.tracking == Tracking::restarted) keep(std::move(scan), frame, step);
   }
   last_ = {frame.stamp_s, {}, frame.T_odom_base};
   return placed(step, state_);
@@ -207,14 +228,15 @@ void VisualOdometry::begin(DepthScan scan, const OdometryFrame& frame, OdometryS
   keep(std::move(scan), frame, step);
 }
 
-void VisualOdometry::recover(const DepthScan& scan, const OdometryFrame& frame,
-                             OdometryStep& step) {
+void VisualOdometry::recover(const DepthScan& scan, const OdometryFrame& frame, OdometryStep& step,
+                             int most_lost) {
   if (++lost_for_ == 1) state_.relative += jump_when_lost();
   if (relocate(scan, frame)) {
     step.tracking = Tracking::relocated;
     step.key_frame = step.closed_loop = true;
-  } else if (lost_for_ > kMostLost) {
+  } else if (lost_for_ > most_lost) {
     local_map_ = LocalMap(params_.map, kHorizon);
+    map_begins_ = keys_.size();
     step.tracking = Tracking::restarted;
   }
 }

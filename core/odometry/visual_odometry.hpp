@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -124,7 +125,9 @@ class VisualOdometry {
   OdometryStep place(const OdometryFrame& frame);
   /// Until an image has depth the wheels carry; with it the map begins where they say.
   void begin(DepthScan scan, const OdometryFrame& frame, OdometryStep& step);
-  void recover(const DepthScan& scan, const OdometryFrame& frame, OdometryStep& step);
+  void recover(const DepthScan& scan, const OdometryFrame& frame, OdometryStep& step,
+               int most_lost);
+  [[nodiscard]] std::span<const KeyFrame> keys_of_map() const;
   OdometryStep placed(OdometryStep step, const State& state);
   /// Of matches from several turns, and the first one, that with most of its upright points on
   /// planes.
@@ -132,6 +135,9 @@ class VisualOdometry {
                                    const ScanMatch& first) const;
   [[nodiscard]] bool sees_through_key(const cv::Mat1w& depth, const KeyFrame& key,
                                       const Pose& T_map_base) const;
+  /// Whether an image at this pose sees through several of these key frames.
+  [[nodiscard]] bool contradicts(const cv::Mat1w& depth, const Pose& T_map_base,
+                                 std::span<const KeyFrame> keys) const;
   [[nodiscard]] Tracking track(const DepthScan& scan, const OdometryFrame& frame,
                                const Expected& expected, OdometryStep& step);
   void keep(DepthScan scan, const OdometryFrame& frame, OdometryStep& step);
@@ -152,7 +158,8 @@ class VisualOdometry {
   double last_support_ = 0.0;  ///< of the last scan that placed a frame
   double way_m_ = 0.0, loop_closed_at_m_ = 0.0;
   std::vector<KeyFrame> keys_;
-  KeyView key_view_;  ///< of the last key frame
+  std::size_t map_begins_ = 0;  ///< first key frame since the robot was lost
+  KeyView key_view_;            ///< of the last key frame
   std::vector<PoseEdge> edges_;
   std::vector<Placed> placed_;
   std::size_t loops_ = 0;

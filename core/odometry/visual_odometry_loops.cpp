@@ -28,6 +28,10 @@ bool VisualOdometry::close_loop(const cv::Mat1w& depth, bool anywhere) {
     if (!match || (anywhere && (match->support() < kStillSeen * last_support_ ||
                                 sees_through_key(depth, keys_[n], match->T_map_base))))
       continue;
+    const std::size_t first = n - std::min(n, kHorizon / 2);
+    const std::size_t last = std::min(n + kHorizon / 2, keys_.size() - 1);
+    if (contradicts(depth, match->T_map_base, std::span(keys_).subspan(first, last - first)))
+      continue;
     const Covariance6 weak = lost_jump().inverse();
     edges_.push_back({n, keys_.size() - 1, keys_[n].T_map_base.inverse() * match->T_map_base,
                       (match->information + weak).inverse() + key_frame_floor(), true});

@@ -218,6 +218,35 @@ TEST(VisualOdometry, ARobotSetDownElsewhereWithItsWheelsAtRestSaysSo) {
   }
 }
 
+/// A robot turns away from a row of boxes to bare floor, is put `carried_m` back there, and turns
+/// to the boxes again; its wheels feel the turns alone.
+std::vector<OdometryStep> turned_away_and_back(double carried_m) {
+  BoxFlat flat(30.0, 30.0);
+  for (const double y : {12.5, 14.5, 16.5}) flat.add(17.0, y, 0, 17.5, y + 1.0, 1.0);
+  const Calibration camera = testing::odometry_camera();
+  VisualOdometry visual({}, camera, planar_pose(15.0, 15.0, 0.0));
+  std::vector<OdometryStep> steps;
+  for (int n = 0; n < 80; ++n) {
+    const double yaw = std::numbers::pi * std::min({n / 35.0, 1.0, (79 - n) / 35.0});
+    const Pose pose = planar_pose(n < 40 ? 15.0 : 15.0 - carried_m, 15.0, yaw);
+    steps.push_back(
+        visual.add({0.1 * n, testing::flat_depth(flat, pose, camera), planar_pose(0.0, 0.0, yaw)}));
+  }
+  return steps;
+}
+
+TEST(VisualOdometry, CarriedAwayBeforeBareFloorItSaysSoWhenItSeesThroughWhatItKnows) {
+  const auto is_restarted = [](const OdometryStep& step) {
+    return step.tracking == Tracking::restarted;
+  };
+  const std::vector<OdometryStep> left = turned_away_and_back(0.0);
+  EXPECT_TRUE(std::ranges::none_of(left, is_restarted));
+  const std::vector<OdometryStep> carried = turned_away_and_back(0.8);
+  EXPECT_EQ(carried[40].tracking, Tracking::tracked);
+  EXPECT_TRUE(std::ranges::any_of(carried, is_restarted));
+  EXPECT_GT(std::sqrt(carried.back().covariance(0, 0)), 0.4);
+}
+
 TEST(VisualOdometry, AlongABareWallItBelievesTheWheelsAndSaysHowLittle) {
   const BoxFlat hall(3.0, 200.0);
   const Calibration camera = testing::odometry_camera();
