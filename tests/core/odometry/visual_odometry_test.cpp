@@ -218,19 +218,38 @@ TEST(VisualOdometry, ARobotSetDownElsewhereWithItsWheelsAtRestSaysSo) {
   }
 }
 
+/// Bare floor, and a row of boxes 2 m ahead of (15, 15).
+BoxFlat hall_with_boxes() {
+  BoxFlat flat(30.0, 30.0);
+  for (const double y : {12.5, 14.5, 16.5}) flat.add(17.0, y, 0, 17.5, y + 1.0, 1.0);
+  return flat;
+}
+
+TEST(VisualOdometry, CarriedToBareFloorItSaysSoAtOnce) {
+  // Nothing upright is in sight there, and any floor fits any other: but the boxes are gone.
+  const Calibration camera = testing::odometry_camera();
+  VisualOdometry visual({}, camera, planar_pose(15.0, 15.0, 0.0));
+  OdometryStep step;
+  for (int n = 0; n < 11; ++n)
+    step = visual.add({0.1 * n,
+                       testing::flat_depth(hall_with_boxes(),
+                                           planar_pose(15.0, n < 10 ? 15.0 : 22.0, 0.0), camera),
+                       Pose::Identity()});
+  EXPECT_EQ(step.tracking, Tracking::lost);
+  EXPECT_GT(std::sqrt(step.covariance(0, 0)), 0.4);
+}
+
 /// A robot turns away from a row of boxes to bare floor, is put `carried_m` back there, and turns
 /// to the boxes again; its wheels feel the turns alone.
 std::vector<OdometryStep> turned_away_and_back(double carried_m) {
-  BoxFlat flat(30.0, 30.0);
-  for (const double y : {12.5, 14.5, 16.5}) flat.add(17.0, y, 0, 17.5, y + 1.0, 1.0);
   const Calibration camera = testing::odometry_camera();
   VisualOdometry visual({}, camera, planar_pose(15.0, 15.0, 0.0));
   std::vector<OdometryStep> steps;
   for (int n = 0; n < 80; ++n) {
     const double yaw = std::numbers::pi * std::min({n / 35.0, 1.0, (79 - n) / 35.0});
     const Pose pose = planar_pose(n < 40 ? 15.0 : 15.0 - carried_m, 15.0, yaw);
-    steps.push_back(
-        visual.add({0.1 * n, testing::flat_depth(flat, pose, camera), planar_pose(0.0, 0.0, yaw)}));
+    steps.push_back(visual.add({0.1 * n, testing::flat_depth(hall_with_boxes(), pose, camera),
+                                planar_pose(0.0, 0.0, yaw)}));
   }
   return steps;
 }
