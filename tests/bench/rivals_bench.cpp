@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/segmentation/rivals/geometric_segments.hpp"
-#include "core/segmentation/rivals/surface_normals.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "synthetic_person.hpp"
 
@@ -18,6 +17,7 @@ constexpr double kRivalBar_ms = 15.0;
 /// One frame of 640 x 480, registration and all; `bar_ms` is what a frame may take. `whole`: one
 /// mask over the whole image instead of the person's, the most that there can be.
 void rival_frame(benchmark::State& state, const Segmentation& kind, bool whole) {
+  cv::setNumThreads(1);  // processor time of one core
   const cv::Mat1w label = whole ? cv::Mat1w(480, 640, std::uint16_t{1}) : person().label;
   const std::vector<Detection> detections = detections_of(label, person().table);
   for (auto _ : state)
@@ -46,9 +46,10 @@ void rival_normals(benchmark::State& state) {
 BENCHMARK(rival_normals)->Unit(benchmark::kMillisecond);
 
 void rival_edges(benchmark::State& state) {
-  const cv::Mat1f depth_m = depth_in_range(person().depth, person().calibration);
+  const VectorImage points =
+      points_of(depth_in_range(person().depth, person().calibration), person().calibration.depth);
   for (auto _ : state)
-    benchmark::DoNotOptimize(geometric_edges(depth_m, person().calibration.depth, {}));
+    benchmark::DoNotOptimize(geometric_edges(points, person().calibration.depth, {}));
 }
 BENCHMARK(rival_edges)->Unit(benchmark::kMillisecond);
 

@@ -8,8 +8,8 @@
 #include "core/segmentation/rivals/geometric_segments.hpp"
 #include "core/segmentation/rivals/surface_normals.hpp"
 #include "core/segmentation/segmentation.hpp"
+#include "core/wide_vectors.hpp"
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -17,7 +17,7 @@
 namespace mapscore {
 namespace {
 
-constexpr int kNoPixel = -1;  ///< beyond the colour image
+constexpr std::int32_t kNoPixel = -1;  ///< beyond the colour image
 
 /// Detections, 1 + index, in the colour image; more than one image where masks overlap.
 std::vector<cv::Mat1w> mask_layers(const std::vector<Detection>& detections, cv::Size color_px) {
@@ -37,44 +37,80 @@ std::vector<cv::Mat1w> mask_layers(const std::vector<Detection>& detections, cv:
   return layers;
 }
 
+/// The believed colour camera, as plain numbers.
+struct ColorProjection {
+  explicit ColorProjection(const Calibration& believed)
+      : R(believed.T_color_depth.linear()),
+        t(believed.T_color_depth.translation()),
+        color(believed.color) {}
+
+  [[nodiscard]] double z_of(const Eigen::Vector3d& p) const {
+    return R(2, 0) * p.x() + R(2, 1) * p.y() + R(2, 2) * p.z() + t.z();
+  }
+
+  Eigen::Matrix3d R;
+  Eigen::Vector3d t;
+  CameraModel color;
+};
+
+/// The colour pixels that the pixels of a row of the depth image project to, or kNoPixel.
+MAPSCORE_WIDE_VECTORS
+void project_row(const ColorProjection& projection, const std::uint16_t* depth, const double* ray_x,
+                 double ray_y, std::size_t width, std::int32_t* pixels) {
+  const ColorProjection camera = projection;  // a copy: what is written cannot change it
+  const double columns = camera.color.width_px, rows = camera.color.height_px;
+  for (std::size_t u = 0; u < width; ++u) {
+    const double z = depth[u] / kDepthUnitsPerMetre, x = z * ray_x[u], y = z * ray_y;
+    const double x_color =
+        camera.R(0, 0) * x + camera.R(0, 1) * y + camera.R(0, 2) * z + camera.t.x();
+    const double y_color =
+        camera.R(1, 0) * x + camera.R(1, 1) * y + camera.R(1, 2) * z + camera.t.y();
+    const double z_color =
+        camera.R(2, 0) * x + camera.R(2, 1) * y + camera.R(2, 2) * z + camera.t.z();
+    // Half a pixel more, so that cutting off the fraction rounds.
+    double column = camera.color.fx_px * x_color / z_color + camera.color.cx_px + 0.5;
+    double row = camera.color.fy_px * y_color / z_color + camera.color.cy_px + 0.5;
+    const bool seen =
+        (z_color > 0) & (column >= 0) & (column < columns) & (row >= 0) & (row < rows);
+    column = seen ? column : 0.0;
+    row = seen ? row : 0.0;
+    const std::int32_t pixel =
+        static_cast<std::int32_t>(row) * camera.color.width_px + static_cast<std::int32_t>(column);
+    pixels[u] = seen ? pixel : kNoPixel;
+  }
+}
+
 /// Where the colour camera sees the depth pixels of a frame, by the believed calibration.
 class ColorView {
  public:
   explicit ColorView(const Sight& sight)
-      : sight_(sight),
-        believed_(sight.believed()),
-        R_(believed_.T_color_depth.linear()),
-        t_(believed_.T_color_depth.translation()),
-        rays_(believed_.depth) {}
+      : depth_(sight.depth()),
+        sources_(sight.cloud().sources()),
+        projection_(sight.believed()),
+        rays_(sight.believed().depth) {}
 
-  /// Index of the colour pixel that a depth pixel projects to, or kNoPixel.
-  [[nodiscard]] int pixel_of(int v, int u) const {
-    const Eigen::Vector3d p = in_color(v, u);
-    if (!(p.z() > 0)) return kNoPixel;
-    const CameraModel& camera = believed_.color;
-    const Eigen::Vector2d at = camera.project(p) + Eigen::Vector2d::Constant(0.5);
-    if (!(at.x() >= 0 && at.x() < camera.width_px && at.y() >= 0 && at.y() < camera.height_px))
-      return kNoPixel;
-    return static_cast<int>(at.y()) * camera.width_px + static_cast<int>(at.x());
+  /// The colour pixel of each pixel of a row of the depth image, or kNoPixel.
+  void read_row(int v, std::vector<std::int32_t>& pixels) const {
+    pixels.resize(static_cast<std::size_t>(depth_.cols));
+    project_row(projection_, depth_[v], rays_.x().data(), rays_.y()[static_cast<std::size_t>(v)],
+                pixels.size(), pixels.data());
   }
   /// Whether that colour pixel, of a mask, sees something nearer than this depth pixel.
-  [[nodiscard]] bool hides(int color_pixel, int v, int u) const {
-    const int source = sight_.cloud().sources().ptr<int>()[color_pixel];
-    if (source == RegisteredCloud::kNone) return false;
-    const int columns = sight_.depth().cols;
-    const double nearest = in_color(source / columns, source % columns).z();
-    return in_color(v, u).z() > (1 + static_cast<double>(kOneSurface)) * nearest;
+  [[nodiscard]] bool hides(std::int32_t color_pixel, int v, int u) const {
+    const int source = sources_.ptr<int>()[color_pixel];
+    if (source == RegisteredCloud::kNone || source == v * depth_.cols + u) return false;
+    return z_color(v, u) > (1 + static_cast<double>(kOneSurface)) *
+                               z_color(source / depth_.cols, source % depth_.cols);
   }
 
  private:
-  [[nodiscard]] Eigen::Vector3d in_color(int v, int u) const {
-    return R_ * rays_.point(u, v, sight_.depth()(v, u) / kDepthUnitsPerMetre) + t_;
+  [[nodiscard]] double z_color(int v, int u) const {
+    return projection_.z_of(rays_.point(u, v, depth_(v, u) / kDepthUnitsPerMetre));
   }
 
-  const Sight& sight_;
-  const Calibration& believed_;
-  Eigen::Matrix3d R_;
-  Eigen::Vector3d t_;
+  cv::Mat1w depth_;
+  cv::Mat1i sources_;
+  ColorProjection projection_;
   DepthRays rays_;
 };
 
@@ -113,17 +149,14 @@ class SegmentedFrame {
     const ColorView view(sight);
     masks_.assign(layers.size(), cv::Mat1w());
     for (cv::Mat1w& of_layer : masks_) of_layer = cv::Mat1w(sight.depth().size(), std::uint16_t{0});
-    for_segmented([&](int v, int u, int segment) {
-      const int pixel = view.pixel_of(v, u);
-      if (pixel == kNoPixel) return;
-      ++overlaps_.in_view(segment);
-      for (std::size_t layer = 0; layer < layers.size(); ++layer) {
-        const std::uint16_t owner = layers[layer].ptr<std::uint16_t>()[pixel];
-        if (owner == 0 || (layer == 0 && view.hides(pixel, v, u))) return;
-        masks_[layer](v, u) = owner;
-        ++overlaps_.shared(segment, owner - std::size_t{1});
+    std::vector<std::int32_t> pixels;
+    for (int v = 0; v < segments_.labels.rows; ++v) {
+      view.read_row(v, pixels);
+      for (int u = 0; u < segments_.labels.cols; ++u) {
+        const std::int32_t pixel = pixels[static_cast<std::size_t>(u)];
+        if (segments_.labels(v, u) != 0 && pixel != kNoPixel) find_masks(v, u, pixel, view, layers);
       }
-    });
+    }
   }
 
   /// Calls take(detection, v, u) for the pixels of segments that a mask covers; of several masks
@@ -157,6 +190,18 @@ class SegmentedFrame {
   }
 
  private:
+  /// Counts a depth pixel that projects into the colour image, and notes the masks that hold it.
+  void find_masks(int v, int u, std::int32_t pixel, const ColorView& view,
+                  const std::vector<cv::Mat1w>& layers) {
+    const int segment = segments_.labels(v, u);
+    ++overlaps_.in_view(segment);
+    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+      const std::uint16_t owner = layers[layer].ptr<std::uint16_t>()[pixel];
+      if (owner == 0 || (layer == 0 && view.hides(pixel, v, u))) return;
+      masks_[layer](v, u) = owner;
+      ++overlaps_.shared(segment, owner - std::size_t{1});
+    }
+  }
   [[nodiscard]] bool holds(std::size_t mask, int segment) {
     return overlaps_.shared(segment, mask) > share_ * overlaps_.in_view(segment);
   }

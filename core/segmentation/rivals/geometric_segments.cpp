@@ -3,7 +3,6 @@
 
 #include "core/segmentation/rivals/geometric_segments.hpp"
 
-#include "core/segmentation/rivals/surface_normals.hpp"
 #include "core/wide_vectors.hpp"
 
 #include <opencv2/imgproc.hpp>
@@ -42,10 +41,12 @@ cv::Mat1b discontinuities(const cv::Mat1f& depth_m, double share) {
 /// Rows of points and normals of pixels, some of which are compared with others.
 struct Row {
   const float *x, *y, *z, *nx, *ny, *nz;
+  const std::int32_t* has_normal;
 };
 
 /// Marks the pixels p of a row that a row of pixels q shows to be concave: q rises above the
-/// tangent plane at p, and their normals differ. Zero normals are none, and mark nothing.
+/// tangent plane at p, and their normals differ. Without a normal, which is (0, 0, 0), p has no q
+/// above it.
 MAPSCORE_WIDE_VECTORS
 void mark_concave(const Row& p, const Row& q, int count, float convexity, std::int32_t* concave) {
   const Row a = p, b = q;
@@ -53,11 +54,8 @@ void mark_concave(const Row& p, const Row& q, int count, float convexity, std::i
     const float rise =
         (b.x[u] - a.x[u]) * a.nx[u] + (b.y[u] - a.y[u]) * a.ny[u] + (b.z[u] - a.z[u]) * a.nz[u];
     const float cosine = a.nx[u] * b.nx[u] + a.ny[u] * b.ny[u] + a.nz[u] * b.nz[u];
-    const float both = (a.nx[u] * a.nx[u] + a.ny[u] * a.ny[u] + a.nz[u] * a.nz[u]) *
-                       (b.nx[u] * b.nx[u] + b.ny[u] * b.ny[u] + b.nz[u] * b.nz[u]);
     concave[u] |= static_cast<std::int32_t>(rise >= kConcaveRise_m) &
-                  static_cast<std::int32_t>(cosine <= convexity) &
-                  static_cast<std::int32_t>(both > 0.5F);
+                  static_cast<std::int32_t>(cosine <= convexity) & b.has_normal[u];
   }
 }
 
@@ -67,10 +65,14 @@ cv::Mat1b concavities(const VectorImage& points, const VectorImage& normals, dou
   const int columns = points.z.cols, rows = points.z.rows;
   cv::Mat1b marked(rows, columns, std::uint8_t{0});
   if (columns == 0) return marked;
+  cv::Mat1i has_normal(rows, columns);
+  for (int v = 0; v < rows; ++v)
+    for (int u = 0; u < columns; ++u)
+      has_normal(v, u) = (normals.x(v, u) != 0) | (normals.y(v, u) != 0) | (normals.z(v, u) != 0);
   std::vector<std::int32_t> concave(static_cast<std::size_t>(columns));
   const auto row_at = [&](int v, int u) {
-    return Row{points.x[v] + u,  points.y[v] + u,  points.z[v] + u,
-               normals.x[v] + u, normals.y[v] + u, normals.z[v] + u};
+    return Row{points.x[v] + u,  points.y[v] + u,  points.z[v] + u,  normals.x[v] + u,
+               normals.y[v] + u, normals.z[v] + u, has_normal[v] + u};
   };
   for (int v = 0; v < rows; ++v) {
     std::ranges::fill(concave, 0);
@@ -131,24 +133,23 @@ int nearest_piece(const cv::Mat1i& pieces, const VectorImage& points, int u, int
 
 }  // namespace
 
-cv::Mat1b geometric_edges(const cv::Mat1f& depth_m, const CameraModel& camera,
+cv::Mat1b geometric_edges(const VectorImage& points, const CameraModel& camera,
                           const GeometricParams& params) {
-  cv::Mat1b edges = discontinuities(depth_m, params.discontinuity);
-  cv::Mat1b concave =
-      concavities(points_of(depth_m, camera),
-                  surface_normals(depth_m, camera, params.normal_window_px), params.convexity);
+  cv::Mat1b edges = discontinuities(points.z, params.discontinuity);
+  cv::Mat1b concave = concavities(
+      points, surface_normals(points.z, camera, params.normal_window_px), params.convexity);
   close_gaps(edges);
   close_gaps(concave);
   edges |= concave;
-  edges.setTo(255, depth_m == 0);
+  edges.setTo(255, points.z == 0);
   return edges;
 }
 
 GeometricSegments geometric_segments(const cv::Mat1f& depth_m, const CameraModel& camera,
                                      const GeometricParams& params) {
-  const GeometricSegments pieces =
-      pieces_between(geometric_edges(depth_m, camera, params), params.min_segment_px);
   const VectorImage points = points_of(depth_m, camera);
+  const GeometricSegments pieces =
+      pieces_between(geometric_edges(points, camera, params), params.min_segment_px);
   GeometricSegments segments{pieces.labels.clone(), pieces.count};
   for (int v = 0; v < depth_m.rows; ++v)
     for (int u = 0; u < depth_m.cols; ++u)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/geometry/camera.hpp"
+#include "core/segmentation/rivals/surface_normals.hpp"
 
 #include <opencv2/core.hpp>
 
@@ -25,7 +26,7 @@ struct GeometricSegments {
 
 /// Pixels where a depth image steps, or where two surfaces meet in a concave edge, or without
 /// depth: 255; 0 elsewhere. The first half of geometric_segments.
-[[nodiscard]] cv::Mat1b geometric_edges(const cv::Mat1f& depth_m, const CameraModel& camera,
+[[nodiscard]] cv::Mat1b geometric_edges(const VectorImage& points, const CameraModel& camera,
                                         const GeometricParams& params);
 
 /// The geometric segmentation of Furrer et al. (IROS 2018), as ethz-asl/depth_segmentation does it

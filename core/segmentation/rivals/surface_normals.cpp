@@ -80,7 +80,8 @@ VectorImage surface_normals(const cv::Mat1f& depth_m, const CameraModel& camera,
   const int half = window_px / 2;
   along_row.sum({window_px - 1, window_px}, {half, half});
   along_column.sum({window_px, window_px - 1}, {half, half});
-  VectorImage normals{cv::Mat1f(size), cv::Mat1f(size), cv::Mat1f(size)};
+  // The slopes' images become the normals': fresh memory costs more than what is computed.
+  VectorImage normals{along_row.rise, along_column.rise, w};
   const DepthRays rays(camera);
   const auto fx = static_cast<float>(camera.fx_px), fy = static_cast<float>(camera.fy_px);
   for (int v = 0; v < size.height; ++v) {

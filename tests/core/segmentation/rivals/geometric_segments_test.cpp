@@ -4,7 +4,6 @@
 #include "core/segmentation/rivals/geometric_segments.hpp"
 
 #include "core/random_stream.hpp"
-#include "core/segmentation/rivals/surface_normals.hpp"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -118,7 +117,7 @@ TEST(GeometricSegments, EdgesEqualThePlainFormOnRandomSurfaces) {
     const VectorImage points = points_of(depth_m, kNarrow);
     const VectorImage normals = surface_normals(depth_m, kNarrow, 3);
     cv::Mat1b steps(depth_m.size(), std::uint8_t{0});
-    const cv::Mat1b found = geometric_edges(depth_m, kNarrow, kNarrowParams);
+    const cv::Mat1b found = geometric_edges(points, kNarrow, kNarrowParams);
     for (int v = 0; v < depth_m.rows; ++v)
       for (int u = 0; u < depth_m.cols; ++u)
         if (plain_edge(depth_m, points, normals, u, v)) {
