@@ -5,6 +5,8 @@
 
 #include "core/segmentation/occupied_centres.hpp"
 
+#include <utility>
+
 namespace mapscore {
 
 std::vector<Eigen::Vector3d> points_behind(const cv::Mat1b& mask, const PixelBox& box,
@@ -17,13 +19,17 @@ std::vector<Eigen::Vector3d> points_behind(const cv::Mat1b& mask, const PixelBox
   return points;
 }
 
-Segment segment_of(const cv::Mat1b& mask, const PixelBox& box, const RegisteredCloud& cloud,
-                   double voxel_m, bool with_voxels) {
+Segment segment_of(std::vector<Eigen::Vector3d> points, double voxel_m, bool with_voxels) {
   Segment segment;
-  segment.points = points_behind(mask, box, cloud);
+  segment.points = std::move(points);
   if (segment.points.empty()) segment.skipped = SkipReason::no_points;
   if (with_voxels) segment.voxel_centres = occupied_centres(segment.points, voxel_m);
   return segment;
+}
+
+Segment segment_of(const cv::Mat1b& mask, const PixelBox& box, const RegisteredCloud& cloud,
+                   double voxel_m, bool with_voxels) {
+  return segment_of(points_behind(mask, box, cloud), voxel_m, with_voxels);
 }
 
 Segment Direct::segment(const Detection& detection, const RegisteredCloud& cloud, double voxel_m,

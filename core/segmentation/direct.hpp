@@ -31,6 +31,10 @@ struct Direct {
 [[nodiscard]] std::vector<Eigen::Vector3d> points_behind(const cv::Mat1b& mask, const PixelBox& box,
                                                          const RegisteredCloud& cloud);
 
+/// The segment that consists of these points.
+[[nodiscard]] Segment segment_of(std::vector<Eigen::Vector3d> points, double voxel_m,
+                                 bool with_voxels);
+
 /// The segment of these pixels of a detection.
 [[nodiscard]] Segment segment_of(const cv::Mat1b& mask, const PixelBox& box,
                                  const RegisteredCloud& cloud, double voxel_m, bool with_voxels);

@@ -8,6 +8,9 @@
 #include "core/segmentation/erosion.hpp"
 #include "core/segmentation/growing/region_growing.hpp"
 #include "core/segmentation/plugged_segmentation.hpp"
+#include "core/segmentation/rivals/dbscan.hpp"
+#include "core/segmentation/rivals/depth_segments.hpp"
+#include "core/segmentation/rivals/largest_component.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/sight.hpp"
 
@@ -18,7 +21,8 @@ namespace mapscore {
 
 /// How objects are cut out of a frame (docs/methods.md). A kind is a struct of its parameters with
 /// a member `segment`, of one detection and the registered cloud, or of a whole frame.
-using Segmentation = std::variant<Direct, Erosion, RegionGrowing, EdgeAligned, PluggedSegmentation>;
+using Segmentation = std::variant<Direct, Erosion, RegionGrowing, EdgeAligned, LargestComponent,
+                                  Dbscan, DepthSegments, PluggedSegmentation>;
 
 /// A kind that takes one detection by itself.
 template <class Kind>

@@ -35,8 +35,10 @@ class SegmentFrame : public TinyStudy {
 };
 
 TEST_F(SegmentFrame, EveryMethodWritesPointsVoxelsAndBoxes) {
-  for (const std::string method : {"direct", "erosion", "region_growing", "edge_aligned"}) {
+  for (const std::string method : {"direct", "erosion", "region_growing", "edge_aligned",
+                                   "largest_component", "dbscan", "depth_segments"}) {
     std::vector<std::string> flags{"--method", method};
+    if (method == "depth_segments") flags.insert(flags.end(), {"--min_segment_px", "20"});
     if (method == "erosion") flags.insert(flags.end(), {"--radius_px", "1"});
     const Outcome outcome = segment(method, flags);
     expect_done(outcome);

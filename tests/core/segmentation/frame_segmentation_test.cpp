@@ -114,11 +114,13 @@ TEST_P(FrameSegmentation, HandMadeDetectionsNeedNotKnowTheirImage) {
   EXPECT_EQ(segments(detections)[0].points, expected[0].points);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, FrameSegmentation,
-                         ::testing::Values(Method{"direct", Direct{}},
-                                           Method{"erosion", Erosion{1}},
-                                           Method{"region_growing", RegionGrowing{}},
-                                           Method{"edge_aligned", EdgeAligned{}}));
+INSTANTIATE_TEST_SUITE_P(
+    Methods, FrameSegmentation,
+    ::testing::Values(Method{"direct", Direct{}}, Method{"erosion", Erosion{1}},
+                      Method{"region_growing", RegionGrowing{}},
+                      Method{"edge_aligned", EdgeAligned{}},
+                      Method{"largest_component", LargestComponent{}}, Method{"dbscan", Dbscan{}},
+                      Method{"depth_segments", DepthSegments{.min_segment_px = 50}}));
 
 }  // namespace
 }  // namespace mapscore

@@ -70,6 +70,9 @@ TEST_F(Runner, ResultsOfAllKindsOfTrialsDoNotDependOnJobs) {
   const Plan all =
       plan(testing::study_of("  grown: {segmentation: {region_growing: {}}, fusion: {bayes: {}}}\n"
                              "  aligned: {segmentation: {edge_aligned: {}}}\n"
+                             "  component: {segmentation: {largest_component: {}}}\n"
+                             "  cluster: {segmentation: {dbscan: {}}}\n"
+                             "  segments: {segmentation: {depth_segments: {min_segment_px: 20}}}\n"
                              "  refined: {segmentation: {direct: {}}, refinement: {crf: {}}}\n"
                              "fusion: {blend: {N: 3, decay: view}}\n"
                              "occupancy: {carve: true}\n"

@@ -182,6 +182,8 @@ const std::vector<std::string> kTexts{
     "truth",
     "tracking",
     "global",
+    "all",
+    "votes",
     "likelihood_field",
     "beam",
     "white",
