@@ -4,6 +4,7 @@
 #include "core/segmentation/edge_aligned/surface_vote.hpp"
 
 #include "core/segmentation/edge_aligned/filled_slits.hpp"
+#include "core/segmentation/edge_aligned/near_holes.hpp"
 
 #include <opencv2/imgproc.hpp>
 
@@ -23,7 +24,6 @@ constexpr float kLeastVote = 0.05F;
 constexpr float kHiddenVote = 0.2F;  // against every object
 constexpr float kGrown_px = 0.5F;    // from here on masks may have filled slits
 constexpr int kRounds = 3;
-constexpr int kWideHole_px = 9;
 constexpr float kShare = 0.8F;       // of the votes; only where a surface goes on does it trim
 constexpr float kLeastSteps = 0.1F;  // share of an object's rim that must be depth steps
 
@@ -82,13 +82,10 @@ class Voting {
       }
   }
 
-  /// A wide hole of the depth image may be an object nearer than the sensor's range: it hides what
-  /// the colour camera has behind it, wherever between the least depth and half of it the object
-  /// stands.
+  /// An object nearer than the sensor's range hides what the colour camera has behind it, wherever
+  /// between the least depth and half of it the object stands.
   void hide_behind_holes(cv::Mat1f& hit) const {
-    cv::Mat1b hole = edges_.inverse_depth == 0.0F;
-    cv::erode(hole, hole, cv::Mat(kWideHole_px, kWideHole_px, CV_8U, cv::Scalar(1)), {-1, -1}, 1,
-              cv::BORDER_REPLICATE);
+    const cv::Mat1b hole = near_holes(edges_.inverse_depth, believed_.range_min_m);
     if (cv::countNonZero(hole) == 0) return;
     Calibration mended = believed_;
     mended.T_color_depth.linear() =

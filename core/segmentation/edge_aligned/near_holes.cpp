@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/edge_aligned/near_holes.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace mapscore {
+namespace {
+
+constexpr int kWideHole_px = 9;
+constexpr double kNearRange = 1.3;  // in least ranges, of a surface that runs on into a near object
+
+cv::Mat1b square_px(int edge_px) {
+  return cv::Mat1b(edge_px, edge_px, std::uint8_t{1});
+}
+
+}  // namespace
+
+cv::Mat1b near_holes(const cv::Mat1f& inverse_depth, double range_min_m) {
+  const cv::Mat1b hole = inverse_depth == 0.0F;
+  cv::Mat1b wide;
+  cv::erode(hole, wide, square_px(kWideHole_px), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  if (cv::countNonZero(wide) == 0) return wide;
+  cv::Mat1i components;
+  const int count = cv::connectedComponents(hole, components);
+  cv::Mat1b beside_near;
+  cv::dilate(inverse_depth > 1.0 / (kNearRange * range_min_m), beside_near, square_px(3));
+  std::vector<char> is_near(static_cast<std::size_t>(count), 0);
+  for (int v = 0; v < hole.rows; ++v)
+    for (int u = 0; u < hole.cols; ++u)
+      if (v + 1 == hole.rows || beside_near(v, u))
+        is_near[static_cast<std::size_t>(components(v, u))] = 1;
+  for (int v = 0; v < hole.rows; ++v)
+    for (int u = 0; u < hole.cols; ++u)
+      if (!is_near[static_cast<std::size_t>(components(v, u))]) wide(v, u) = 0;
+  return wide;
+}
+
+}  // namespace mapscore
