@@ -54,8 +54,9 @@ enum class Tracking {
   beside,     ///< most of what the frame shows is new, as expected: scan and prior
   blind,      ///< hardly any depth: by the prior alone, whose uncertainty adds up
   lost,       ///< what should be seen is not there: by the prior alone, with a jump in uncertainty
-  restarted,  ///< lost for some frames: a new map begins, at the uncertain pose
-  relocated   ///< found again, by a key frame that looks alike
+  restarted,  ///< lost for some frames, or what it sees contradicts earlier key frames: a new map
+              ///< begins, at the uncertain pose
+  relocated   ///< the same, and a key frame is found that looks alike: there
 };
 constexpr auto names_of(Tracking) {
   return std::to_array<std::string_view>({"started", "tracked", "slipped", "unsure", "beside",
@@ -125,8 +126,10 @@ class VisualOdometry {
   OdometryStep place(const OdometryFrame& frame);
   /// Until an image has depth the wheels carry; with it the map begins where they say.
   void begin(DepthScan scan, const OdometryFrame& frame, OdometryStep& step);
+  /// A way back by a key frame that looks alike; else a new map after `most_lost` lost images.
   void recover(const DepthScan& scan, const OdometryFrame& frame, OdometryStep& step,
                int most_lost);
+  /// The last key frames of the map that the robot is in.
   [[nodiscard]] std::span<const KeyFrame> keys_of_map() const;
   OdometryStep placed(OdometryStep step, const State& state);
   /// Of matches from several turns, and the first one, that with most of its upright points on
