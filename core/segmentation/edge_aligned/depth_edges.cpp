@@ -4,6 +4,7 @@
 #include "core/segmentation/edge_aligned/depth_edges.hpp"
 
 #include "core/geometry/depth_rays.hpp"
+#include "core/segmentation/edge_aligned/near_holes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@ namespace {
 constexpr float kLeastStep = 0.002F;  // 1/m: 8 mm at 2 m
 constexpr float kStepSigmas = 4.0F;
 constexpr int kWidestGap = 24;
+constexpr double kShareOfRange = 0.9;  // surfaces farther than this may end because the range does
 
 cv::Mat1f inverse_of(const cv::Mat1w& depth, const Calibration& believed) {
   cv::Mat1f inverse(depth.rows, depth.cols);
@@ -65,6 +67,8 @@ class EdgeFinder {
       : camera_(believed.depth), rays_(believed.depth) {
     edges_.inverse_depth = inverse_of(depth, believed);
     edges_.noise = noise_of(edges_.inverse_depth);
+    edges_.near_holes = near_holes(edges_.inverse_depth, believed.range_min_m);
+    farthest_ = static_cast<float>(1.0 / (kShareOfRange * believed.range_max_m));
     tau_ = std::max(kLeastStep, kStepSigmas * edges_.noise);
     edges_.right = cv::Mat1f(depth.rows, depth.cols, 0.0F);
     edges_.down = cv::Mat1f(depth.rows, depth.cols, 0.0F);
@@ -80,18 +84,25 @@ class EdgeFinder {
       int last = -1;
       for (int u = 0; u < w.cols; ++u) {
         if (!(row[u] > 0)) continue;
+        if (u - last > kWidestGap) beside_hole_in_row(v, last, u);
         if (last >= 0 && last == u - 1 && std::abs(row[u] - row[last]) <= tau_)
           right[last] = 1.0F;
         else if (last >= 0)
           across_row(v, last, u);
         last = u;
         int& above = last_row_[static_cast<std::size_t>(u)];
+        if (v - above > kWidestGap) beside_hole_in_column(u, above, v);
         if (above >= 0 && above == v - 1 && std::abs(row[u] - above_row[u]) <= tau_)
           down[u] = 1.0F;
         else if (above >= 0)
           across_column(u, above, v);
         above = v;
       }
+      if (w.cols - last > kWidestGap) beside_hole_in_row(v, last, w.cols);
+    }
+    for (int u = 0; u < w.cols; ++u) {
+      const int last = last_row_[static_cast<std::size_t>(u)];
+      if (w.rows - last > kWidestGap) beside_hole_in_column(u, last, w.rows);
     }
     return std::move(edges_);
   }
@@ -126,6 +137,21 @@ class EdgeFinder {
       add(u, q - 0.5, w(q, u), Outward::up, strength);
   }
 
+  /// A hole of a row that begins after column p and ends before q, either perhaps the border.
+  void beside_hole_in_row(int v, int p, int q) {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    if (edges_.near_holes(v, (p + q) / 2) != 0) return;
+    if (p >= 0 && w(v, p) > farthest_) add(p + 0.5, v, w(v, p), Outward::right, 1.0F);
+    if (q < w.cols && w(v, q) > farthest_) add(q - 0.5, v, w(v, q), Outward::left, 1.0F);
+  }
+
+  void beside_hole_in_column(int u, int p, int q) {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    if (edges_.near_holes((p + q) / 2, u) != 0) return;
+    if (p >= 0 && w(p, u) > farthest_) add(u, p + 0.5, w(p, u), Outward::down, 1.0F);
+    if (q < w.rows && w(q, u) > farthest_) add(u, q - 0.5, w(q, u), Outward::up, 1.0F);
+  }
+
   [[nodiscard]] float strength_of(float step) const {
     return std::clamp((step - tau_) / (2 * tau_), 0.0F, 1.0F);
   }
@@ -137,7 +163,7 @@ class EdgeFinder {
 
   CameraModel camera_;
   DepthRays rays_;
-  float tau_ = 0;
+  float tau_ = 0, farthest_ = 0;
   std::vector<int> last_row_;  ///< by column: the last row with a depth
   DepthEdges edges_;
 };

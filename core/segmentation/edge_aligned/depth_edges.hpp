@@ -27,6 +27,7 @@ struct DepthEdge {
 struct DepthEdges {
   cv::Mat1f inverse_depth;       ///< 1 / z in 1/m; 0 where there is no usable depth
   float noise = 0;               ///< standard deviation of inverse_depth, 1/m
+  cv::Mat1b near_holes;          ///< 255 where something nearer than the range may stand
   cv::Mat1f right, down;         ///< continuity to the next pixel of the row, of the column: 0 to 1
   std::vector<DepthEdge> steps;  ///< row-major, rows before columns of a pixel
 };
@@ -36,7 +37,10 @@ struct DepthEdges {
 /// from the line through q's side, the lesser of the two: e = min(|w_q - 2 w_p + w_p'|, |w_p - 2
 /// w_q + w_q'|). strength = (e - tau) / (2 tau), limited to 0 and 1; tau = max(0.002 / m, 4 sigma),
 /// sigma the noise of w as the image's own second differences show it. Depths outside the camera's
-/// range are none. A gap of up to 24 pixels without depth is stepped over.
+/// range are none. A gap of up to 24 pixels without depth is stepped over. Behind a wider one, or
+/// one that reaches the image's border, lies nothing within the range unless it is a near hole
+/// (near_holes.hpp): the surfaces at its ends are edges of strength 1, but those beyond 0.9 of the
+/// range, which may end there because the range does.
 [[nodiscard]] DepthEdges find_depth_edges(const cv::Mat1w& depth, const Calibration& believed);
 
 }  // namespace mapscore

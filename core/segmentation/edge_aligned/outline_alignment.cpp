@@ -21,10 +21,11 @@ constexpr float kStepM = 0.005F;  // between shifts that are tried
 constexpr float kReachM = 0.06F;
 constexpr float kApartPx = 8.0F;  // between the turns that are kept for the fine fit
 
-constexpr float kNearest_m = 0.05F;   // from the colour camera
-constexpr float kLeastScore = 0.15F;  // below, the edges show nothing of the masks
+constexpr float kNearest_m = 0.05F;     // from the colour camera
+constexpr float kLeastScore = 0.15F;    // below, the edges show nothing of the masks,
+constexpr float kLeastLength_px = 100;  // unless they lie on so much of a long outline
 constexpr float kLabelOffset_px = 3.5F;
-constexpr float kPrior = 0.2F;
+constexpr float kPrior = 3.0F;
 constexpr float kCost = 0.03F;       // share of the outline that 20 px, or an offset of 4 px, cost
 constexpr float kShort_px = 150.0F;  // and as much of an outline of this length again
 
@@ -73,7 +74,9 @@ class Aligner {
     refine(best, 2.0F, 2, kFineEdges, Parameters::Ones());
     refine(best, 1.2F, 4, kFineEdges, Parameters::Ones());
     best.score = fine_score(best, 1.5F);
-    if (best.score < kLeastScore) return {};
+    if (best.score < kLeastScore &&
+        best.score * static_cast<float>(field_.length_px) < kLeastLength_px)
+      return {};
     best.sharpness = fine_score(best, 1.2F) / std::max(fine_score(best, 4.0F), 1e-6F);
     return best;
   }
@@ -220,6 +223,7 @@ class Aligner {
     for (int step = 0; step < steps; ++step) {
       Eigen::Matrix<float, 5, 5> H = Eigen::Matrix<float, 5, 5>::Zero();
       Parameters b = Parameters::Zero();
+      float matched = 0, squares = 0;  // of weights, of weighted squared residuals
       for (std::size_t n = 0; n < edges_.size(); n += stride) {
         const Match m = match(edges_[n], a, sigma);
         if (m.weight <= 0) continue;
@@ -228,6 +232,7 @@ class Aligner {
         Parameters J;
         J << (-gu * x * y - gv * (1 + y * y)) / project_.fx,
             (gu * (1 + x * x) + gv * x * y) / project_.fx, gu / m.p.z(), gv / m.p.z(), -1.0F;
+        matched += m.weight, squares += m.weight * m.residual * m.residual;
         H.noalias() += m.weight * J * J.transpose();
         b.noalias() -= m.weight * m.residual * J;
       }
@@ -240,7 +245,9 @@ class Aligner {
       Parameters prior;
       prior << 1 / square(20.0F), 1 / square(20.0F), 1 / square(0.03F), 1 / square(0.03F),
           1 / square(4.0F);
-      prior *= kPrior * (static_cast<float>(field_.length_px) + kShort_px);
+      // Outlines that scatter about the edges, as ragged masks do, measure less than sharp ones.
+      const float scatter = matched > 0 ? squares / (matched * square(sigma)) : 1.0F;
+      prior *= kPrior * square(scatter) * (scale * matched + kShort_px);
       H.diagonal() += prior;
       b -= prior.cwiseProduct(now);
       H = free.asDiagonal() * H * free.asDiagonal();

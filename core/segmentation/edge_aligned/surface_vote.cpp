@@ -4,7 +4,6 @@
 #include "core/segmentation/edge_aligned/surface_vote.hpp"
 
 #include "core/segmentation/edge_aligned/filled_slits.hpp"
-#include "core/segmentation/edge_aligned/near_holes.hpp"
 
 #include <opencv2/imgproc.hpp>
 
@@ -19,13 +18,14 @@ namespace {
 constexpr float kHidden = 0.015F;   // share of inverse depth by which a hidden pixel lies behind
 constexpr float kSlopes = 2.0F;     // pixels that a surface may rise by itself
 constexpr float kNoise = 4.0F;      // sigmas that it may be off
-constexpr float kSureAt_px = 3.0F;  // from the outline a pixel's vote has full weight
+constexpr float kSureAt_px = 2.0F;  // from the outline a pixel's vote has full weight
 constexpr float kLeastVote = 0.05F;
 constexpr float kHiddenVote = 0.2F;  // against every object
 constexpr float kGrown_px = 0.5F;    // from here on masks may have filled slits
 constexpr int kRounds = 3;
-constexpr float kShare = 0.8F;       // of the votes; only where a surface goes on does it trim
-constexpr float kLeastSteps = 0.1F;  // share of an object's rim that must be depth steps
+constexpr float kShare = 0.8F;  // of the votes; only where a surface goes on does it trim
+/// Of a vote for another object: the share is reached by half of two objects' votes.
+constexpr float kOtherVote = (1 - kShare) / kShare;
 
 /// What the masks say of each depth pixel.
 struct Votes {
@@ -85,7 +85,7 @@ class Voting {
   /// An object nearer than the sensor's range hides what the colour camera has behind it, wherever
   /// between the least depth and half of it the object stands.
   void hide_behind_holes(cv::Mat1f& hit) const {
-    const cv::Mat1b hole = near_holes(edges_.inverse_depth, believed_.range_min_m);
+    const cv::Mat1b& hole = edges_.near_holes;
     if (cv::countNonZero(hole) == 0) return;
     Calibration mended = believed_;
     mended.T_color_depth.linear() =
@@ -122,16 +122,6 @@ class Voting {
     }
     hide_behind_holes(hit);
     cv::dilate(hit, nearest_, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
-  }
-
-  /// Between the two images, of the nearest and the farthest point. A mask that is wider than that
-  /// cannot have its whole object behind something that the colour camera looks past.
-  [[nodiscard]] float largest_parallax_px() const {
-    const Eigen::Vector3f t =
-        alignment_.rotation * believed_.T_color_depth.translation().cast<float>() +
-        alignment_.translation;
-    return static_cast<float>(believed_.color.fx_px) * t.head<2>().norm() /
-           static_cast<float>(believed_.range_min_m);
   }
 
   Votes collect() {
@@ -229,23 +219,6 @@ void smooth(cv::Mat2f& votes, const cv::Mat1f& right, const cv::Mat1f& down, flo
   }
 }
 
-/// True when hardly any of the rim of an object, where depth is known on both sides, is a depth
-/// step: a mask whose object the depth camera cannot see, painted on what lies behind.
-bool lacks_steps(const cv::Mat1w& labels, std::uint16_t label, const cv::Rect& box,
-                 const DepthEdges& edges) {
-  float rim = 0, steps = 0;
-  for (int v = box.y; v + 1 < box.y + box.height; ++v)
-    for (int u = box.x; u + 1 < box.x + box.width; ++u) {
-      const bool own = labels(v, u) == label;
-      if (!(edges.inverse_depth(v, u) > 0)) continue;
-      if (own != (labels(v, u + 1) == label) && edges.inverse_depth(v, u + 1) > 0)
-        rim += 1, steps += 1 - edges.right(v, u);
-      if (own != (labels(v + 1, u) == label) && edges.inverse_depth(v + 1, u) > 0)
-        rim += 1, steps += 1 - edges.down(v, u);
-    }
-  return rim > 0 && steps < kLeastSteps * rim;
-}
-
 }  // namespace
 
 cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
@@ -259,13 +232,10 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
   const cv::Size size = votes.owner.size();
   cv::Mat1w labels(size, std::uint16_t{0});
   std::vector<cv::Rect> boxes(detections + 1);
-  std::vector<float> deepest(detections + 1, 0.0F);
-  const float parallax_px = voting.largest_parallax_px();
   const int margin = static_cast<int>(std::ceil(2.0 * reach_px)) + 2;
   for (int v = 0; v < size.height; ++v)
     for (int u = 0; u < size.width; ++u)
       if (votes.depth_in(v, u) > 0 && votes.owner(v, u) != 0) {
-        deepest[votes.owner(v, u)] = std::max(deepest[votes.owner(v, u)], votes.depth_in(v, u));
         cv::Rect& box = boxes[votes.owner(v, u)];
         box = box.empty() ? cv::Rect(u, v, 1, 1) : box | cv::Rect(u, v, 1, 1);
       }
@@ -279,8 +249,9 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
       for (int u = 0; u < box.width; ++u) {
         const int row = v + box.y, column = u + box.x;
         const float weight = votes.weight(row, column);
-        const bool inside = votes.owner(row, column) == n && votes.depth_in(row, column) > 0;
-        sums(v, u) = {inside ? weight : 0.0F, weight};
+        const bool in_mask = votes.owner(row, column) != 0 && votes.depth_in(row, column) > 0;
+        const bool inside = in_mask && votes.owner(row, column) == n;
+        sums(v, u) = {inside ? weight : 0.0F, in_mask && !inside ? kOtherVote * weight : weight};
       }
     smooth(sums, edges.right(box), edges.down(box), static_cast<float>(reach_px));
     for (int v = 0; v < box.height; ++v)
@@ -288,8 +259,6 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
         if (sums(v, u)[0] > kShare * sums(v, u)[1] && sums(v, u)[1] > 1e-4F &&
             edges.inverse_depth(v + box.y, u + box.x) > 0)
           labels(v + box.y, u + box.x) = static_cast<std::uint16_t>(n);
-    if (deepest[n] < parallax_px && lacks_steps(labels, static_cast<std::uint16_t>(n), box, edges))
-      labels(box).setTo(0, labels(box) == static_cast<double>(n));
   }
   return labels;
 }
