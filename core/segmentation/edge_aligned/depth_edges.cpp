@@ -3,7 +3,6 @@
 
 #include "core/segmentation/edge_aligned/depth_edges.hpp"
 
-#include "core/geometry/depth_rays.hpp"
 #include "core/segmentation/edge_aligned/near_holes.hpp"
 
 #include <algorithm>
@@ -63,8 +62,7 @@ float step_between(float before, float p, float q, float after, int gap) {
 
 class EdgeFinder {
  public:
-  EdgeFinder(const cv::Mat1w& depth, const Calibration& believed)
-      : camera_(believed.depth), rays_(believed.depth) {
+  EdgeFinder(const cv::Mat1w& depth, const Calibration& believed) : camera_(believed.depth) {
     edges_.inverse_depth = inverse_of(depth, believed);
     edges_.noise = noise_of(edges_.inverse_depth);
     edges_.near_holes = near_holes(edges_.inverse_depth, believed.range_min_m);
@@ -162,7 +160,6 @@ class EdgeFinder {
   }
 
   CameraModel camera_;
-  DepthRays rays_;
   float tau_ = 0, farthest_ = 0;
   std::vector<int> last_row_;  ///< by column: the last row with a depth
   DepthEdges edges_;
