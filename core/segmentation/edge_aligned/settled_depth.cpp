@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -43,8 +44,13 @@ struct PlaneSums {
   }
 };
 
-PlaneSums sums_about(const cv::Mat1f& inverse, const cv::Mat1w& labels, int v, int u,
-                     float within) {
+/// How much w rises from pixel to pixel.
+struct WindowSlope {
+  float du = 0, dv = 0;
+};
+
+PlaneSums sums_about(const cv::Mat1f& inverse, const cv::Mat1w& labels, int v, int u, float within,
+                     const WindowSlope& slope) {
   PlaneSums sums;
   const std::uint16_t own = labels(v, u);
   const float here = inverse(v, u);
@@ -56,12 +62,42 @@ PlaneSums sums_about(const cv::Mat1f& inverse, const cv::Mat1w& labels, int v, i
     for (int x = left; x <= right; ++x) {
       if (label[x] != own) continue;
       ++sums.labelled;
+      const float du = static_cast<float>(x - u), dv = static_cast<float>(y - v);
       const float rise = w[x] - here;
-      if (std::abs(rise) <= within)
-        sums.add(static_cast<float>(x - u), static_cast<float>(y - v), rise);
+      if (std::abs(rise - slope.du * du - slope.dv * dv) <= within) sums.add(du, dv, rise);
     }
   }
   return sums;
+}
+
+float median_of(float* first, float* last) {
+  if (first == last) return 0.0F;
+  float* const middle = first + (last - first) / 2;
+  std::nth_element(first, middle, last);
+  return *middle;
+}
+
+/// Medians over pairs of neighbours of the label in the window.
+WindowSlope slope_about(const cv::Mat1f& inverse, const cv::Mat1w& labels, int v, int u) {
+  constexpr int kSide = 2 * kReach_px + 1;
+  std::array<float, kSide * kSide> across, down;
+  float *end_across = across.data(), *end_down = down.data();
+  const std::uint16_t own = labels(v, u);
+  const int top = std::max(v - kReach_px, 0), bottom = std::min(v + kReach_px, labels.rows - 1);
+  const int left = std::max(u - kReach_px, 0), right = std::min(u + kReach_px, labels.cols - 1);
+  for (int y = top; y <= bottom; ++y)
+    for (int x = left; x <= right; ++x) {
+      if (labels(y, x) != own) continue;
+      if (x < right && labels(y, x + 1) == own) *end_across++ = inverse(y, x + 1) - inverse(y, x);
+      if (y < bottom && labels(y + 1, x) == own) *end_down++ = inverse(y + 1, x) - inverse(y, x);
+    }
+  return {median_of(across.data(), end_across), median_of(down.data(), end_down)};
+}
+
+/// Whether enough of the label's pixels lie near the fitted surface.
+bool is_on_surface(const PlaneSums& sums) {
+  return sums.near >= kLeast &&
+         static_cast<float>(sums.near) >= kLeastShare * static_cast<float>(sums.labelled);
 }
 
 }  // namespace
@@ -77,12 +113,14 @@ cv::Mat1f settle_on_surfaces(const DepthEdges& edges, cv::Mat1w& labels) {
   for (int v = 0; v < given.rows; ++v)
     for (int u = 0; u < given.cols; ++u) {
       if (given(v, u) == 0) continue;
-      const PlaneSums sums = sums_about(inverse, given, v, u, kSigmas * edges.noise);
-      const float share = static_cast<float>(sums.near) / static_cast<float>(sums.labelled);
-      if (sums.near < kLeast || share < kLeastShare)
-        labels(v, u) = 0;
-      else
+      const float within = kSigmas * edges.noise;
+      PlaneSums sums = sums_about(inverse, given, v, u, within, {});
+      if (!is_on_surface(sums))  // or it slopes
+        sums = sums_about(inverse, given, v, u, within, slope_about(inverse, given, v, u));
+      if (is_on_surface(sums))
         settled(v, u) = inverse(v, u) + sums.at_pixel();
+      else
+        labels(v, u) = 0;
     }
   return settled;
 }

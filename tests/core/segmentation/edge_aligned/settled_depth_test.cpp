@@ -19,17 +19,19 @@ struct Slant {
   DepthEdges edges;
   cv::Mat1w labels = cv::Mat1w(60, 80);
 
-  static float truth(int v, int u) {
-    return 0.4F + 0.0003F * static_cast<float>(u) - 0.0002F * static_cast<float>(v);
+  /// `steepness`: how often as steep it is as it would be by default.
+  static float truth(int v, int u, float steepness = 1.0F) {
+    return 0.4F + steepness * (0.0003F * static_cast<float>(u) - 0.0002F * static_cast<float>(v));
   }
 
-  explicit Slant(float noise) {
+  explicit Slant(float noise, float steepness = 1.0F) {
     RandomStream random(7, "test", {});
     edges.noise = noise;
     edges.inverse_depth = cv::Mat1f(60, 80);
     for (int v = 0; v < 60; ++v)
       for (int u = 0; u < 80; ++u) {
-        edges.inverse_depth(v, u) = truth(v, u) + noise * static_cast<float>(random.normal());
+        edges.inverse_depth(v, u) =
+            truth(v, u, steepness) + noise * static_cast<float>(random.normal());
         labels(v, u) = u < 40 ? 1 : 2;
       }
   }
@@ -64,6 +66,21 @@ TEST(SettledDepth, PixelsOnNoSurfaceAreDropped) {
   EXPECT_EQ(cv::countNonZero(slant.labels), 60 * 80 - 3);
   EXPECT_EQ(slant.labels(20, 21), 0);
   EXPECT_EQ(settled(20, 21), 0.0F);
+}
+
+/// A table top seen at a slant: 1/z rises by two sigma from pixel to pixel.
+TEST(SettledDepth, SteepSurfacesStay) {
+  constexpr float kSteepness = 15.0F;
+  Slant slant(kNoise, kSteepness);
+  slant.edges.inverse_depth(20, 20) = 0.2F;
+  const cv::Mat1f settled = settle_on_surfaces(slant.edges, slant.labels);
+  EXPECT_EQ(slant.labels(20, 20), 0) << "it flies";
+  EXPECT_EQ(cv::countNonZero(slant.labels), 60 * 80 - 1);
+  double squares = 0;
+  for (int v = 4; v < 56; ++v)
+    for (int u = 44; u < 76; ++u)
+      squares += std::pow(settled(v, u) - Slant::truth(v, u, kSteepness), 2);
+  EXPECT_LT(std::sqrt(squares / (52 * 32)), 0.25 * kNoise);
 }
 
 TEST(SettledDepth, OtherLabelsDoNotTakePart) {
