@@ -11,7 +11,6 @@
 #include "eval/lab/folder_mapping.hpp"
 #include "eval/lab/map_frame.hpp"
 #include "eval/map_files/clouds/cloud_file.hpp"
-#include "eval/recording/frame_selection.hpp"
 #include "eval/results/study_store.hpp"
 #include "eval/score/map_snapshot.hpp"
 #include "files/text.hpp"
@@ -40,7 +39,7 @@ const MethodSettings& method_of(const Study& study, const std::string& name) {
 std::optional<Study> study_of(const MapVerbFlags& flags) {
   if (!flags.study.empty()) {
     Study study = load_study(flags.study, flags.overrides);
-    check_pose_keys(study, flags);
+    check_keys(study, flags);
     return study;
   }
   if (!flags.method.empty())
@@ -129,23 +128,6 @@ struct Mapped {
   std::string text, poses = {};  ///< poses that were found, as TUM has them; else empty
 };
 
-std::vector<int> chosen_frames(const MapVerbFlags& flags, int count) {
-  return (flags.frames.empty() ? FrameSelection() : FrameSelection(flags.frames)).of(count);
-}
-
-/// A trial is mapped as its own files say.
-void refuse_beside_trial(const MapVerbFlags& flags) {
-  const std::vector<std::string> allowed{"--frames", "--threshold"};
-  for (const CLI::Option* option : flags.verb->get_options())
-    if (option->count() > 0 &&
-        (option->get_group() == "Mapping" || option->get_group() == "Reading the folder") &&
-        std::ranges::find(allowed, option->get_name()) == allowed.end())
-      throw Error(fmt::format(
-          "{}: has no effect on {}, which is a trial's folder and says itself how it is mapped "
-          "(method.yaml); leave it out",
-          option->get_name(), shown(flags.folder)));
-}
-
 /// Where `score` finds the map.
 std::string lattice_line(const TrialSheet& sheet) {
   const Eigen::Vector3d& origin = sheet.map_origin_m;
@@ -162,18 +144,18 @@ void check_sheet(const TrialSheet& sheet, const Study& study, const std::string&
 }
 
 Mapped mapped_trial(const MapVerbFlags& flags, const FramesDone& shown_done) {
-  refuse_beside_trial(flags);
-  const TrialFolder folder(flags.folder);
-  const Study study = load_study(std::filesystem::path(flags.folder) / "method.yaml");
+  const std::string& path = flags.source.folder;
+  const TrialFolder folder = flags.source.trial({FolderFlags::kGroup, "Mapping"}, {"--threshold"});
+  const Study study = load_study(std::filesystem::path(path) / "method.yaml");
   if (study.methods.front().command)
     throw Error(fmt::format("{}: is the trial of a command (method.yaml), which maps it itself",
-                            shown(flags.folder)));
-  check_sheet(folder.sheet(), study, flags.folder);
+                            shown(path)));
+  check_sheet(folder.sheet(), study, path);
   ClassTable table{folder.sheet().classes};
   FolderMapping mapping{mapping_of(study, table), {}, study.methods.front().refinement};
   MappedCounts counts;
-  SemanticMap map =
-      map_trial(folder, chosen_frames(flags, folder.frame_count()), mapping, counts, shown_done);
+  SemanticMap map = map_trial(folder, flags.source.chosen_frames(folder.frame_count()), mapping,
+                              counts, shown_done);
   return {std::move(map), std::move(table),
           flags.threshold.value_or(default_threshold(mapping.mapping.fusion.rule)),
           counts_text({folder.frame_count()}, counts) + lattice_line(folder.sheet())};
@@ -181,26 +163,21 @@ Mapped mapped_trial(const MapVerbFlags& flags, const FramesDone& shown_done) {
 
 Mapped mapped_folder(const MapVerbFlags& flags, const FramesDone& shown_done) {
   const std::optional<Study> study = study_of(flags);
-  LabelledFolderOptions reading = flags.reading;
-  reading.masks = masks_of(flags);
-  if (!flags.range_m.empty()) reading.range_m = std::pair(flags.range_m.at(0), flags.range_m.at(1));
-  reading.poses = flags.poses == kPosesOfFile;
-  LabelledFolder folder(flags.folder, reading);
-  if (!flags.detect.empty())
-    folder.detect_as(detected_table(flags.detect, folder.table()).classes);
-  else if (study)
+  const bool has_poses = flags.poses == kPosesOfFile;
+  LabelledFolder folder = flags.source.labelled(has_poses);
+  if (flags.source.detect.empty() && study)
     folder.detect_as(detected_table(*study, folder.table()).classes);
   const FolderMapping mapping = folder_mapping(study, flags, folder.table());
   MappedCounts counts;
   std::string poses, poses_text;
-  if (!reading.poses) {
+  if (!has_poses) {
     const FolderPoses found = found_poses(flags, study, folder);
     poses_text = fmt::format("{}: {}; positions believed to {:.2g} m and better\n", flags.poses,
                              found.tracking.text(), found.sigma_m);
     poses = trajectory_text(found.trajectory);
   }
-  SemanticMap map =
-      map_folder(folder, chosen_frames(flags, folder.frame_count()), mapping, counts, shown_done);
+  SemanticMap map = map_folder(folder, flags.source.chosen_frames(folder.frame_count()), mapping,
+                               counts, shown_done);
   return {std::move(map), folder.table(),
           flags.threshold.value_or(default_threshold(mapping.mapping.fusion.rule)),
           poses_text + counts_text(folder.counts(), counts), std::move(poses)};
@@ -212,7 +189,7 @@ void map_recording(const MapVerbFlags& flags) {
                  {"--ply", flags.ply_file, ".ply"}});
   Progress progress("map", "frames", flags.quiet);
   const auto shown_done = [&](int done, int all) { progress.show(done, all); };
-  const auto [map, table, threshold, text, poses] = is_trial_folder(flags.folder)
+  const auto [map, table, threshold, text, poses] = is_trial_folder(flags.source.folder)
                                                         ? mapped_trial(flags, shown_done)
                                                         : mapped_folder(flags, shown_done);
   if (map.voxels().empty() && !flags.quiet)
@@ -234,17 +211,11 @@ void map_recording(const MapVerbFlags& flags) {
 void add_map(CLI::App& program) {
   const auto [verb, flags] = add_verb<MapVerbFlags>(
       program, "map", "Map a recording of any origin, truth or not", map_recording);
-  flags->verb = verb;
-  verb->add_option("FOLDER", flags->folder,
-                   "Folder with depth.txt, groundtruth.txt, color.txt or rgb.txt, and label/ or "
-                   "label.txt; or one of `mapscore trial`")
-      ->required();
   verb->add_option("-o,--output", flags->file, "Map to write (.ot)")->required();
   verb->add_option("--color", flags->color_file,
                    "Also a ColorOcTree (.ot) in the class colours, for octovis and ROS");
   verb->add_option("--ply", flags->ply_file,
                    "Also the voxels' centres with colour, class and probability (.ply)");
-  add_reading_flags(*verb, *flags);
   add_mapping_flags(*verb, *flags);
   verb->add_flag("-q,--quiet", flags->quiet, "No progress on standard error");
   verb->footer(
@@ -254,7 +225,8 @@ void add_map(CLI::App& program) {
       "  mapscore map rgbd_dataset_freiburg3_long_office --intrinsics 535.4,539.2,320.1,247.6 "
       "--classes coco.yaml -o desk.ot --color desk_colour.ot\n"
       "  mapscore map /data/robot --intrinsics cameras.yaml --classes ade.yaml --depth_scale 1000 "
-      "--study configs/demo.yaml --method direct --voxel_m 0.02 -o map.ot");
+      "--study configs/demo.yaml --method direct --voxel_m 0.02 -o map.ot\n"
+      "  mapscore map /data/robot --calibration calibration.yaml -o map.ot     of `calibrate`");
 }
 
 }  // namespace mapscore::eval

@@ -6,7 +6,7 @@
 #include "core/mapping/mapped_frames.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "eval/cli/shared/choice_flags.hpp"
-#include "eval/foreign/labelled_folder.hpp"
+#include "eval/cli/shared/folder_flags.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -21,27 +21,20 @@ constexpr const char* kPosesOfFile = "file";
 
 /// What `mapscore map` is asked for.
 struct MapVerbFlags {
-  std::string folder, file, color_file, ply_file;
-  LabelledFolderOptions reading;
-  std::vector<double> range_m;
-  std::string study, method, frames, masks{names_of(ClassMasks{}).front()}, poses{kPosesOfFile};
+  FolderFlags source;
+  std::string file, color_file, ply_file;
+  std::string study, method, poses{kPosesOfFile};
   /// As the authors' released code has it, where neither a study nor flags say otherwise.
   ChoiceFlags<Segmentation> segmentation{"--segmentation", RegionGrowing{.radius_factor = 0.5}};
   ChoiceFlags<MappedFrames> mapped{"--mapped", AllFrames{}};
-  std::vector<std::string> detect, overrides;
+  std::vector<std::string> overrides;
   std::optional<double> voxel_m, K, threshold;
   std::vector<double> origin_m{0, 0, 0};
   double yaw_deg = 0.0;
   bool quiet = false;
-  const CLI::App* verb = nullptr;
 };
 
-/// Of a class label's pixels, by the flag.
-[[nodiscard]] ClassMasks masks_of(const MapVerbFlags& flags);
-
-/// How a folder that is no trial's is read, and found poses for.
-void add_reading_flags(CLI::App& verb, MapVerbFlags& flags);
-/// How it is mapped.
+/// How the folder is read and mapped.
 void add_mapping_flags(CLI::App& verb, MapVerbFlags& flags);
 
 }  // namespace mapscore::eval

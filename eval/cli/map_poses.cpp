@@ -7,13 +7,20 @@
 #include "eval/cli/shared/progress.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <string>
 
 namespace mapscore::eval {
 namespace {
+
+/// The keys of a study that decide how a folder is mapped; perception is refused by itself.
+constexpr auto kMappedKeys = std::to_array<std::string_view>(
+    {"voxel_m", "place", "detect", "methods", "fusion", "occupancy", "perception"});
 
 /// How poses are found in depth images: as a study says, if there is one.
 LocalizationSettings pose_settings(const std::optional<Study>& study, const MapVerbFlags& flags) {
@@ -26,25 +33,27 @@ LocalizationSettings pose_settings(const std::optional<Study>& study, const MapV
 
 }  // namespace
 
-void check_pose_keys(Study study, const MapVerbFlags& flags) {
+void check_keys(Study study, const MapVerbFlags& flags) {
   study.localization = pose_settings(study, flags);
   for (const std::string& change : flags.overrides) {
     const std::string path = whole_path(study, change.substr(0, change.find('=')));
-    const bool of_poses = path.starts_with("localization."),
-               own_words = path.ends_with("wheels") || path.ends_with("corrected");
-    if (!of_poses && !path.starts_with("faults.")) continue;
-    if (of_poses && !own_words && flags.poses != kPosesOfFile && decides_poses(study, path))
+    const bool own_words = path.ends_with("wheels") || path.ends_with("corrected");
+    if (std::ranges::find(kMappedKeys, path.substr(0, path.find('.'))) != kMappedKeys.end())
+      continue;
+    if (path.starts_with("localization.") && !own_words && flags.poses != kPosesOfFile &&
+        decides_poses(study, path))
       continue;
     throw Error(fmt::format(
-        "--set {}: has no effect, `map` adds no faults and has no wheels; leave it out (of the "
-        "poses count, with --poses visual_odometry or visual_slam, keys of localization.visual)",
-        change));
+        "--set {}: has no effect, `map` adds no faults, has no wheels and scores nothing; leave it "
+        "out (keys of {} count, and with --poses visual_odometry or visual_slam those of "
+        "localization.visual)",
+        change, fmt::join(kMappedKeys, ", ")));
   }
 }
 
 FolderPoses found_poses(const MapVerbFlags& flags, const std::optional<Study>& study,
                         LabelledFolder& folder) {
-  if (std::filesystem::exists(std::filesystem::path(flags.folder) / "groundtruth.txt"))
+  if (std::filesystem::exists(std::filesystem::path(flags.source.folder) / "groundtruth.txt"))
     std::cerr << fmt::format(
         "mapscore: note: --poses {} finds the poses in the depth images; those of groundtruth.txt "
         "are not used\n",

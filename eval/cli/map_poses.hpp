@@ -11,9 +11,9 @@
 
 namespace mapscore::eval {
 
-/// Throws Error for a key of --set that is of poses or faults and changes nothing: a folder is
-/// mapped as it is, and obeys the keys of how poses are found in its depth images where they are.
-void check_pose_keys(Study study, const MapVerbFlags& flags);
+/// Throws Error for a key of --set that changes nothing: a folder is mapped as it is, and obeys the
+/// keys of how poses are found in its depth images where they are.
+void check_keys(Study study, const MapVerbFlags& flags);
 
 /// Finds the poses of a folder in its depth images, as the study says if there is one, and places
 /// its frames there; warns where they are guessed. Throws Error as find_poses.

@@ -24,7 +24,7 @@ template <class Flags>
 
 /// Each function adds one verb to the program. A verb's callback does the work and throws Error
 /// when the input is wrong; `exit_code` is set to 1 when the answer is no: scores fell, trials
-/// failed, counts of a repeated trial differ.
+/// failed, counts of a repeated trial differ, frames do not tell a calibration.
 void add_record(CLI::App& program);
 void add_explore(CLI::App& program);
 void add_run(CLI::App& program, int& exit_code);
@@ -32,6 +32,7 @@ void add_trial(CLI::App& program);
 void add_frames(CLI::App& program);
 void add_sweep(CLI::App& program, int& exit_code);
 void add_tolerance(CLI::App& program, int& exit_code);
+void add_calibrate(CLI::App& program, int& exit_code);
 void add_map(CLI::App& program);
 void add_localize(CLI::App& program);
 void add_segment(CLI::App& program);
@@ -56,6 +57,7 @@ inline void add_verbs(CLI::App& program, int& exit_code) {
   add_frames(program);
   add_sweep(program, exit_code);
   add_tolerance(program, exit_code);
+  add_calibrate(program, exit_code);
   for (const auto add :
        {add_map, add_localize, add_segment, add_objects, add_truth, add_score, add_resolutions,
         add_status, add_trials, add_table, add_compare, add_figures})

@@ -4,15 +4,13 @@
 #include "eval/foreign/labelled_folder.hpp"
 
 #include "eval/foreign/association.hpp"
+#include "eval/foreign/camera_file.hpp"
 #include "eval/recording/image_files.hpp"
 #include "eval/recording/info_yaml.hpp"
-#include "eval/recording/pose_text.hpp"
 #include "files/file_bytes.hpp"
 #include "files/png.hpp"
 #include "files/refusal.hpp"
 #include "files/suggestion.hpp"
-#include "files/text_rows.hpp"
-#include "files/yaml_value.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,61 +24,13 @@ constexpr const char* kMendOutside = "copy it there, or give --follow if the fol
 
 namespace fs = std::filesystem;
 
-/// Least and most depth that counts where nothing says otherwise, metres.
-constexpr double kRangeMin_m = 0.1, kRangeMax_m = 10.0;
+/// Velocities are taken over at least so long, so that jitter of poses counts little.
+constexpr double kMotionWindow_s = 0.1;
 
-CameraModel camera_of(const std::vector<double>& numbers, const std::string& text) {
-  if (numbers.size() != 4 || numbers[0] <= 0.0 || numbers[1] <= 0.0)
-    throw Error(
-        fmt::format("--intrinsics: '{}' is not fx,fy,cx,cy in pixels, fx and fy above 0; "
-                    "undistort images of a camera with more",
-                    text));
-  return {0, 0, numbers[0], numbers[1], numbers[2], numbers[3]};
-}
-
-CameraModel camera_of(const YamlValue& value) {
-  value.only({"fx_px", "fy_px", "cx_px", "cy_px"});
-  const double fx_px = value.at("fx_px").positive(), fy_px = value.at("fy_px").positive();
-  return {0, 0, fx_px, fy_px, value.at("cx_px").number(), value.at("cy_px").number()};
-}
-
-Calibration read_camera_file(const std::filesystem::path& file) {
-  const YamlValue root = load_yaml(file);
-  root.only({"color", "depth", "T_color_depth", "T_base_depth", "range_min_m", "range_max_m"});
-  const auto pose_at = [&](const char* key) {
-    return root.has(key) ? pose_of(root.at(key)) : Pose::Identity();
-  };
-  const auto number_at = [&](const char* key, double otherwise) {
-    return root.has(key) ? root.at(key).number() : otherwise;
-  };
-  Calibration cameras;
-  cameras.color = cameras.depth = camera_of(root.at("color"));
-  if (root.has("depth")) cameras.depth = camera_of(root.at("depth"));
-  cameras.T_color_depth = pose_at("T_color_depth");
-  cameras.T_base_depth = pose_at("T_base_depth");
-  cameras.range_min_m = number_at("range_min_m", kRangeMin_m);
-  cameras.range_max_m = number_at("range_max_m", kRangeMax_m);
-  if (cameras.range_min_m < 0.0 || cameras.range_max_m <= cameras.range_min_m)
-    root.fail("expected 0 <= range_min_m < range_max_m");
-  return cameras;
-}
-
-/// Cameras of a recording without recording.yaml. `text` is "fx,fy,cx,cy" in pixels, of depth that
-/// is registered to colour and poses of that camera, or else a YAML file with the keys of
-/// docs/foreign_recordings.md. Widths and heights are 0: the images say them. Throws Error.
-Calibration read_cameras(const std::string& text) {
-  const auto numbers = parse_numbers(text, text.size());
-  if (!numbers) return read_camera_file(text);
-  Calibration cameras;
-  cameras.color = cameras.depth = camera_of(*numbers, text);
-  cameras.range_min_m = kRangeMin_m;
-  cameras.range_max_m = kRangeMax_m;
-  return cameras;
-}
-
-std::vector<double> stamps_of(const std::vector<StampedImage>& images) {
+/// `late_s` is added to each.
+std::vector<double> stamps_of(const std::vector<StampedImage>& images, double late_s = 0.0) {
   std::vector<double> stamps;
-  for (const StampedImage& image : images) stamps.push_back(image.stamp_s);
+  for (const StampedImage& image : images) stamps.push_back(image.stamp_s + late_s);
   return stamps;
 }
 
@@ -130,7 +80,11 @@ void LabelledFolder::read_meaning() {
     calibration_ = info.calibration;
     classes_ = {info.table, true, {}};
   }
-  if (!options_.cameras.empty()) calibration_ = read_cameras(options_.cameras);
+  if (!options_.cameras.empty()) {
+    const BelievedCameras cameras = read_cameras(options_.cameras);
+    calibration_ = cameras.calibration;
+    time_offset_s_ = cameras.time_offset_s;
+  }
   if (options_.range_m) {
     std::tie(calibration_.range_min_m, calibration_.range_max_m) = *options_.range_m;
     if (calibration_.range_max_m <= calibration_.range_min_m)
@@ -170,18 +124,21 @@ void LabelledFolder::pair_frames() {
   const std::vector<StampedImage> labels = label_images();
   depth_ = read_stamp_list(folder_ / "depth.txt");
   const std::vector<Association> pairs =
-      associate(stamps_of(labels), stamps_of(depth_), options_.max_offset_s);
+      associate(stamps_of(labels, time_offset_s_), stamps_of(depth_), options_.max_offset_s);
   counts_.labels = static_cast<int>(labels.size());
   counts_.no_depth = static_cast<int>(labels.size() - pairs.size());
   for (const Association& pair : pairs)
-    frames_.push_back({labels[pair.first].path, depth_[pair.second], Pose::Identity()});
+    frames_.push_back({labels[pair.first].path, depth_[pair.second],
+                       labels[pair.first].stamp_s + time_offset_s_ - depth_[pair.second].stamp_s,
+                       Pose::Identity()});
   if (options_.poses) {
     const fs::path poses = folder_ / "groundtruth.txt";
     if (!fs::is_regular_file(poses))
       refuse(poses,
              "is missing; give --poses visual_odometry, or visual_slam, which finds them in "
              "the depth images");
-    place(read_trajectory(poses));
+    trajectory_ = read_trajectory(poses);
+    place(trajectory_);
   } else if (frames_.empty()) {
     place({});
   }
@@ -192,7 +149,7 @@ void LabelledFolder::place(const std::vector<TrajectoryPose>& trajectory) {
   std::vector<LabelledDepth> placed;
   for (LabelledDepth& frame : frames_)
     if (const auto pose = pose_near(trajectory, frame.depth.stamp_s)) {
-      frame.T_map_base = *pose;
+      frame.T_world_base = *pose;
       placed.push_back(std::move(frame));
     } else {
       ++counts_.no_pose;
@@ -203,6 +160,19 @@ void LabelledFolder::place(const std::vector<TrajectoryPose>& trajectory) {
            "no frame left: of {} label images {} have no depth image within {} s, {} no pose; mend "
            "the stamps or give --max_offset_s",
            counts_.labels, counts_.no_depth, options_.max_offset_s, counts_.no_pose);
+}
+
+std::optional<Vector6> LabelledFolder::motion(int index) const {
+  const double stamp_s = at(index).depth.stamp_s;
+  const auto after = first_from(trajectory_, stamp_s + kMotionWindow_s / 2);
+  const auto before = first_from(trajectory_, stamp_s - kMotionWindow_s / 2);
+  if (before == trajectory_.begin() || after == trajectory_.end()) return std::nullopt;
+  const TrajectoryPose &from = *std::prev(before), &to = *after;
+  const double seconds = to.stamp_s - from.stamp_s;
+  if (seconds > 2 * options_.max_pose_gap_s + kMotionWindow_s) return std::nullopt;
+  const Pose& T_base_depth = calibration_.T_base_depth;
+  return log_pose((from.T_world_base * T_base_depth).inverse() * to.T_world_base * T_base_depth) /
+         seconds;
 }
 
 void LabelledFolder::check_images() const {
@@ -258,7 +228,7 @@ Frame LabelledFolder::read(int index, ClassTable& table) const {
   Frame frame;
   frame.index = frame.depth_index = index;
   frame.stamp_s = source.depth.stamp_s;
-  frame.T_world_base = source.T_map_base;
+  frame.T_world_base = source.T_world_base;
   const cv::Mat1w label = decode_id_png(read_sized(label_file, color, "label"),
                                         {color.width_px, color.height_px}, label_file.string());
   LabelledImage labelled = instances_of(label, classes_, options_.masks);

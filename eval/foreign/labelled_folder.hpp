@@ -17,7 +17,7 @@ namespace mapscore::eval {
 
 /// How a folder in the layout of the TUM RGB-D benchmark is to be read.
 struct LabelledFolderOptions {
-  std::string cameras;  ///< "fx,fy,cx,cy" in pixels, or a file; empty: recording.yaml's
+  std::string cameras;  ///< as read_cameras; empty: recording.yaml's
   std::string classes;  ///< file of read_label_classes; empty: recording.yaml's
   ClassMasks masks = ClassMasks::components;
   double depth_units_per_m = kDepthUnitsPerMetre;
@@ -51,6 +51,15 @@ class LabelledFolder {
   /// Replaces the table's classes, to change which are detected; nothing else of them may differ.
   void detect_as(const std::vector<SemanticClass>& classes) { classes_.table.classes = classes; }
   [[nodiscard]] double stamp_s(int index) const { return at(index).depth.stamp_s; }
+  [[nodiscard]] const Pose& T_world_base(int index) const { return at(index).T_world_base; }
+  /// What is added to the stamps of label images before they are paired (BelievedCameras).
+  [[nodiscard]] double time_offset_s() const { return time_offset_s_; }
+  /// How long after its depth image a frame's labels were seen, by the stamps so corrected.
+  [[nodiscard]] double lag_s(int index) const { return at(index).lag_s; }
+  /// Velocity of the depth camera in its own optical frame at the frame's depth stamp, order x y z
+  /// roll pitch yaw (m/s, rad/s), of the poses of groundtruth.txt around it; nothing where there
+  /// are none, or they are too far apart.
+  [[nodiscard]] std::optional<Vector6> motion(int index) const;
 
   /// Gives the frames of a folder that is read without poses theirs; those that the trajectory does
   /// not reach are left out. Throws Error where none is left.
@@ -69,7 +78,8 @@ class LabelledFolder {
   struct LabelledDepth {
     std::string label;
     StampedImage depth;
-    Pose T_map_base;
+    double lag_s = 0;
+    Pose T_world_base;
   };
   [[nodiscard]] const LabelledDepth& at(int index) const {
     return frames_.at(static_cast<std::size_t>(index));
@@ -86,6 +96,8 @@ class LabelledFolder {
   std::filesystem::path folder_;
   LabelledFolderOptions options_;
   Calibration calibration_;
+  double time_offset_s_ = 0;
+  std::vector<TrajectoryPose> trajectory_;
   LabelClasses classes_;
   std::vector<StampedImage> depth_;
   std::vector<LabelledDepth> frames_;

@@ -24,6 +24,18 @@ TrialFolder::TrialFolder(std::filesystem::path folder)
     (row.frame ? of_frame_[*row.frame] : of_every_frame_).push_back(row);
 }
 
+void TrialFolder::believe(const Calibration& calibration) {
+  const auto of_size = [](CameraModel camera, const CameraModel& images) {
+    camera.width_px = images.width_px;
+    camera.height_px = images.height_px;
+    return camera;
+  };
+  const Calibration of_trial = sheet_.believed;
+  sheet_.believed = calibration;
+  sheet_.believed.color = of_size(calibration.color, of_trial.color);
+  sheet_.believed.depth = of_size(calibration.depth, of_trial.depth);
+}
+
 Sight TrialFolder::sight(int position) const {
   const TrialFrame& frame = this->frame(position);
   const Calibration& believed = sheet_.believed;

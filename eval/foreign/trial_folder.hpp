@@ -28,6 +28,9 @@ class TrialFolder {
     return sheet_.frames.at(static_cast<std::size_t>(position));
   }
 
+  /// Replaces what the trial's method believes of the cameras; images keep their sizes.
+  void believe(const Calibration& calibration);
+
   /// What the method sees of the frame at a position of the list. Throws Error where an image is
   /// missing, damaged or of another size.
   [[nodiscard]] Sight sight(int position) const;

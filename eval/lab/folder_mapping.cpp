@@ -49,14 +49,18 @@ SemanticMap map_frames(const std::vector<int>& frames, const std::function<Given
 
 }  // namespace
 
+Sight sight_of(const LabelledFolder& folder, int index) {
+  ClassTable table;
+  const Frame frame = folder.read(index, table);
+  return {folder.calibration(), frame.depth, detections_of(frame.label, table)};
+}
+
 SemanticMap map_folder(const LabelledFolder& folder, const std::vector<int>& frames,
                        const FolderMapping& mapping, MappedCounts& counts,
                        const FramesDone& shown) {
   const auto give = [&](int index) -> Given {
-    ClassTable table;
-    const Frame frame = folder.read(index, table);
-    return {{folder.calibration(), frame.depth, detections_of(frame.label, table)},
-            {mapping.T_map_world, frame.T_world_base},
+    return {sight_of(folder, index),
+            {mapping.T_map_world, folder.T_world_base(index)},
             RandomStream(0, "belief")};  // of a pose that is known; nothing is drawn
   };
   return map_frames(frames, give, folder.table().classes.size(), mapping, counts, shown);

@@ -34,6 +34,9 @@ struct MappedCounts {
 /// Told after each frame: how many are done, of how many.
 using FramesDone = std::function<void(int, int)>;
 
+/// What a method sees of a frame of a folder. Throws Error where an image cannot be read.
+[[nodiscard]] Sight sight_of(const LabelledFolder& folder, int index);
+
 /// Maps these frames of a folder in their order, as a trial at dose zero does. Throws Error where
 /// an image cannot be read or a parameter is out of range.
 [[nodiscard]] SemanticMap map_folder(const LabelledFolder& folder, const std::vector<int>& frames,

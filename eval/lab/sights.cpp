@@ -3,12 +3,14 @@
 
 #include "eval/lab/sights.hpp"
 
+#include "core/calibration/calibrator.hpp"
 #include "core/error.hpp"
 #include "core/objects/simulated_perception.hpp"
 #include "core/segmentation/registered_cloud.hpp"
 #include "eval/lab/recorded_surfaces.hpp"
 #include "eval/objects/object_file.hpp"
 #include "eval/objects/true_objects.hpp"
+#include "eval/recording/frame_selection.hpp"
 #include "eval/results/input_files.hpp"
 #include "sim/faults/calibration_faults.hpp"
 #include "sim/faults/depth_noise.hpp"
@@ -17,6 +19,7 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <variant>
@@ -133,6 +136,29 @@ Sights::Sights(const Task& task, const Recording& recording, const ClassTable& t
     };
     network_ = networks ? networks->get(*images, read) : read();
   }
+  const auto* estimated = std::get_if<CalibratorSettings>(&task.config.calibration);
+  if (estimated != nullptr && labels_ == Labels::detected) calibrate(recording, *estimated);
+}
+
+void Sights::calibrate(const Recording& recording, const CalibratorSettings& settings) {
+  const auto sight = [&](int index) {
+    return of(recording.read(index, depth_of(index),
+                             {.color = false, .label = true, .depth = true, .depth_label = false}));
+  };
+  const auto shows_objects = [&](int index) { return !sight(index).detections().empty(); };
+  Calibrator calibrator(believed_, settings);
+  for (const int index :
+       spread_over(FrameSelection().of(recording.frame_count()), settings.frames, shows_objects))
+    calibrator.add(sight(index));
+  const CalibrationEstimate estimate = calibrator.estimate();
+  believed_ = estimate.calibration;
+  const Pose error = believed_.T_color_depth * recording.info().calibration.T_color_depth.inverse();
+  const double turn_rad = Eigen::AngleAxisd(error.linear()).angle();
+  calibrated_ =
+      CalibrationCounts{.calibrations = 1,
+                        .calibrations_refused = is_known(estimate.verdict) ? 0 : 1,
+                        .calibration_error_um = std::llround(1e6 * error.translation().norm()),
+                        .calibration_error_urad = std::llround(1e6 * turn_rad)};
 }
 
 Sights::Sights(const Task& task, const Calibration& truth, const std::vector<Shape>& shapes,
@@ -148,6 +174,10 @@ Sights::Sights(const Task& task, const Calibration& truth, const std::vector<Sha
     throw Error(
         "faults.time_offset_ms: pairs images of a recording, and there is none yet; explore "
         "without it, and replay the recording with it");
+  if (!std::holds_alternative<BelievedCalibration>(task.config.calibration))
+    throw Error(
+        "calibration: is estimated from a recording, and there is none yet; explore with "
+        "believed, and replay the recording with estimated");
   const auto* settings = std::get_if<SimulatedPerception>(&task.config.perception);
   if (settings != nullptr)
     simulated_ = std::make_shared<const SimulatedLabels>(*settings, task.config, truth, table, [&] {
@@ -166,6 +196,7 @@ std::string Sights::key(const Study& config, Labels labels) {
   seen.faults.pose = {};
   seen.faults.lidar = {};
   seen.perception = config.perception;
+  seen.calibration = config.calibration;
   return (labels == Labels::truth ? "truth\n" : "detected\n") + to_yaml(seen);
 }
 

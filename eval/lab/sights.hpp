@@ -11,6 +11,7 @@
 #include "eval/foreign/network_labels.hpp"
 #include "eval/lab/shared_cache.hpp"
 #include "eval/recording/recording.hpp"
+#include "eval/results/calibration_counts.hpp"
 #include "eval/results/task_list.hpp"
 #include "eval/study/study.hpp"
 
@@ -31,13 +32,14 @@ using Networks = SharedCache<NetworkImages, std::shared_ptr<const NetworkLabels>
 class Sights {
  public:
   /// Throws Error when the objects of simulated perception are refused or too many, or there is
-  /// neither a file of them nor truth, or a network's classes, scores or list are refused.
+  /// neither a file of them nor truth, or a network's classes, scores or list are refused. Reads
+  /// the frames that a calibration is estimated from.
   /// `networks`: of this recording and table; without them it reads its own.
   Sights(const Task& task, const Recording& recording, const ClassTable& table,
          Networks* networks = nullptr);
   /// Of a camera that has recorded nothing yet, among `shapes` that do not move: each colour image
   /// is read with the depth image of its number. `table` must outlive it. Throws Error when a
-  /// network, or a time offset, would need a recording, or as above.
+  /// network, a time offset or an estimate of the calibration would need a recording, or as above.
   Sights(const Task& task, const Calibration& truth, const std::vector<Shape>& shapes,
          const ClassTable& table);
 
@@ -55,6 +57,8 @@ class Sights {
   [[nodiscard]] const ClassTable& table() const;
 
   [[nodiscard]] const Calibration& believed() const { return believed_; }
+  /// How the estimate of it came out, where it is estimated.
+  [[nodiscard]] const std::optional<CalibrationCounts>& calibrated() const { return calibrated_; }
 
   /// Whether the method sees the recording's own depth images, and whether its label images, whose
   /// ids may then mean other classes and scores but where keeps_verdicts.
@@ -77,12 +81,15 @@ class Sights {
   class SimulatedLabels;
 
   [[nodiscard]] std::vector<Detection> detections_of(const Frame& frame) const;
+  /// Replaces what is believed by what the recording's own frames tell, if they do.
+  void calibrate(const Recording& recording, const CalibratorSettings& settings);
 
   const ClassTable& table_;
   Labels labels_;
   std::uint64_t seed_;
-  CameraModel depth_camera_;   ///< true
-  Calibration believed_;       ///< what the method believes of the cameras
+  CameraModel depth_camera_;  ///< true
+  Calibration believed_;      ///< what the method believes of the cameras
+  std::optional<CalibrationCounts> calibrated_;
   std::vector<int> depth_of_;  ///< by frame, of a recording
   bool is_live_ = false;       ///< no recording
   FaultSettings faults_;
@@ -90,7 +97,8 @@ class Sights {
   std::shared_ptr<const NetworkLabels> network_;      ///< likewise
 };
 
-/// The calibration that a task's method uses: the true one with the task's calibration faults.
+/// The true calibration with a task's calibration faults: what its method believes, or where the
+/// calibration is estimated, what the estimate starts from.
 [[nodiscard]] Calibration believed_calibration(const Calibration& truth, const Task& task);
 
 }  // namespace mapscore::eval

@@ -46,6 +46,7 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
   TrialPoses believed = poses.poses(task, sights_->depth_of_frames());
   beliefs_ = std::move(believed.beliefs);
   result_.accounting.tracking = believed.tracking;
+  result_.accounting.calibration = sights_->calibrated();
   result_.counts = zero_counts(table_.classes.size(), score_options_);
   if (score_options_.asked.poses) result_.counts[kBackground].poses = score_poses(recording);
   if (task.config.score.unit == ScoreUnit::map) look_up_truth({});

@@ -7,8 +7,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cstddef>
+#include <iterator>
 
 namespace mapscore::eval {
 namespace {
@@ -86,6 +89,21 @@ std::vector<int> FrameSelection::of(int frame_count) const {
                     frame_count));
   }
   return frames;
+}
+
+std::vector<int> spread_over(const std::vector<int>& frames, int most,
+                             const std::function<bool(int)>& is_fit) {
+  const std::size_t places = std::bit_ceil(frames.size());
+  std::vector<int> chosen;
+  std::size_t at = 0;
+  for (std::size_t n = 0; n < places && std::ssize(chosen) < most; ++n) {
+    if (at < frames.size() && is_fit(frames[at])) chosen.push_back(frames[at]);
+    std::size_t bit = places / 2;  // the next number, its bits from the left
+    for (; bit > 0 && (at & bit) != 0; bit /= 2) at ^= bit;
+    at |= bit;
+  }
+  std::ranges::sort(chosen);
+  return chosen;
 }
 
 }  // namespace mapscore::eval

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,5 +43,10 @@ class FrameSelection {
 
   std::vector<Slice> slices_;
 };
+
+/// Of ascending frames so many at most that are fit, spread evenly: they are asked in the order of
+/// the binary van der Corput sequence. Ascending.
+[[nodiscard]] std::vector<int> spread_over(const std::vector<int>& frames, int most,
+                                           const std::function<bool(int)>& is_fit);
 
 }  // namespace mapscore::eval

@@ -64,9 +64,11 @@ Study determining(Study config, InputFiles& files) {
   return config;
 }
 
-/// The study with true poses and no fault; the errors of a network are faults of its labels.
+/// The study with true poses and calibration and no fault; the errors of a network are faults of
+/// its labels.
 Study without_faults(Study config) {
   config.localization = {};
+  config.calibration = {};
   config.faults = {};
   if (std::holds_alternative<ImagePerception>(config.perception) ||
       std::holds_alternative<NetworkPerception>(config.perception))
@@ -161,7 +163,8 @@ void refuse_axis(const Study& study, const std::string& path) {
 decltype(Cell::doses) doses_of_ceilings(const Cell& cell) {
   auto doses = cell.doses;
   std::erase_if(doses, [](const auto& dose) {
-    return dose.first.starts_with("faults.") || dose.first.starts_with("localization.");
+    return dose.first.starts_with("faults.") || dose.first.starts_with("localization.") ||
+           dose.first.starts_with("calibration");
   });
   return doses;
 }

@@ -111,6 +111,8 @@ std::string to_json(const TrialResult& result) {
   object["accounting"] = counts_to_json(result.accounting);
   if (const auto& tracking = result.accounting.tracking)
     object["accounting"]["tracking"] = counts_to_json(*tracking);
+  if (const auto& calibration = result.accounting.calibration)
+    object["accounting"]["calibration"] = counts_to_json(*calibration);
   json& classes = object["classes"] = json::array();
   for (auto counts = result.counts.begin(); counts != result.counts.end(); ++counts) {
     const auto alike = std::find(result.counts.begin(), counts, *counts);

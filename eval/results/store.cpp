@@ -115,9 +115,11 @@ TrialResult result_of(const std::string& bytes, const std::filesystem::path& fil
 
 Accounting& Accounting::operator+=(const Accounting& other) {
   add_counts(*this, other);
-  if (!other.tracking) return *this;
-  if (!tracking) tracking.emplace();
-  add_counts(*tracking, *other.tracking);
+  const auto add = []<class Part>(std::optional<Part>& sum, const std::optional<Part>& part) {
+    if (part) add_counts(sum ? *sum : sum.emplace(), *part);
+  };
+  add(tracking, other.tracking);
+  add(calibration, other.calibration);
   return *this;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/segmentation/segment.hpp"
 #include "eval/results/build_identity.hpp"
+#include "eval/results/calibration_counts.hpp"
 #include "eval/results/tracking_counts.hpp"
 #include "eval/score/counts.hpp"
 #include "eval/score/metric.hpp"
@@ -36,7 +37,8 @@ struct Accounting {
   std::int64_t map_voxels = 0;        ///< in the map at the end; of single frames, their sum
   std::int64_t hits_beyond_span = 0;  ///< hits on voxels that the octree cannot hold; left out
   std::int64_t frames_left_out = 0;   ///< of `frames`: no key frames, so not mapped
-  std::optional<TrackingCounts> tracking = {};  ///< where the poses come from depth images
+  std::optional<TrackingCounts> tracking = {};        ///< where the poses come from depth images
+  std::optional<CalibrationCounts> calibration = {};  ///< where it is estimated
 
   static auto counts() {
     return std::to_array<CountField<Accounting>>({

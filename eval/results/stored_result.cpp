@@ -174,6 +174,7 @@ void take_part(dom::object object, const char* name, std::optional<Part>& part) 
 void take_counts(dom::object object, Accounting& accounting) {
   take_counts<Accounting>(object, accounting);
   take_part(object, "tracking", accounting.tracking);
+  take_part(object, "calibration", accounting.calibration);
 }
 
 void take_counts(dom::object object, ClassCounts& counts) {

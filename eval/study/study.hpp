@@ -117,6 +117,7 @@ struct Study {
   std::vector<MethodSettings> methods;
   DrawnFusion fusion;
   Carving occupancy;
+  CalibrationSettings calibration;
   LocalizationSettings localization;
   FaultSettings faults;
   ScoreSettings score;
@@ -173,6 +174,7 @@ struct Study {
     visit(s.methods, Field{"methods", "at least one, by name: letters, digits, _ and -"});
     visit(s.fusion, Field{"fusion", "how observations change the map"});
     visit(s.occupancy, later({"occupancy", "free space in the map"}));
+    visit(s.calibration, later({"calibration", "what the methods believe of the cameras"}));
     visit(s.localization, later({"localization", "where the robot believes it is"}));
     visit(s.faults, Field{"faults", "doses of the faults"});
     visit(s.score, Field{"score", "how maps are scored"});

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "core/calibration/calibrator_settings.hpp"
 #include "core/fusion/fusion_rule.hpp"
 #include "core/mapping/mapped_frames.hpp"
 #include "core/mapping/mapper.hpp"
@@ -133,6 +134,14 @@ struct NetworkPerception {
 /// Where the detections of a study come from.
 using PerceptionSettings =
     std::variant<LabelPerception, SimulatedPerception, ImagePerception, NetworkPerception>;
+
+/// What a study's faults leave of the true calibration.
+struct BelievedCalibration : NoFields {
+  static constexpr std::string_view kKind = "believed";
+  static constexpr std::string_view kMeaning = "the true one with the faults of the study";
+};
+/// What the methods of a study believe of the cameras.
+using CalibrationSettings = std::variant<BelievedCalibration, CalibratorSettings>;
 
 struct StudyFusion : NoFields {
   static constexpr std::string_view kKind = "study";

@@ -129,6 +129,7 @@ SourceScores localised(const Study& study, const Recording& recording, const Occ
   Progress progress("localize", is_visual(study.localization.source) ? "depth images" : "turns",
                     flags.quiet);
   SourceScores scores{name, {}};
+  std::string first;
   for (int run = 0; run < study.seeds; ++run) {
     Task task;
     task.config = study;
@@ -137,11 +138,19 @@ SourceScores localised(const Study& study, const Recording& recording, const Occ
         believed_by(recording, task, grid, folder, [&](int done, int total) {
           progress.show(std::int64_t{run} * total + done, std::int64_t{study.seeds} * total);
         });
+    if (run == 1 && believed_text(believed) == first) {
+      std::cerr << fmt::format(
+          "localize: {}: draws nothing at random here, so all {} repetitions are the same\n", name,
+          study.seeds);
+      scores.seeds.resize(static_cast<std::size_t>(study.seeds), scores.seeds.front());
+      break;
+    }
     if (run == 0) {
+      first = believed_text(believed);
       write_whole_file(
           folder / (flags.source == kAllSources ? fmt::format("localization_{}.txt", name)
                                                 : "localization.txt"),
-          believed_text(believed));
+          first);
       write_whole_file(folder / (name + "_at_frames.txt"), frame_poses_text(believed, truth));
     }
     scores.seeds.push_back(score_localization(believed, truth));

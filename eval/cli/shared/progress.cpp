@@ -4,6 +4,7 @@
 #include "eval/cli/shared/progress.hpp"
 
 #include "eval/render/replay_check.hpp"
+#include "eval/results/input_files.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

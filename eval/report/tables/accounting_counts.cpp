@@ -35,6 +35,8 @@ std::vector<std::string> accounting_names() {
   for (const CountField<Accounting>& field : Accounting::counts()) names.emplace_back(field.name);
   for (const CountField<TrackingCounts>& field : TrackingCounts::counts())
     names.emplace_back(field.name);
+  for (const CountField<CalibrationCounts>& field : CalibrationCounts::counts())
+    names.emplace_back(field.name);
   return names;
 }
 
@@ -42,7 +44,10 @@ std::optional<double> accounting_figure(const Accounting& accounting, std::strin
   if (name == kFramesMapped)
     return static_cast<double>(accounting.frames - accounting.frames_left_out);
   if (const auto count = count_named(accounting, name)) return count;
-  return accounting.tracking ? count_named(*accounting.tracking, name) : std::nullopt;
+  std::optional<double> count;
+  if (accounting.tracking) count = count_named(*accounting.tracking, name);
+  if (accounting.calibration && !count) count = count_named(*accounting.calibration, name);
+  return count;
 }
 
 Estimate accounting_estimate(const ResultLine& line, std::string_view name) {
@@ -59,6 +64,8 @@ Estimate accounting_estimate(const ResultLine& line, std::string_view name) {
   return estimate;
 }
 
+namespace {
+
 std::string tracking_note(const StudySummary& summary) {
   std::int64_t trials = 0, with_guesses = 0;
   TrackingCounts all;
@@ -74,6 +81,27 @@ std::string tracking_note(const StudySummary& summary) {
       "the pose of {} of {} depth images is a guess (unsure, blind, lost, restarted or "
       "relocated), in {} of the {} trials whose poses come from them; --metric {} shows where",
       all.untracked(), all.images(), with_guesses, trials, fmt::join(all.untracked_names(), ","));
+}
+
+std::string calibration_note(const StudySummary& summary) {
+  CalibrationCounts all;
+  for (const ResultLine& line : summary.trials)
+    for (const Accounting& accounting : accountings_of(line))
+      if (accounting.calibration) all += *accounting.calibration;
+  if (all.calibrations_refused == 0) return "";
+  return fmt::format(
+      "{} of {} estimates of the calibration were refused, and their trials mapped with what was "
+      "believed before; --metric calibrations_refused shows where",
+      all.calibrations_refused, all.calibrations);
+}
+
+}  // namespace
+
+std::vector<std::string> accounting_notes(const StudySummary& summary) {
+  std::vector<std::string> notes;
+  for (std::string note : {tracking_note(summary), calibration_note(summary)})
+    if (!note.empty()) notes.push_back("note: " + std::move(note));
+  return notes;
 }
 
 }  // namespace mapscore::eval

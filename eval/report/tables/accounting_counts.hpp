@@ -13,19 +13,20 @@
 
 namespace mapscore::eval {
 
-/// What tables tell of the accounting of trials: its counts, those of tracking, and frames_mapped,
-/// the frames that were not left out.
+/// What tables tell of the accounting of trials: its counts, those of tracking and of estimated
+/// calibrations, and frames_mapped, the frames that were not left out.
 [[nodiscard]] std::vector<std::string> accounting_names();
 
-/// One of these names of a trial; nothing of tracking where no pose comes from depth images, and of
-/// another name.
+/// One of these names of a trial; nothing of tracking where no pose comes from depth images, of a
+/// calibration where none is estimated, and of another name.
 [[nodiscard]] std::optional<double> accounting_figure(const Accounting& accounting,
                                                       std::string_view name);
 
 /// The same of a line: the mean over its seeds, and their spread.
 [[nodiscard]] Estimate accounting_estimate(const ResultLine& line, std::string_view name);
 
-/// How many poses of the trials are guessed, for captions; empty where none is.
-[[nodiscard]] std::string tracking_note(const StudySummary& summary);
+/// For captions: how many poses of the trials are guessed, and how many calibrations were refused;
+/// empty where none is.
+[[nodiscard]] std::vector<std::string> accounting_notes(const StudySummary& summary);
 
 }  // namespace mapscore::eval

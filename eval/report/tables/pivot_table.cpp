@@ -283,8 +283,7 @@ class Pivot {
                           : "low, high: 95 % interval of the mean over the seeds");
     if (const std::string note = summary_.lattice_note(); !note.empty())
       lines.push_back("note: " + note);
-    if (const std::string note = tracking_note(summary_); !note.empty())
-      lines.push_back("note: " + note);
+    std::ranges::copy(accounting_notes(summary_), std::back_inserter(lines));
     return lines;
   }
 

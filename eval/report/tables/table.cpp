@@ -40,8 +40,7 @@ std::vector<std::string> caption_of(const StudySummary& summary, const std::stri
   if (!summary.interim.empty()) caption.insert(caption.begin(), summary.interim);
   if (const std::string note = summary.lattice_note(); !note.empty())
     caption.push_back("note: " + note);
-  if (const std::string note = tracking_note(summary); !note.empty())
-    caption.push_back("note: " + note);
+  std::ranges::copy(accounting_notes(summary), std::back_inserter(caption));
   if (summary.builds.size() > 1)
     caption.push_back(fmt::format("note: trials of {} builds stand side by side; sweep again",
                                   summary.builds.size()));

@@ -78,11 +78,13 @@ void write_result(const ResultLine& line, std::size_t seed, const StudySummary& 
     write(groups[g], kBestF1, nine_digits(best[g].by_seed[seed].f1));
     write(groups[g], kBestThreshold, nine_digits(best[g].by_seed[seed].threshold));
   }
-  for (const CountField<Accounting>& field : Accounting::counts())
-    write("all", std::string(field.name), std::to_string(result.accounting.*field.member));
-  if (const auto& tracking = result.accounting.tracking)
-    for (const CountField<TrackingCounts>& field : TrackingCounts::counts())
-      write("all", std::string(field.name), std::to_string((*tracking).*field.member));
+  const auto write_counts = [&]<class Owner>(const Owner& owner) {
+    for (const CountField<Owner>& field : Owner::counts())
+      write("all", std::string(field.name), std::to_string(owner.*field.member));
+  };
+  write_counts(result.accounting);
+  if (const auto& tracking = result.accounting.tracking) write_counts(*tracking);
+  if (const auto& calibration = result.accounting.calibration) write_counts(*calibration);
 }
 
 void write_line(const ResultLine& line, const StudySummary& summary, std::ostream& out) {

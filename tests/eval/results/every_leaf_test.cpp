@@ -122,14 +122,15 @@ Study study_for(const std::string& path, const std::string& base) {
   return parse_study(
       fmt::format(
           "recording: tiny\nmap_yaw_deg: 1\nmethods: {{NAME: {{segmentation: {}, fusion: {}, "
-          "refinement: {}, frames: {}}}}}\nfusion: {}\nperception: {}\ntrajectory: {{drive: {}}}\n"
-          "exploration: {{planner: {}}}\n{}",
+          "refinement: {}, frames: {}}}}}\nfusion: {}\nperception: {}\ncalibration: "
+          "{}\ntrajectory: {{drive: "
+          "{}}}\nexploration: {{planner: {}}}\n{}",
           kind_at(path, "methods.NAME.segmentation", "direct"),
           kind_at(path, "methods.NAME.fusion", "study"),
           kind_at(path, "methods.NAME.refinement", "none"),
           kind_at(path, "methods.NAME.frames", "all"), kind_at(path, "fusion", "blend"),
-          perception_at(path), kind_at(path, "trajectory.drive", "wheels"),
-          kind_at(path, "exploration.planner", "none"),
+          perception_at(path), kind_at(path, "calibration", "believed"),
+          kind_at(path, "trajectory.drive", "wheels"), kind_at(path, "exploration.planner", "none"),
           path.starts_with("perception.network") ? kBases[1] : base),  // it scores its detections
       "study.yaml");
 }

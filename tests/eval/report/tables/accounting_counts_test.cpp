@@ -15,6 +15,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::summary_of;
 
 /// Two seeds: of 10 frames 6 and 7 are mapped; of 50 images 2 are lost in the second seed.
@@ -53,11 +54,11 @@ TEST(AccountingFigures, StandInTablesBesideOtherFigures) {
 }
 
 TEST(AccountingFigures, GuessedPosesAreNotedBelowATable) {
-  EXPECT_EQ(tracking_note(summary_of(2)), "");
+  EXPECT_THAT(accounting_notes(summary_of(2)), IsEmpty());
   EXPECT_THAT(
-      tracking_note(tracked_summary()),
-      HasSubstr(
-          "the pose of 2 of 100 depth images is a guess (unsure, blind, lost, "
+      accounting_notes(tracked_summary()),
+      ElementsAre(
+          "note: the pose of 2 of 100 depth images is a guess (unsure, blind, lost, "
           "restarted or relocated), in 1 of the 2 trials whose poses come from them; --metric "
           "images_lost shows where"));
   StudySummary dark = tracked_summary();
@@ -65,9 +66,22 @@ TEST(AccountingFigures, GuessedPosesAreNotedBelowATable) {
   tracking.images_unsure = 1;
   tracking.images_blind = 3;
   dark.trials.front().results[1].accounting.tracking->images_lost = 0;
-  EXPECT_THAT(tracking_note(dark), HasSubstr("--metric images_unsure,images_blind shows where"));
+  EXPECT_THAT(accounting_notes(dark),
+              Contains(HasSubstr("--metric images_unsure,images_blind shows where")));
   EXPECT_THAT(pivot_table(tracked_summary(), {.metrics = {"f1"}}, Reader::terminal).caption,
               Contains(HasSubstr("note: the pose of 2 of 100")));
+}
+
+TEST(AccountingFigures, RefusedCalibrationsAreNotedBelowATable) {
+  StudySummary summary = summary_of(2);
+  TrialResult& refused = summary.trials.front().results[0];
+  refused.accounting.calibration = {.calibrations = 1, .calibration_error_um = 500};
+  EXPECT_THAT(accounting_notes(summary), IsEmpty());
+  refused.accounting.calibration->calibrations_refused = 1;
+  EXPECT_THAT(accounting_notes(summary),
+              ElementsAre(HasSubstr("1 of 1 estimates of the calibration were refused")));
+  EXPECT_EQ(accounting_figure(refused.accounting, "calibration_error_um"), 500.0);
+  EXPECT_FALSE(accounting_figure({}, "calibrations"));
 }
 
 }  // namespace

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "eval/foreign/camera_file.hpp"
+
+#include "core/error.hpp"
+#include "eval/recording/pose_text.hpp"
+#include "files/text_rows.hpp"
+#include "files/yaml_value.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+namespace mapscore::eval {
+namespace {
+
+/// Least and most depth that counts where nothing says otherwise, metres.
+constexpr double kRangeMin_m = 0.1, kRangeMax_m = 10.0;
+constexpr double kMostOffset_s = 10.0;
+
+CameraModel pinhole_of(const std::vector<double>& numbers, const std::string& text) {
+  if (numbers.size() != 4 || numbers[0] <= 0.0 || numbers[1] <= 0.0)
+    throw Error(
+        fmt::format("--intrinsics: '{}' is not fx,fy,cx,cy in pixels, fx and fy above 0; "
+                    "undistort images of a camera with more",
+                    text));
+  return {0, 0, numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+CameraModel pinhole_of(const YamlValue& value) {
+  value.only({"fx_px", "fy_px", "cx_px", "cy_px"});
+  const double fx_px = value.at("fx_px").positive(), fy_px = value.at("fy_px").positive();
+  return {0, 0, fx_px, fy_px, value.at("cx_px").number(), value.at("cy_px").number()};
+}
+
+std::string pinhole_text(const CameraModel& camera) {
+  return fmt::format("{{fx_px: {}, fy_px: {}, cx_px: {}, cy_px: {}}}", camera.fx_px, camera.fy_px,
+                     camera.cx_px, camera.cy_px);
+}
+
+BelievedCameras read_camera_file(const std::filesystem::path& file) {
+  const YamlValue root = load_yaml(file);
+  root.only({"color", "depth", "T_color_depth", "T_base_depth", "range_min_m", "range_max_m",
+             "time_offset_s", "estimate"});
+  const auto pose_at = [&](const char* key) {
+    return root.has(key) ? pose_of(root.at(key)) : Pose::Identity();
+  };
+  const auto number_at = [&](const char* key, double otherwise) {
+    return root.has(key) ? root.at(key).number() : otherwise;
+  };
+  BelievedCameras cameras;
+  Calibration& calibration = cameras.calibration;
+  calibration.color = calibration.depth = pinhole_of(root.at("color"));
+  if (root.has("depth")) calibration.depth = pinhole_of(root.at("depth"));
+  calibration.T_color_depth = pose_at("T_color_depth");
+  calibration.T_base_depth = pose_at("T_base_depth");
+  calibration.range_min_m = number_at("range_min_m", kRangeMin_m);
+  calibration.range_max_m = number_at("range_max_m", kRangeMax_m);
+  if (calibration.range_min_m < 0.0 || calibration.range_max_m <= calibration.range_min_m)
+    root.fail("expected 0 <= range_min_m < range_max_m");
+  cameras.time_offset_s = number_at("time_offset_s", 0.0);
+  if (!(std::abs(cameras.time_offset_s) <= kMostOffset_s))
+    root.at("time_offset_s").fail("expected seconds from -10 to 10");
+  return cameras;
+}
+
+}  // namespace
+
+BelievedCameras read_cameras(const std::string& text) {
+  const auto numbers = parse_numbers(text, text.size());
+  if (!numbers) return read_camera_file(text);
+  BelievedCameras cameras;
+  cameras.calibration.color = cameras.calibration.depth = pinhole_of(*numbers, text);
+  cameras.calibration.range_min_m = kRangeMin_m;
+  cameras.calibration.range_max_m = kRangeMax_m;
+  return cameras;
+}
+
+std::string cameras_file_text(const BelievedCameras& cameras) {
+  const Calibration& calibration = cameras.calibration;
+  std::string text = fmt::format("color: {}\ndepth: {}\n", pinhole_text(calibration.color),
+                                 pinhole_text(calibration.depth));
+  text += fmt::format("T_color_depth: [{}]\nT_base_depth: [{}]\n",
+                      join_numbers(numbers_of(calibration.T_color_depth), ", "),
+                      join_numbers(numbers_of(calibration.T_base_depth), ", "));
+  text += fmt::format("range_min_m: {}\nrange_max_m: {}\n", calibration.range_min_m,
+                      calibration.range_max_m);
+  if (cameras.time_offset_s != 0.0)
+    text += fmt::format("time_offset_s: {}\n", cameras.time_offset_s);
+  return text;
+}
+
+}  // namespace mapscore::eval
