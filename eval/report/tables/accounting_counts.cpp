@@ -46,7 +46,10 @@ std::optional<double> accounting_figure(const Accounting& accounting, std::strin
   if (const auto count = count_named(accounting, name)) return count;
   std::optional<double> count;
   if (accounting.tracking) count = count_named(*accounting.tracking, name);
-  if (accounting.calibration && !count) count = count_named(*accounting.calibration, name);
+  if (count || !accounting.calibration) return count;
+  count = count_named(*accounting.calibration, name);
+  if (count && name.starts_with("calibration_error") && accounting.calibration->calibrations > 0)
+    *count /= static_cast<double>(accounting.calibration->calibrations);  // the mean of scenes
   return count;
 }
 
