@@ -12,7 +12,9 @@ namespace mapscore {
 namespace {
 
 constexpr double kTurnStep_px = 6.0, kShiftStep_m = 0.02, kRollStep_rad = 0.04;
+constexpr double kMostTurnSteps = 20;       // to either side, however long the lens
 constexpr std::size_t kCoarseEdges = 2000;  // of all frames
+constexpr std::size_t kKept = 4096;         // of the tried corrections, the best
 constexpr double kApart_px = 8.0;           // between candidates, at kApartAt_m
 constexpr double kApartAt_m = 2.0;
 
@@ -34,6 +36,12 @@ struct TriedCorrection {
   CalibrationCorrection correction;
   double match = 0;
 };
+
+/// The best of them, the best first.
+void keep_best(std::vector<TriedCorrection>& tried) {
+  std::ranges::stable_sort(tried, std::ranges::greater(), &TriedCorrection::match);
+  if (tried.size() > kKept) tried.resize(kKept);
+}
 
 /// Values from -most to most at about `step`, with 0.
 std::vector<double> lattice(double most, double step) {
@@ -79,7 +87,8 @@ std::vector<CalibrationCorrection> searched(const std::deque<OutlineEvidence>& f
                                             double turn_rad, double shift_m, double focal_px,
                                             const std::vector<double>& times_s, std::size_t most) {
   const std::size_t stride = stride_for(frames, kCoarseEdges);
-  const std::vector<double> turns = lattice(turn_rad, kTurnStep_px / focal_px),
+  const std::vector<double> turns = lattice(turn_rad, std::max(kTurnStep_px / focal_px,
+                                                               turn_rad / kMostTurnSteps)),
                             rolls = lattice(turn_rad / 2, kRollStep_rad),
                             shifts = lattice(shift_m, kShiftStep_m);
   std::vector<TriedCorrection> tried;
@@ -98,13 +107,14 @@ std::vector<CalibrationCorrection> searched(const std::deque<OutlineEvidence>& f
         for (const OutlineEvidence& frame : frames)
           one.match += frame.coarse_match(one.correction, stride);
       }
+    if (tried.size() > 4 * kKept) keep_best(tried);
   };
   for (const double time_s : times_s)
     for (const double roll : rolls)
       for (const double ry : turns)
         for (const double rx : turns)
           if (within(rx, ry, turn_rad)) try_shifts({rx, ry, roll}, time_s);
-  std::ranges::stable_sort(tried, std::ranges::greater(), &TriedCorrection::match);
+  keep_best(tried);
   std::vector<CalibrationCorrection> best;
   const auto places = [&](const CalibrationCorrection& c) {
     Eigen::Matrix<double, 4, 1> at;
