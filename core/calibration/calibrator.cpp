@@ -118,19 +118,32 @@ double largest_by_chance(double numbers) {
   return numbers * std::pow(1 - spread + kNormal * std::sqrt(spread), 3);
 }
 
+/// What may make a direction known.
+std::string advice_for(const std::string& direction) {
+  const auto holds = [&](std::string_view name) {
+    return direction.find(name) != std::string::npos;
+  };
+  if (holds("time")) return "add frames in which the robot turns, or do not look for time_offset";
+  if (holds("principal"))
+    return "do not look for principal_point, which a turn is hardly told from";
+  return "add frames with objects at other depths and at other places of the image; or the start "
+         "is "
+         "farther off than search_m and search_deg, or wrong in what is not looked for: "
+         "focal_length, time_offset";
+}
+
 /// Why an estimate must not be used; empty where it may.
 std::string objection(const CalibrationEstimate& estimate, const CalibratorSettings& settings) {
   if (estimate.explained < kLeastShare)
     return "hardly any outline lies on a step of depth; see that masks and depth images belong "
            "together, and that the start is not farther off than the search goes";
   if (!(estimate.weakest_px < kMostWeak_px) || !(estimate.condition < kMostCondition))
-    return estimate.weakest +
-           " cannot be told; add frames with objects at other depths and at other places of the "
-           "image";
+    return estimate.weakest + " cannot be told; " + advice_for(estimate.weakest);
   const Pose& rigid = estimate.correction.rigid;
   if (Eigen::AngleAxisd(rigid.linear()).angle() > kMostBeyond * settings.search_deg.rad() ||
       rigid.translation().norm() > kMostBeyond * settings.search_m)
-    return "the fit ran beyond what is searched; give a better start, or search farther";
+    return "the fit ran beyond what is searched; give a better start, or greater search_m and "
+           "search_deg";
   return {};
 }
 
@@ -159,7 +172,9 @@ CalibrationEstimate Calibrator::estimate() const {
   result.calibration = start_;
   const bool any = std::ranges::any_of(frames_, [](const auto& f) { return f.edges() > 0; });
   if (!any) {
-    result.reason = "no frame has a mask near a step of depth; add frames with objects in view";
+    result.reason =
+        "no frame has a mask near a step of depth; add frames with objects in view, and see that "
+        "depth is in the cameras' range";
     result.frames.resize(frames_.size());
     return result;
   }

@@ -16,13 +16,17 @@
 #include "eval/report/pictures/caption.hpp"
 #include "eval/report/pictures/outline_picture.hpp"
 #include "files/text.hpp"
+#include "files/yaml_value.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 namespace mapscore::eval {
@@ -63,6 +67,12 @@ CalibrationFrames frames_of_trial(const CalibrateFlags& flags) {
 
 CalibrationFrames frames_of_folder(const CalibrateFlags& flags) {
   const bool timed = flags.settings.time_offset;
+  const std::filesystem::path poses =
+      std::filesystem::path(flags.source.folder) / "groundtruth.txt";
+  if (timed && !std::filesystem::is_regular_file(poses))
+    throw Error(fmt::format(
+        "--time_offset: needs to know how the robot moved, and {} is missing; leave the flag out",
+        shown(poses)));
   const auto folder = std::make_shared<const LabelledFolder>(flags.source.labelled(timed));
   const auto motion = [folder](int n) -> std::optional<FrameMotion> {
     if (const auto velocity = folder->motion(n)) return FrameMotion{*velocity, folder->lag_s(n)};
@@ -105,8 +115,26 @@ CalibrationEstimate estimate_from(const CalibrationFrames& from, const std::vect
   return calibrator.estimate();
 }
 
+/// Throws Error where an output would take the place of a file that is read, or of another file
+/// than an earlier output.
+void keep_inputs(const CalibrateFlags& flags) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const auto refuse = [](const char* flag, const std::string& file, const char* what) {
+    throw Error(fmt::format("{}: {} is there and {}; give another name", flag, shown(file), what));
+  };
+  if (fs::is_regular_file(flags.file) && !load_yaml(flags.file).has("estimate"))
+    refuse("-o", flags.file, "is no calibration of an earlier run");
+  const fs::path folder = fs::weakly_canonical(flags.source.folder, none);
+  const fs::path picture = fs::weakly_canonical(flags.picture, none);
+  if (!flags.picture.empty() && fs::exists(picture) &&
+      std::ranges::mismatch(folder, picture).in1 == folder.end())
+    refuse("--picture", flags.picture, "may be an image of the recording");
+}
+
 void calibrate(const CalibrateFlags& flags) {
   check_outputs({{"-o", flags.file, ".yaml"}, {"--picture", flags.picture, ".png"}});
+  keep_inputs(flags);
   const CalibrationFrames from =
       is_trial_folder(flags.source.folder) ? frames_of_trial(flags) : frames_of_folder(flags);
   const std::vector<int> asked = flags.source.chosen_frames(from.count);
@@ -114,8 +142,8 @@ void calibrate(const CalibrateFlags& flags) {
       asked, flags.settings.frames, [&](int n) { return !from.sight(n).detections().empty(); });
   if (chosen.empty())
     throw Error(
-        fmt::format("{}: no label image of {} frames shows an object; check --classes and "
-                    "--detect, or give other frames",
+        fmt::format("{}: of {} frames none has a label image that shows an object; check "
+                    "--classes and --detect, or give other frames",
                     shown(flags.source.folder), asked.size()));
   if (flags.settings.time_offset &&
       std::ranges::none_of(chosen, [&](int n) { return from.motion(n).has_value(); }))
@@ -131,8 +159,8 @@ void calibrate(const CalibrateFlags& flags) {
   const auto together = lock_outputs({flags.file, flags.picture});
   if (!flags.picture.empty()) write_outlines(flags, from, chosen, estimate);
   if (!is_known(estimate.verdict)) {
-    std::cerr << fmt::format("mapscore: {}: {}; {} is not written\n", word_of(estimate.verdict),
-                             estimate.reason, shown(flags.file));
+    std::cerr << fmt::format("mapscore: {} is not written: the frames do not tell the calibration\n",
+                             shown(flags.file));
     *flags.exit_code = 1;
     return;
   }

@@ -110,6 +110,8 @@ void map_objects(const ObjectFlags& flags) {
   const Task task = task_of(study, spec, Labels::detected, recording.content_hash());
   PoseSources poses(recording);
   ObjectRun run(task, recording, table, poses, options);
+  if (!run.sights().calibration_note().empty())
+    std::cerr << fmt::format("objects: {}\n", run.sights().calibration_note());
   if (flags.start) run.start_from(read_objects(*flags.start, table));
   drive_through(recording, flags.quiet, run);
   write_files(run, table, flags.output);

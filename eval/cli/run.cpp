@@ -57,12 +57,13 @@ TrialSpec spec_of(const Study& study, const RunFlags& flags) {
 
 /// Which of the frames were mapped, and how their poses came about, where there is something to
 /// say.
-std::string accounting_text(const Accounting& accounting) {
+std::string accounting_text(const Accounting& accounting, const Sights& sights) {
   std::string text;
   if (accounting.frames_left_out > 0)
     text += fmt::format("# {} of {} frames mapped, the others are no key frames\n",
                         accounting.frames - accounting.frames_left_out, accounting.frames);
   if (accounting.tracking) text += fmt::format("# poses: {}\n", accounting.tracking->text());
+  if (!sights.calibration_note().empty()) text += "# " + sights.calibration_note() + "\n";
   return text;
 }
 
@@ -211,7 +212,7 @@ void print_scores(const ChosenTrial& chosen, const TrialRun& trial, const TrialR
                            name_of(chosen), spec.seed_index, spec.cell.doses.empty() ? "" : " ",
                            text_of(spec.cell), task.config.voxel_m, by_frame ? "frame" : "map",
                            trial.threshold())
-            << accounting_text(result.accounting) << score_text(result, table)
+            << accounting_text(result.accounting, *trial.sights()) << score_text(result, table)
             << shown(folder / "map.ot") << (by_frame ? " (of the last frame)\n" : "\n")
             << shown(folder / "map_colour.ot") << '\n'
             << score_command(folder / "map.ot", study, recording, table, task, trial.threshold());

@@ -113,6 +113,8 @@ void write(const TrialFlags& flags) {
                }},
               whole.partial());
   whole.finish();
+  if (!sights.calibration_note().empty())
+    std::cerr << fmt::format("trial: {}\n", sights.calibration_note());
   std::cout << fmt::format("{} seed {}{}{}, {} frames\n{}\n", spec.method, spec.seed_index,
                            spec.cell.doses.empty() ? "" : " ", text_of(spec.cell),
                            recording.frame_count(), shown(flags.output));

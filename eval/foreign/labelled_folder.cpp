@@ -24,6 +24,9 @@ constexpr const char* kMendOutside = "copy it there, or give --follow if the fol
 
 namespace fs = std::filesystem;
 
+/// Focal lengths that lenses without distortion have, by the images' width: 174 to 1.1 degrees.
+constexpr double kWidest = 40.0, kNarrowest = 50.0;
+
 /// Velocities are taken over at least so long, so that jitter of poses counts little.
 constexpr double kMotionWindow_s = 0.1;
 
@@ -208,6 +211,12 @@ void LabelledFolder::size_cameras() {
 
 void LabelledFolder::check_cameras() const {
   const auto check = [&](const char* name, const CameraModel& camera) {
+    for (const double focal_px : {camera.fx_px, camera.fy_px})
+      if (!(focal_px > camera.width_px / kWidest && focal_px < camera.width_px * kNarrowest))
+        throw Error(
+            fmt::format("--intrinsics: a focal length of {} px is none of {} images that are {} px "
+                        "wide; give pixels, from {} to {} times the width",
+                        focal_px, name, camera.width_px, 1 / kWidest, kNarrowest));
     const bool inside = camera.cx_px >= 0.0 && camera.cy_px >= 0.0 &&
                         camera.cx_px <= camera.width_px - 1.0 &&
                         camera.cy_px <= camera.height_px - 1.0;

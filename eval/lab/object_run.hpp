@@ -48,6 +48,7 @@ class ObjectRun {
   /// the depth image that `depth_of` names, and with depth_label where it is to be scored.
   ObjectChanges advance(const Frame& frame);
 
+  [[nodiscard]] const Sights& sights() const { return sights_; }
   [[nodiscard]] const ObjectMap& map() const { return map_; }
   [[nodiscard]] ObjectFile file() const;
   /// True objects of the detected classes that were visible in the frames so far. Boxes bound all

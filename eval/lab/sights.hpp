@@ -59,6 +59,8 @@ class Sights {
   [[nodiscard]] const Calibration& believed() const { return believed_; }
   /// How the estimate of it came out, where it is estimated.
   [[nodiscard]] const std::optional<CalibrationCounts>& calibrated() const { return calibrated_; }
+  /// The same for people, with the reason of a refusal; empty where it is not estimated.
+  [[nodiscard]] const std::string& calibration_note() const { return calibration_note_; }
 
   /// Whether the method sees the recording's own depth images, and whether its label images, whose
   /// ids may then mean other classes and scores but where keeps_verdicts.
@@ -90,6 +92,7 @@ class Sights {
   CameraModel depth_camera_;  ///< true
   Calibration believed_;      ///< what the method believes of the cameras
   std::optional<CalibrationCounts> calibrated_;
+  std::string calibration_note_;
   std::vector<int> depth_of_;  ///< by frame, of a recording
   bool is_live_ = false;       ///< no recording
   FaultSettings faults_;

@@ -192,7 +192,8 @@ TEST(Calibrator, WithoutMasksTheStartIsGiven) {
   const CalibrationEstimate estimate = estimated(scene, scene.truth(), 2, 0);
   EXPECT_EQ(estimate.verdict, CalibrationVerdict::undetermined);
   EXPECT_EQ(estimate.reason,
-            "no frame has a mask near a step of depth; add frames with objects in view");
+            "no frame has a mask near a step of depth; add frames with objects in view, and see "
+            "that depth is in the cameras' range");
 }
 
 TEST(Calibrator, SaysWhatEachFrameContributed) {

@@ -145,9 +145,25 @@ TEST_F(CalibrateVerb, TooLittleInViewIsRefusedAndNothingWritten) {
   const Outcome outcome =
       calibrate("recording", "none.yaml", {"--frames", "0", "--detect", "fridge"});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("undetermined"));
+  EXPECT_THAT(outcome.out, HasSubstr("undetermined: "));
   EXPECT_THAT(outcome.err, HasSubstr("is not written"));
   EXPECT_FALSE(fs::exists(path("none.yaml")));
+}
+
+TEST_F(CalibrateVerb, PixelsThatAllHaveAClassTellItToo) {
+  expect_done(calibrate("recording", "dense.yaml",
+                        {"--detect", "all", "--start", wrong_cameras(0.01, 0.01)}));
+  expect_near_truth("dense.yaml", 0.003, 0.05);
+}
+
+TEST_F(CalibrateVerb, WhatIsReadIsNotWrittenOver) {
+  const std::string start = wrong_cameras(0.01, 0.005);
+  expect_refused(mapscore({"calibrate", path("recording"), "-o", start, "--start", start}),
+                 {"-o", "is no calibration of an earlier run"});
+  expect_refused(calibrate("recording", "recording/recording.yaml"), {"is no calibration"});
+  expect_refused(
+      calibrate("recording", "x.yaml", {"--picture", path("recording/label/000000.png")}),
+      {"--picture", "may be an image of the recording"});
 }
 
 TEST_F(CalibrateVerb, BadInputIsRefused) {
@@ -155,6 +171,9 @@ TEST_F(CalibrateVerb, BadInputIsRefused) {
   expect_refused(calibrate("recording", "x.txt"), {"-o", ".yaml"});
   expect_refused(calibrate("recording", "x.yaml", {"--frames", "7000"}), {"7000"});
   expect_refused(calibrate("recording", "x.yaml", {"--search_deg", "90"}), {"search_deg"});
+  write_text(path("far.yaml"), "color: {fx_px: 1e308, fy_px: 280, cx_px: 160, cy_px: 120}\n");
+  expect_refused(calibrate("recording", "x.yaml", {"--start", path("far.yaml")}),
+                 {"a focal length of 1e+308 px"});
   write_text(path("bad.yaml"), "color: {fx_px: 0}\n");
   expect_refused(calibrate("recording", "x.yaml", {"--start", path("bad.yaml")}), {"fx_px"});
 }
