@@ -25,7 +25,7 @@ constexpr double kFinestSpreads = 1.3, kFinest_px = 0.5, kCoarsest_px = 2.0;
 constexpr double kLeastShare = 0.1;  // of the outlines, on which edges must lie
 constexpr double kBehind = 0.002;  // of the outlines, by which an estimate may be behind the start
 constexpr double kMostWeak_px = 1.0;      // standard deviation of the weakest direction
-constexpr double kMostCondition = 400.0;  // one object has above 900, twenty frames below 100
+constexpr double kMostCondition = 250.0;  // one object has above 900, twenty frames below 100
 constexpr double kMostBeyond = 1.5;       // of what the search tries
 constexpr double kRadius_px = 150.0;      // of the edges about the image's middle, roughly
 
