@@ -159,8 +159,8 @@ void calibrate(const CalibrateFlags& flags) {
   const auto together = lock_outputs({flags.file, flags.picture});
   if (!flags.picture.empty()) write_outlines(flags, from, chosen, estimate);
   if (!is_known(estimate.verdict)) {
-    std::cerr << fmt::format("mapscore: {} is not written: the frames do not tell the calibration\n",
-                             shown(flags.file));
+    std::cerr << fmt::format(
+        "mapscore: {} is not written: the frames do not tell the calibration\n", shown(flags.file));
     *flags.exit_code = 1;
     return;
   }

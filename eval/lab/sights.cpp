@@ -152,11 +152,10 @@ void Sights::calibrate(const Recording& recording, const CalibratorSettings& set
     calibrator.add(sight(index));
   const CalibrationEstimate estimate = calibrator.estimate();
   believed_ = estimate.calibration;
-  calibration_note_ =
-      fmt::format("calibration, estimated: {}{}", word_of(estimate.verdict),
-                  is_known(estimate.verdict)
-                      ? ""
-                      : ": " + estimate.reason + "; what was believed before is used");
+  calibration_note_ = fmt::format(
+      "calibration, estimated: {}{}", word_of(estimate.verdict),
+      is_known(estimate.verdict) ? ""
+                                 : ": " + estimate.reason + "; what was believed before is used");
   const Pose error = believed_.T_color_depth * recording.info().calibration.T_color_depth.inverse();
   const double turn_rad = Eigen::AngleAxisd(error.linear()).angle();
   calibrated_ =

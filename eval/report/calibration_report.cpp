@@ -67,14 +67,14 @@ std::string calibration_summary(const CalibrationEstimate& estimate) {
       "start",
       100 * estimate.explained, 100 * estimate.explained_start);
   const std::string kept = estimate.reason.empty() ? "" : estimate.reason + "; it is kept\nfound: ";
-  const std::string verdict =
-      is_known(estimate.verdict)
-          ? fmt::format("{}: {}{}", word_of(estimate.verdict), kept, found)
-          : fmt::format("{}: {}\nfound, and not used: {}", word_of(estimate.verdict),
-                        estimate.reason, found);
-  return fmt::format("{}\n{}\nknown least: {}, to {:.2g} px; condition number {:.0f}\n"
-                     "taken as exact: depth and its scale, stamps and lenses, but for what is listed\n",
-                     verdict, shares, estimate.weakest, estimate.weakest_px, estimate.condition);
+  const std::string verdict = is_known(estimate.verdict)
+                                  ? fmt::format("{}: {}{}", word_of(estimate.verdict), kept, found)
+                                  : fmt::format("{}: {}\nfound, and not used: {}",
+                                                word_of(estimate.verdict), estimate.reason, found);
+  return fmt::format(
+      "{}\n{}\nknown least: {}, to {:.2g} px; condition number {:.0f}\n"
+      "taken as exact: depth and its scale, stamps and lenses, but for what is listed\n",
+      verdict, shares, estimate.weakest, estimate.weakest_px, estimate.condition);
 }
 
 std::string calibration_numbers(const CalibrationEstimate& estimate) {
@@ -94,8 +94,8 @@ std::string calibration_frames(const CalibrationEstimate& estimate, const std::v
                   "steps", "on steps %", "information %", "residual px", "left out px");
   for (std::size_t n = 0; n < estimate.frames.size(); ++n) {
     const FrameContribution& frame = estimate.frames[n];
-    text += fmt::format("{:>6} {:>11.0f} {:>8} {:>10.1f} {:>13.1f} {:>12.3f} {:>12}\n",
-                        names.at(n), frame.length_px, frame.edges, 100 * frame.explained,
+    text += fmt::format("{:>6} {:>11.0f} {:>8} {:>10.1f} {:>13.1f} {:>12.3f} {:>12}\n", names.at(n),
+                        frame.length_px, frame.edges, 100 * frame.explained,
                         100 * frame.information, frame.residual_px,
                         frame.left_out_px > 0 ? fmt::format("{:.3f}", frame.left_out_px) : "-");
   }
