@@ -55,8 +55,7 @@ TrialSpec spec_of(const Study& study, const RunFlags& flags) {
                           fmt::join(method_names(study), " ")));
 }
 
-/// Which of the frames were mapped, and how their poses came about, where there is something to
-/// say.
+/// Which frames were mapped, and how poses and calibration came about, where that is to be said.
 std::string accounting_text(const Accounting& accounting, const Sights& sights) {
   std::string text;
   if (accounting.frames_left_out > 0)
