@@ -170,11 +170,9 @@ EdgeMatch OutlineEvidence::match_of(const Edge& edge, const Eigen::Vector2f& at,
     return owner == nearer || owner == 0 ? d : -d;
   };
   const float a = at.x() - static_cast<float>(u), b = at.y() - static_cast<float>(v);
-  const float d00 = distance(0, 0), d10 = distance(1, 0), d01 = distance(0, 1),
-              d11 = distance(1, 1);
-  match.residual = (1 - b) * ((1 - a) * d00 + a * d10) + b * ((1 - a) * d01 + a * d11) - offset_px;
-  match.gradient = {(1 - b) * (d10 - d00) + b * (d11 - d01),
-                    (1 - a) * (d01 - d00) + a * (d11 - d10)};
+  const BetweenPixels beyond(distance(0, 0), distance(1, 0), distance(0, 1), distance(1, 1), a, b);
+  match.residual = beyond.value - offset_px;
+  match.gradient = beyond.gradient;
   match.facing = match.gradient.dot(edge.outward);
   const float spreads = match.residual / sigma_px;
   match.weight = match.facing > 0 && std::abs(spreads) <= 3

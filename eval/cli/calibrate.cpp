@@ -11,7 +11,7 @@
 #include "eval/cli/verbs.hpp"
 #include "eval/foreign/camera_file.hpp"
 #include "eval/lab/folder_mapping.hpp"
-#include "eval/recording/frame_selection.hpp"
+#include "eval/lab/sights.hpp"
 #include "eval/report/calibration_report.hpp"
 #include "eval/report/pictures/caption.hpp"
 #include "eval/report/pictures/outline_picture.hpp"
@@ -24,6 +24,8 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -87,32 +89,21 @@ CalibrationFrames frames_of_folder(const CalibrateFlags& flags) {
 }
 
 /// The frame that says most of what is known least.
-std::size_t most_telling(const CalibrationEstimate& estimate) {
+std::ptrdiff_t most_telling(const CalibrationEstimate& estimate) {
   const auto most = std::ranges::max_element(estimate.frames, {}, &FrameContribution::information);
-  return static_cast<std::size_t>(most - estimate.frames.begin());
+  return most - estimate.frames.begin();
 }
 
 void write_outlines(const CalibrateFlags& flags, const CalibrationFrames& from,
-                    const std::vector<int>& chosen, const CalibrationEstimate& estimate) {
-  const int frame = chosen[most_telling(estimate)];
+                    const std::map<int, Sight>& sights, const CalibrationEstimate& estimate) {
+  const auto& [frame, sight] = *std::next(sights.begin(), most_telling(estimate));
   const char* after =
       estimate.verdict == CalibrationVerdict::calibrated ? "estimate" : "found, not used";
   const cv::Mat3b picture = outline_picture(
-      from.sight(frame), {from.classes, {}},
+      sight, {from.classes, {}},
       {{fmt::format("start, frame {}", frame), from.start},
        {fmt::format("{}, frame {}", after, frame), estimate.correction.applied(from.start)}});
   std::cout << shown(write_picture(flags.picture, picture)) << '\n';
-}
-
-CalibrationEstimate estimate_from(const CalibrationFrames& from, const std::vector<int>& chosen,
-                                  const CalibrateFlags& flags) {
-  Calibrator calibrator(from.start, flags.settings);
-  Progress progress("calibrate", "frames", flags.quiet);
-  for (int done = 0; const int frame : chosen) {
-    calibrator.add(from.sight(frame), from.motion(frame));
-    progress.show(++done, static_cast<int>(chosen.size()));
-  }
-  return calibrator.estimate();
 }
 
 /// Throws Error where an output would take the place of a file that is read, or of another file
@@ -125,7 +116,8 @@ void keep_inputs(const CalibrateFlags& flags) {
   };
   if (fs::is_regular_file(flags.file) && !load_yaml(flags.file).has("estimate"))
     refuse("-o", flags.file, "is no calibration of an earlier run");
-  const fs::path folder = fs::weakly_canonical(flags.source.folder, none);
+  fs::path folder = fs::weakly_canonical(flags.source.folder, none);
+  if (!folder.has_filename()) folder = folder.parent_path();  // it was written with a slash
   const fs::path picture = fs::weakly_canonical(flags.picture, none);
   if (!flags.picture.empty() && fs::exists(picture) &&
       std::ranges::mismatch(folder, picture).in1 == folder.end())
@@ -138,26 +130,38 @@ void calibrate(const CalibrateFlags& flags) {
   const CalibrationFrames from =
       is_trial_folder(flags.source.folder) ? frames_of_trial(flags) : frames_of_folder(flags);
   const std::vector<int> asked = flags.source.chosen_frames(from.count);
-  const std::vector<int> chosen = spread_over(
-      asked, flags.settings.frames, [&](int n) { return !from.sight(n).detections().empty(); });
-  if (chosen.empty())
+  Progress progress("calibrate", "frames", flags.quiet);
+  const std::map<int, Sight> sights =
+      sights_of_objects(asked, flags.settings.frames, [&, read = 0](int frame) mutable {
+        progress.show(++read, std::ssize(asked));
+        return from.sight(frame);
+      });
+  if (sights.empty())
     throw Error(
         fmt::format("{}: of {} frames none has a label image that shows an object; check "
                     "--classes and --detect, or give other frames",
                     shown(flags.source.folder), asked.size()));
-  if (flags.settings.time_offset &&
-      std::ranges::none_of(chosen, [&](int n) { return from.motion(n).has_value(); }))
+  Calibrator calibrator(from.start, flags.settings);
+  std::vector<int> chosen;
+  bool moves = false;
+  for (const auto& [frame, sight] : sights) {
+    const std::optional<FrameMotion> motion = from.motion(frame);
+    moves = moves || motion;
+    chosen.push_back(frame);
+    calibrator.add(sight, motion);
+  }
+  if (flags.settings.time_offset && !moves)
     throw Error(fmt::format(
         "--time_offset: groundtruth.txt of {} has no poses around these frames' stamps, at most "
         "0.25 s apart; leave the flag out, or add poses",
         shown(flags.source.folder)));
-  const CalibrationEstimate estimate = estimate_from(from, chosen, flags);
+  const CalibrationEstimate estimate = calibrator.estimate();
   std::cout << fmt::format("{} frames that show objects, of {}\n", chosen.size(), asked.size())
             << calibration_summary(estimate) << '\n'
             << calibration_numbers(estimate) << '\n'
             << calibration_frames(estimate, chosen);
   const auto together = lock_outputs({flags.file, flags.picture});
-  if (!flags.picture.empty()) write_outlines(flags, from, chosen, estimate);
+  if (!flags.picture.empty()) write_outlines(flags, from, sights, estimate);
   if (!is_known(estimate.verdict)) {
     std::cerr << fmt::format(
         "mapscore: {} is not written: the frames do not tell the calibration\n", shown(flags.file));

@@ -110,6 +110,16 @@ class Sights::SimulatedLabels {
   std::vector<PerceivedModel> models_;  ///< in the scene's world, where nothing moves
 };
 
+std::map<int, Sight> sights_of_objects(const std::vector<int>& frames, int most,
+                                       const std::function<Sight(int)>& sight) {
+  std::map<int, Sight> sights;
+  static_cast<void>(spread_over(frames, most, [&](int frame) {
+    Sight seen = sight(frame);
+    return !seen.detections().empty() && sights.emplace(frame, std::move(seen)).second;
+  }));
+  return sights;
+}
+
 Calibration believed_calibration(const Calibration& truth, const Task& task) {
   const std::uint64_t seed = trial_seed(task);
   const Calibration misregistered =
@@ -145,11 +155,10 @@ void Sights::calibrate(const Recording& recording, const CalibratorSettings& set
     return of(recording.read(index, depth_of(index),
                              {.color = false, .label = true, .depth = true, .depth_label = false}));
   };
-  const auto shows_objects = [&](int index) { return !sight(index).detections().empty(); };
   Calibrator calibrator(believed_, settings);
-  for (const int index :
-       spread_over(FrameSelection().of(recording.frame_count()), settings.frames, shows_objects))
-    calibrator.add(sight(index));
+  for (const auto& [index, seen] :
+       sights_of_objects(FrameSelection().of(recording.frame_count()), settings.frames, sight))
+    calibrator.add(seen);
   const CalibrationEstimate estimate = calibrator.estimate();
   believed_ = estimate.calibration;
   calibration_note_ = fmt::format(

@@ -16,6 +16,8 @@
 #include "eval/study/study.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -99,6 +101,11 @@ class Sights {
   std::shared_ptr<const SimulatedLabels> simulated_;  ///< in place of the recording's labels
   std::shared_ptr<const NetworkLabels> network_;      ///< likewise
 };
+
+/// What is seen at so many of these frames at most that show objects, spread evenly, by frame: what
+/// a calibration is estimated from. Throws Error as `sight`.
+[[nodiscard]] std::map<int, Sight> sights_of_objects(const std::vector<int>& frames, int most,
+                                                     const std::function<Sight(int)>& sight);
 
 /// The true calibration with a task's calibration faults: what its method believes, or where the
 /// calibration is estimated, what the estimate starts from.

@@ -41,6 +41,20 @@ struct Projection {
   }
 };
 
+/// A value between four pixels, and how it changes along rows and columns, by its values at the
+/// pixel above left, the next in the row, the one below and the next of that; a, b: place between
+/// them, 0 to 1.
+struct BetweenPixels {
+  float value;
+  Eigen::Vector2f gradient;
+
+  BetweenPixels(float top_left, float top_right, float low_left, float low_right, float a, float b)
+      : value((1 - b) * ((1 - a) * top_left + a * top_right) +
+              b * ((1 - a) * low_left + a * low_right)),
+        gradient((1 - b) * (top_right - top_left) + b * (low_right - low_left),
+                 (1 - a) * (low_left - top_left) + a * (low_right - top_right)) {}
+};
+
 /// How an edge at a place of the colour image lies to the outlines.
 struct EdgeMatch {
   float weight = 0;                ///< 0 where it meets no outline
@@ -61,12 +75,10 @@ struct EdgeMatch {
   const float* top = field.distance[v] + u;
   const float* low = field.distance[v + 1] + u;
   const float a = at.x() - static_cast<float>(u), b = at.y() - static_cast<float>(v);
-  const float value =
-      (1 - b) * ((1 - a) * top[0] + a * top[1]) + b * ((1 - a) * low[0] + a * low[1]);
-  match.residual = value - offset_px;
+  const BetweenPixels distance(top[0], top[1], low[0], low[1], a, b);
+  match.residual = distance.value - offset_px;
   if (std::abs(match.residual) > 3 * sigma_px) return match;
-  match.gradient = {(1 - b) * (top[1] - top[0]) + b * (low[1] - low[0]),
-                    (1 - a) * (low[0] - top[0]) + a * (low[1] - top[1])};
+  match.gradient = distance.gradient;
   match.facing = match.gradient.dot(outward);
   constexpr auto kOtherWay = static_cast<float>(OutlineField::kOtherWay);
   match.weight = strength * (match.facing > 0 ? match.facing : -kOtherWay * match.facing) *

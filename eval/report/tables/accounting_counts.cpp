@@ -28,6 +28,35 @@ std::optional<double> count_named(const Owner& owner, std::string_view name) {
   return std::nullopt;
 }
 
+std::string tracking_note(const StudySummary& summary) {
+  std::int64_t trials = 0, with_guesses = 0;
+  TrackingCounts all;
+  for (const ResultLine& line : summary.trials)
+    for (const Accounting& accounting : accountings_of(line)) {
+      if (!accounting.tracking) continue;
+      ++trials;
+      all += *accounting.tracking;
+      with_guesses += accounting.tracking->untracked() > 0 ? 1 : 0;
+    }
+  if (all.untracked() == 0) return "";
+  return fmt::format(
+      "the pose of {} of {} depth images is a guess (unsure, blind, lost, restarted or "
+      "relocated), in {} of the {} trials whose poses come from them; --metric {} shows where",
+      all.untracked(), all.images(), with_guesses, trials, fmt::join(all.untracked_names(), ","));
+}
+
+std::string calibration_note(const StudySummary& summary) {
+  CalibrationCounts all;
+  for (const ResultLine& line : summary.trials)
+    for (const Accounting& accounting : accountings_of(line))
+      if (accounting.calibration) all += *accounting.calibration;
+  if (all.calibrations_refused == 0) return "";
+  return fmt::format(
+      "{} of {} estimates of the calibration were refused, and their trials mapped with what was "
+      "believed before; --metric calibrations_refused shows where",
+      all.calibrations_refused, all.calibrations);
+}
+
 }  // namespace
 
 std::vector<std::string> accounting_names() {
@@ -66,39 +95,6 @@ Estimate accounting_estimate(const ResultLine& line, std::string_view name) {
   estimate.over_seeds = summarise(estimate.by_seed, ValueLimits{.low = 0.0});
   return estimate;
 }
-
-namespace {
-
-std::string tracking_note(const StudySummary& summary) {
-  std::int64_t trials = 0, with_guesses = 0;
-  TrackingCounts all;
-  for (const ResultLine& line : summary.trials)
-    for (const Accounting& accounting : accountings_of(line)) {
-      if (!accounting.tracking) continue;
-      ++trials;
-      all += *accounting.tracking;
-      with_guesses += accounting.tracking->untracked() > 0 ? 1 : 0;
-    }
-  if (all.untracked() == 0) return "";
-  return fmt::format(
-      "the pose of {} of {} depth images is a guess (unsure, blind, lost, restarted or "
-      "relocated), in {} of the {} trials whose poses come from them; --metric {} shows where",
-      all.untracked(), all.images(), with_guesses, trials, fmt::join(all.untracked_names(), ","));
-}
-
-std::string calibration_note(const StudySummary& summary) {
-  CalibrationCounts all;
-  for (const ResultLine& line : summary.trials)
-    for (const Accounting& accounting : accountings_of(line))
-      if (accounting.calibration) all += *accounting.calibration;
-  if (all.calibrations_refused == 0) return "";
-  return fmt::format(
-      "{} of {} estimates of the calibration were refused, and their trials mapped with what was "
-      "believed before; --metric calibrations_refused shows where",
-      all.calibrations_refused, all.calibrations);
-}
-
-}  // namespace
 
 std::vector<std::string> accounting_notes(const StudySummary& summary) {
   std::vector<std::string> notes;

@@ -103,7 +103,7 @@ CalibrationEstimate estimated(const BoardScene& scene, const Calibration& start,
 
 /// Expects that each of `draws` is refused, with a direction in its reason.
 void expect_undetermined(const BoardScene& scene, InstanceId boards, int draws) {
-  constexpr int kFrames = 8;
+  constexpr int kFrames = 3;
   for (int draw = 0; draw < draws; ++draw) {
     RandomStream by(5, "start", {static_cast<std::uint64_t>(draw)});
     const Eigen::Vector3d shift(0.02 * by.normal(), 0.02 * by.normal(), 0.005 * by.normal()),
@@ -157,18 +157,10 @@ TEST(Calibrator, OneObjectIsTooFew) {
   EXPECT_TRUE(estimate.calibration.T_color_depth.isApprox(start.T_color_depth));
 }
 
-TEST(Calibrator, OnePlaneIsRefused) {
-  expect_undetermined(BoardScene(2.0), 6, 4);
-}
-TEST(Calibrator, OneBoardOnOnePlaneIsRefused) {
-  expect_undetermined(BoardScene(2.0), 1, 4);
-}
-
-// A hundred draws each: takes minutes.
-TEST(Calibrator, DISABLED_OnePlaneIsRefusedAlways) {
+TEST(Calibrator, OnePlaneIsRefusedAlways) {
   expect_undetermined(BoardScene(2.0), 6, 100);
 }
-TEST(Calibrator, DISABLED_OneBoardIsRefusedAlways) {
+TEST(Calibrator, OneBoardIsRefusedAlways) {
   expect_undetermined(BoardScene(2.0), 1, 100);
 }
 

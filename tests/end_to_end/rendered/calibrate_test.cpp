@@ -164,6 +164,9 @@ TEST_F(CalibrateVerb, WhatIsReadIsNotWrittenOver) {
   expect_refused(
       calibrate("recording", "x.yaml", {"--picture", path("recording/label/000000.png")}),
       {"--picture", "may be an image of the recording"});
+  expect_refused(
+      calibrate("recording/", "x.yaml", {"--picture", path("recording/label/000000.png")}),
+      {"--picture", "may be an image of the recording"});
 }
 
 TEST_F(CalibrateVerb, BadInputIsRefused) {

@@ -77,5 +77,17 @@ TEST(FrameSelection, RefusesToSelectNothing) {
   }
 }
 
+TEST(SpreadOver, TakesFitFramesEvenlyAndInOrder) {
+  const auto any = [](int) { return true; };
+  const std::vector<int> frames = FrameSelection().of(16);
+  EXPECT_THAT(spread_over(frames, 4, any), ElementsAre(0, 4, 8, 12));
+  EXPECT_THAT(spread_over({3, 5, 9}, 7, any), ElementsAre(3, 5, 9));
+  EXPECT_THAT(spread_over(FrameSelection().of(5), 2, any), ElementsAre(0, 4));
+  EXPECT_THAT(spread_over(frames, 4, [](int frame) { return frame % 2 == 1; }),
+              ElementsAre(1, 5, 9, 13));
+  EXPECT_TRUE(spread_over({}, 4, any).empty());
+  EXPECT_TRUE(spread_over(frames, 4, [](int) { return false; }).empty());
+}
+
 }  // namespace
 }  // namespace mapscore::eval
