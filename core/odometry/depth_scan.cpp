@@ -17,7 +17,8 @@ namespace {
 constexpr int kBlocksAcross = 160;
 /// A block whose depths differ by more than this share of the nearest sees more than one surface.
 constexpr double kEdgeShare = 0.06;
-/// Blocks on either side that make a normal, and what their depths may differ by, over depth.
+/// Blocks from one to those on either side that make its normal (one of a coarser raster), and what
+/// their depths may differ by, over depth.
 constexpr int kNormalReach = 2;
 constexpr double kSteepest = 0.3;
 /// Pixels of a block that count as independent.
@@ -54,6 +55,7 @@ double sigma_at(double z, const DepthSampling& sampling) {
 /// Points of blocks, in rows; NaN where there is none.
 struct BlockGrid {
   int columns = 0, rows = 0;
+  int reach = 0;  ///< to those that make a normal
   std::vector<Eigen::Vector3d> points;
 
   [[nodiscard]] const Eigen::Vector3d& at(int column, int row) const {
@@ -63,8 +65,8 @@ struct BlockGrid {
 
 /// Normal of the blocks around one, towards the camera; none beside an edge of depth.
 std::optional<Eigen::Vector3d> normal_at(const BlockGrid& grid, int column, int row) {
-  const int left = column - kNormalReach, right = column + kNormalReach;
-  const int above = row - kNormalReach, below = row + kNormalReach;
+  const int left = column - grid.reach, right = column + grid.reach;
+  const int above = row - grid.reach, below = row + grid.reach;
   if (left < 0 || above < 0 || right >= grid.columns || below >= grid.rows) return {};
   const Eigen::Vector3d across = grid.at(right, row) - grid.at(left, row);
   const Eigen::Vector3d down = grid.at(column, below) - grid.at(column, above);
@@ -87,7 +89,10 @@ DepthScan scan_of(const cv::Mat1w& depth, const Calibration& believed,
   const double range_max_m = std::min(sampling.range_max_m, believed.range_max_m);
   const int edge = std::max(1, depth.cols / kBlocksAcross);
   const int pitch = std::max(edge, depth.cols / sampling.points_across);
-  BlockGrid grid{(depth.cols + pitch - 1) / pitch, (depth.rows + pitch - 1) / pitch, {}};
+  BlockGrid grid{(depth.cols + pitch - 1) / pitch,
+                 (depth.rows + pitch - 1) / pitch,
+                 std::max(1, kNormalReach * edge / pitch),
+                 {}};
   for (int v = 0; v < depth.rows; v += pitch)
     for (int u = 0; u < depth.cols; u += pitch)
       grid.points.push_back(block_point(depth, rays, u, v, edge, believed, range_max_m)

@@ -21,12 +21,17 @@ namespace mapscore {
 /// Khoshelham, S. O. Elberink, 2012). The defaults are those of an Astra, but for the step: an
 /// Astra's of 0.0029 is common to all pixels of a surface and does not average out.
 struct DepthSampling {
-  int points_across = 80;
+  int points_across = 80;       ///< of images that are matched
+  int map_points_across = 160;  ///< of key frames, as they enter the map; see of_map
   double range_max_m = 8;
   double sigma_base_m = 0.0012, sigma_growth_per_m = 0.0019, disparity_step_per_m = 0.008;
 
   static void fields(auto& s, auto&& visit) {
-    visit(s.points_across, Field{"points_across", "points in a row of the image", {8, 4096}});
+    visit(s.points_across,
+          Field{"points_across", "points in a row of an image that is matched", {8, 4096}});
+    visit(s.map_points_across, Field{"map_points_across",
+                                     "points in a row of a key frame as it enters the map",
+                                     {8, 4096}});
     visit(s.range_max_m, Field{"range_max_m", "depth beyond it is not matched", above(0, 100)});
     visit(s.sigma_base_m,
           Field{"sigma_base_m", "believed standard deviation of depth at 0.4 m", above(0, 1)});
@@ -34,6 +39,13 @@ struct DepthSampling {
           Field{"sigma_growth_per_m", "its believed growth with (z - 0.4 m)^2", {0, 1}});
     visit(s.disparity_step_per_m,
           Field{"disparity_step_per_m", "believed step of depth over z^2", {0, 1}});
+  }
+  /// That of a key frame as it enters the map. Its errors stay there and move all that is matched
+  /// with them, where those of one match average out: so it takes more points.
+  [[nodiscard]] DepthSampling of_map() const {
+    DepthSampling dense = *this;
+    dense.points_across = map_points_across;
+    return dense;
   }
   bool operator==(const DepthSampling&) const = default;
 };

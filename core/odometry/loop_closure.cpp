@@ -64,18 +64,19 @@ std::vector<std::size_t> loop_candidates(const std::vector<KeyFrame>& earlier,
   return candidates;
 }
 
-std::optional<ScanMatch> verified_loop(const std::vector<KeyFrame>& keys, std::size_t candidate,
-                                       const KeyFrame& current, const PosePrior& prior,
-                                       const PlaneMapParams& map, const LoopClosure& rule) {
+std::vector<std::size_t> keys_about(const std::vector<KeyFrame>& keys, std::size_t candidate,
+                                    const KeyFrame& current, const LoopClosure& rule) {
   const std::size_t first = candidate - std::min(candidate, kNeighbours);
   const std::size_t last = std::min(candidate + kNeighbours, keys.size() - 1);
-  LocalMap about(map, 2 * kNeighbours + 1);
+  std::vector<std::size_t> about;
   for (std::size_t n = first; n <= last; ++n)
     if (current.way_m - keys[n].way_m >= 0.5 * rule.loop_way_m || n == candidate)
-      about.insert(keys[n].scan, keys[n].T_map_base);
-  const ScanMatch match = about.match(current.scan, prior);
-  if (match.support() < rule.loop_support || match.inlier_share < kLeastInliers) return {};
-  return match;
+      about.push_back(n);
+  return about;
+}
+
+bool closes_loop(const ScanMatch& match, const LoopClosure& rule) {
+  return match.support() >= rule.loop_support && match.inlier_share >= kLeastInliers;
 }
 
 }  // namespace mapscore

@@ -11,7 +11,6 @@
 #include <opencv2/core.hpp>
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace mapscore {
@@ -45,8 +44,9 @@ struct LoopClosure {
 struct KeyFrame {
   double stamp_s = 0.0;
   Pose T_map_base = Pose::Identity();
-  double way_m = 0.0;  ///< driven since the first one
-  DepthScan scan;
+  double way_m = 0.0;     ///< driven since the first one
+  cv::Mat1w depth;        ///< for maps made anew; empty without loops
+  DepthScan scan;         ///< of points_across
   cv::Mat1f small_depth;  ///< see small_depth_of
 };
 
@@ -64,13 +64,13 @@ struct KeyFrame {
                                                        const LoopClosure& rule, double reach_m,
                                                        bool anywhere = false);
 
-/// Matches the scan of `current` with a map of the key frames about the candidate; nothing where
-/// too few points lie on its planes. `prior`: of T_map_base of the current frame, relative to the
-/// candidate's.
-[[nodiscard]] std::optional<ScanMatch> verified_loop(const std::vector<KeyFrame>& keys,
-                                                     std::size_t candidate, const KeyFrame& current,
-                                                     const PosePrior& prior,
-                                                     const PlaneMapParams& map,
-                                                     const LoopClosure& rule);
+/// Key frames about a candidate, itself among them, whose map `current` is to be matched with; none
+/// that it just came by.
+[[nodiscard]] std::vector<std::size_t> keys_about(const std::vector<KeyFrame>& keys,
+                                                  std::size_t candidate, const KeyFrame& current,
+                                                  const LoopClosure& rule);
+
+/// Whether enough of a key frame's points lie on the planes of that map.
+[[nodiscard]] bool closes_loop(const ScanMatch& match, const LoopClosure& rule);
 
 }  // namespace mapscore

@@ -265,7 +265,11 @@ OdometryStep VisualOdometry::placed(OdometryStep step, const State& state) {
 
 void VisualOdometry::keep(DepthScan scan, const OdometryFrame& frame, OdometryStep& step) {
   step.key_frame = true;
-  KeyFrame key{frame.stamp_s, state_.T_map_base, way_m_, std::move(scan),
+  KeyFrame key{frame.stamp_s,
+               state_.T_map_base,
+               way_m_,
+               params_.loops ? frame.depth.clone() : cv::Mat1w(),
+               std::move(scan),
                params_.loops ? small_depth_of(frame.depth, believed_.range_max_m) : cv::Mat1f()};
   if (!keys_.empty()) {
     const double share =
@@ -278,7 +282,7 @@ void VisualOdometry::keep(DepthScan scan, const OdometryFrame& frame, OdometrySt
     edges_.push_back({keys_.size() - 1, keys_.size(),
                       keys_.back().T_map_base.inverse() * key.T_map_base, growth, false});
   }
-  local_map_.insert(key.scan, key.T_map_base);
+  local_map_.insert(scan_of(frame.depth, believed_, params_.sampling.of_map()), key.T_map_base);
   key_view_ = KeyView(frame.depth, local_map_.upright_at(key.scan, key.T_map_base));
   keys_.push_back(std::move(key));
   if (params_.loops && way_m_ - loop_closed_at_m_ >= 1.0)

@@ -148,6 +148,8 @@ class VisualOdometry {
   bool relocate(const DepthScan& scan, const OdometryFrame& frame);
   void spread();
   void rebuild();
+  /// The planes of these key frames, in the map's axes; at most kHorizon of them.
+  [[nodiscard]] LocalMap map_of(const std::vector<std::size_t>& keys) const;
 
   VisualOdometryParams params_;
   Calibration believed_;

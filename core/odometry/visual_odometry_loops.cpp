@@ -24,18 +24,20 @@ bool VisualOdometry::close_loop(const cv::Mat1w& depth, bool anywhere) {
         anywhere
             ? PosePrior{keys_[n].T_map_base, jump_when_lost()}
             : PosePrior{current.T_map_base, state_.drift + state_.relative + key_frame_floor()};
-    const auto match = verified_loop(keys_, n, current, prior, params_.map, *params_.loops);
-    if (!match || (anywhere && (match->support() < kStillSeen * last_support_ ||
-                                sees_through_key(depth, keys_[n], match->T_map_base))))
+    const ScanMatch match =
+        map_of(keys_about(keys_, n, current, *params_.loops)).match(current.scan, prior);
+    if (!closes_loop(match, *params_.loops) ||
+        (anywhere && (match.support() < kStillSeen * last_support_ ||
+                      sees_through_key(depth, keys_[n], match.T_map_base))))
       continue;
     const std::size_t first = n - std::min(n, kHorizon / 2);
     const std::size_t last = std::min(n + kHorizon / 2, keys_.size() - 1);
-    if (contradicts(depth, match->T_map_base, std::span(keys_).subspan(first, last - first)))
+    if (contradicts(depth, match.T_map_base, std::span(keys_).subspan(first, last - first)))
       continue;
     const Covariance6 weak = lost_jump().inverse();
-    edges_.push_back({n, keys_.size() - 1, keys_[n].T_map_base.inverse() * match->T_map_base,
-                      (match->information + weak).inverse() + key_frame_floor(), true});
-    keys_.back().T_map_base = match->T_map_base;
+    edges_.push_back({n, keys_.size() - 1, keys_[n].T_map_base.inverse() * match.T_map_base,
+                      (match.information + weak).inverse() + key_frame_floor(), true});
+    keys_.back().T_map_base = match.T_map_base;
     spread();
     return true;
   }
@@ -44,7 +46,7 @@ bool VisualOdometry::close_loop(const cv::Mat1w& depth, bool anywhere) {
 
 bool VisualOdometry::relocate(const DepthScan& scan, const OdometryFrame& frame) {
   if (!params_.loops) return false;
-  keys_.push_back({frame.stamp_s, state_.T_map_base, way_m_, scan,
+  keys_.push_back({frame.stamp_s, state_.T_map_base, way_m_, frame.depth.clone(), scan,
                    small_depth_of(frame.depth, believed_.range_max_m)});
   edges_.push_back({keys_.size() - 2, keys_.size() - 1,
                     keys_[keys_.size() - 2].T_map_base.inverse() * state_.T_map_base,
@@ -75,10 +77,17 @@ void VisualOdometry::rebuild() {
         (keys_[n].T_map_base.translation() - state_.T_map_base.translation()).norm(), n);
   std::ranges::sort(by_distance);
   by_distance.resize(std::min(by_distance.size(), kHorizon));
-  std::ranges::sort(by_distance, {}, &std::pair<double, std::size_t>::second);
-  local_map_ = LocalMap(params_.map, kHorizon);
-  for (const auto& [distance, n] : by_distance)
-    local_map_.insert(keys_[n].scan, keys_[n].T_map_base);
+  std::vector<std::size_t> near;
+  for (const auto& [distance, n] : by_distance) near.push_back(n);
+  std::ranges::sort(near);
+  local_map_ = map_of(near);
+}
+
+LocalMap VisualOdometry::map_of(const std::vector<std::size_t>& keys) const {
+  LocalMap map(params_.map, kHorizon);
+  for (const std::size_t n : keys)
+    map.insert(scan_of(keys_[n].depth, believed_, params_.sampling.of_map()), keys_[n].T_map_base);
+  return map;
 }
 
 }  // namespace mapscore

@@ -66,6 +66,24 @@ TEST(DepthScan, BlocksAcrossAnEdgeOfDepthGiveNone) {
   }
 }
 
+TEST(DepthScan, WhatIsMatchedIsEverySecondBlockOfWhatEntersTheMap) {
+  const DepthSampling sampling;
+  ASSERT_EQ(sampling.of_map().points_across, 2 * sampling.points_across);
+  const cv::Mat1w depth = testing::flat_depth(furnished_room(), planar_pose(2.0, 2.5, 0.3),
+                                              testing::odometry_camera(), 1.0, 1);
+  const DepthScan matched = scan_of(depth, testing::odometry_camera(), sampling);
+  const DepthScan mapped = scan_of(depth, testing::odometry_camera(), sampling.of_map());
+  ASSERT_GT(matched.size(), 500U);
+  EXPECT_GT(mapped.size(), 3 * matched.size());
+  for (std::size_t n = 0; n < matched.size(); ++n) {
+    const auto same = std::ranges::find(mapped.points, matched.points[n]);
+    ASSERT_NE(same, mapped.points.end());
+    const auto i = static_cast<std::size_t>(same - mapped.points.begin());
+    EXPECT_EQ(mapped.normals[i], matched.normals[n]);
+    EXPECT_EQ(mapped.sigma_m[i], matched.sigma_m[n]);
+  }
+}
+
 TEST(DepthScan, RefusesAnImageOfAnotherSize) {
   EXPECT_THROW(static_cast<void>(scan_of(cv::Mat1w(10, 10), testing::odometry_camera(), {})),
                Error);

@@ -90,7 +90,8 @@ TEST(LoopClosure, CandidatesAreNearInPoseFarInWayAndAlike) {
   const Calibration camera = testing::odometry_camera();
   const auto key = [&](const Pose& pose, double way_m) {
     const cv::Mat1w depth = testing::flat_depth(room, pose, camera);
-    return KeyFrame{0.0, pose, way_m, scan_of(depth, camera, {}), small_depth_of(depth, 8.0)};
+    return KeyFrame{
+        0.0, pose, way_m, depth, scan_of(depth, camera, {}), small_depth_of(depth, 8.0)};
   };
   const std::vector<KeyFrame> earlier{
       key(planar_pose(2.0, 2.5, 0.0), 0.0),   // the place
