@@ -14,7 +14,7 @@ namespace mapscore {
 
 /// Numbers of the map that scans are matched with.
 struct PlaneMapParams {
-  double plane_voxel_m = 0.15;
+  double plane_voxel_m = 0.2;
   /// A scan's information is divided by this, since the errors of neighbouring points, and of the
   /// scans that made one plane, are not independent.
   double correlation = 40;

@@ -20,7 +20,7 @@ inline constexpr double kStillSeen = 0.75;
 
 /// Of a key frame's place against the map it is put into.
 inline Covariance6 key_frame_floor() {
-  return sigmas6(0.0003, 0.0003, 0.01 * kDegree, 0.01 * kDegree);
+  return sigmas6(0.00015, 0.00015, 0.005 * kDegree, 0.005 * kDegree);
 }
 /// How far a robot that is lost may be from where it believes to be.
 inline Covariance6 lost_jump() {

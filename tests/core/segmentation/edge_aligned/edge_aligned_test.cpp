@@ -4,6 +4,7 @@
 #include "core/segmentation/edge_aligned/edge_aligned.hpp"
 
 #include "core/error.hpp"
+#include "core/segmentation/edge_aligned/outline_shifts.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "plate_scene.hpp"
 
@@ -139,6 +140,22 @@ TEST(EdgeAligned, WholeImageIsOneObject) {
   const PlateScene scene({{-5, 5, -5, 5, 1.5, 1}});
   const cv::Mat1w labels = label_depth(scene.detections(), scene.depth(), scene.truth(), {});
   EXPECT_EQ(cv::countNonZero(labels), 320 * 240);
+}
+
+TEST(OutlineShifts, AreSoughtOnlyWhereTheAlignmentExplainsEnough) {
+  const PlateScene scene = plain_scene();
+  const Calibration off = scene.misregistered({0.01, 0, 0}, {0, 0, 0});
+  const DepthEdges edges = find_depth_edges(scene.depth(), off);
+  const OutlineField field = outline_field(scene.detections(), 320, 240, 60);
+  OutlineAlignment alignment;
+  alignment.sharpness = 0.5F;
+  alignment.score = 0.3F;
+  EXPECT_FALSE(find_outline_shifts(edges, field, alignment, off).nodes.empty());
+  alignment.score = 0.2F;
+  EXPECT_TRUE(find_outline_shifts(edges, field, alignment, off).nodes.empty());
+  alignment.score = 0.3F;
+  alignment.sharpness = 0.9F;
+  EXPECT_TRUE(find_outline_shifts(edges, field, alignment, off).nodes.empty());
 }
 
 TEST(EdgeAligned, NothingToSegment) {
