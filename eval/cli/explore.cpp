@@ -38,11 +38,13 @@ struct ExploreFlags {
   std::string format = "text";
 };
 
-/// Metres driven of all explorations; one that has ended counts as its budget.
+/// How much of all explorations' budgets is used up, in metres: of one exploration the larger share
+/// of its metres and of its seconds; one that has ended counts whole, and one that was there does
+/// not count.
 class ExploreDisplay {
  public:
   ExploreDisplay(const std::vector<PlannedExploration>& planned, bool quiet)
-      : planned_(planned), driven_m_(planned.size()), progress_("explore", "m", quiet) {
+      : planned_(planned), used_m_(planned.size()), progress_("explore", "m", quiet) {
     for (const PlannedExploration& exploration : planned)
       budget_m_ += exploration.config.exploration.budget_m;
   }
@@ -53,23 +55,29 @@ class ExploreDisplay {
     progress_.show(budget, budget, "all of them ended");
   }
 
-  void show(std::size_t position, double driven_m, double coverage) {
+  void show(std::size_t position, const CoveragePoint& point, bool ended) {
     if (const int signal = stop_.taken())
       throw StoppedRecording(signal, "an exploration ran", "it");
+    const ExplorationSettings& settings = planned_[position].config.exploration;
+    const double share =
+        std::max(point.driven_m / settings.budget_m, point.stamp_s / settings.budget_s);
     const std::scoped_lock lock(mutex_);
-    driven_m_[position] = driven_m;
+    if (ended && used_m_[position] == 0.0)
+      budget_m_ -= settings.budget_m;
+    else
+      used_m_[position] = settings.budget_m * (ended ? 1.0 : std::min(share, 1.0));
     double all_m = 0.0;
-    for (const double one_m : driven_m_) all_m += one_m;
+    for (const double one_m : used_m_) all_m += one_m;
     progress_.show(static_cast<std::int64_t>(all_m), static_cast<std::int64_t>(budget_m_),
                    fmt::format("{}: {:.1f} m, {:.0f} % of the surface seen",
-                               planned_[position].name, driven_m, 100.0 * coverage));
+                               planned_[position].name, point.driven_m, 100.0 * point.coverage));
   }
 
  private:
   const std::vector<PlannedExploration>& planned_;
   StopSignal stop_;
   std::mutex mutex_;
-  std::vector<double> driven_m_;
+  std::vector<double> used_m_;
   double budget_m_ = 0.0;
   Progress progress_;
 };
@@ -131,8 +139,8 @@ void explore_study(const ExploreFlags& flags) {
   {
     ExploreDisplay display(planned, flags.work.quiet);
     finished = explore_all(planned, {folder, flags.work.jobs, !flags.scores_only},
-                           [&](std::size_t position, double driven_m, double coverage) {
-                             display.show(position, driven_m, coverage);
+                           [&](std::size_t position, const CoveragePoint& point, bool ended) {
+                             display.show(position, point, ended);
                            });
     display.finish();
   }

@@ -261,7 +261,7 @@ ExplorationScenes::Ready ExplorationScenes::ready(const PlannedExploration& plan
 
 void ExplorationScenes::run(const PlannedExploration& planned, const Ready& ready,
                             const fs::path& folder,
-                            const std::function<void(double, double)>& progress) {
+                            const std::function<void(const CoveragePoint&)>& progress) {
   const Study& config = planned.config;
   const std::shared_ptr<const Scene> scene = state_->scene(config);
   const ClassTable table = detected_table(config, scene->world.classes());
@@ -277,11 +277,11 @@ void ExplorationScenes::run(const PlannedExploration& planned, const Ready& read
     return explorer_of(with_waypoints(config.exploration.planner, config, T_map_world), robot,
                        trial_seed(task));
   };
-  const ExplorationResult result = explore(
-      {scene->world, scene->drive, table, *surface}, task, ready.start, made,
-      {.recording = writer ? &*writer : nullptr,
-       .progress = [&](const CoveragePoint& point) { progress(point.driven_m, point.coverage); },
-       .map = [&](const SemanticMap& map) { map.save(folder / kMapFile); }});
+  const ExplorationResult result =
+      explore({scene->world, scene->drive, table, *surface}, task, ready.start, made,
+              {.recording = writer ? &*writer : nullptr,
+               .progress = progress,
+               .map = [&](const SemanticMap& map) { map.save(folder / kMapFile); }});
   if (writer) writer->finish();
   write_exploration(result, ready.key, folder);
 }
@@ -301,7 +301,7 @@ ExplorationScenes::Ready ExplorationScenes::ready(const PlannedExploration&, boo
 }
 
 void ExplorationScenes::run(const PlannedExploration&, const Ready&, const fs::path&,
-                            const std::function<void(double, double)>&) {}
+                            const std::function<void(const CoveragePoint&)>&) {}
 
 #endif
 

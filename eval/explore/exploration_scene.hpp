@@ -36,7 +36,7 @@ class ExplorationScenes {
   /// Explores, and writes all its files into a folder that is there.
   void run(const PlannedExploration& planned, const Ready& ready,
            const std::filesystem::path& folder,
-           const std::function<void(double driven_m, double coverage)>& progress);
+           const std::function<void(const CoveragePoint&)>& progress);
 
  private:
   struct State;

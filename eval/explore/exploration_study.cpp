@@ -75,8 +75,10 @@ class AllExplorations {
 
   std::vector<FinishedExploration> run() {
     std::vector<std::optional<KeptExploration>> kept(planned_.size());
-    for_each_in_parallel(planned_.size(), options_.jobs,
-                         [&](std::size_t n) { kept[n] = kept_or_run(n); });
+    for_each_in_parallel(planned_.size(), options_.jobs, [&](std::size_t n) {
+      kept[n] = kept_or_run(n);
+      progress_(n, kept[n]->curve.back(), true);
+    });
     std::vector<FinishedExploration> finished;
     for (std::size_t n = 0; n < planned_.size(); ++n)
       finished.push_back({planned_[n], std::move(kept[n].value()), folder_of(n)});
@@ -95,7 +97,7 @@ class AllExplorations {
     }
     WholeFolder whole(folder);
     scenes_.run(planned_[n], ready, whole.partial(),
-                [&](double driven_m, double coverage) { progress_(n, driven_m, coverage); });
+                [&](const CoveragePoint& point) { progress_(n, point, false); });
     whole.finish();
     return read_exploration(folder).value();
   }

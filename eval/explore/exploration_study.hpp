@@ -38,9 +38,10 @@ struct ExploreOptions {
   bool keep_recordings = true;
 };
 
-/// Called after a frame of an exploration: position in the list, metres driven and covered share.
-/// May throw to stop all.
-using ExploreProgress = std::function<void(std::size_t position, double driven_m, double coverage)>;
+/// Called after a frame of an exploration, by its position in the list, and once with its last
+/// frame when it has `ended`, or was there. May throw to stop all.
+using ExploreProgress =
+    std::function<void(std::size_t position, const CoveragePoint& point, bool ended)>;
 
 /// Runs those that the folder does not hold yet, up to `jobs` at a time, each of them in a folder
 /// of its own below `runs`, written aside and renamed. In their order; the same bytes for any
