@@ -4,6 +4,7 @@
 #include "core/segmentation/edge_aligned/depth_edges.hpp"
 
 #include "core/segmentation/edge_aligned/near_holes.hpp"
+#include "core/wide_vectors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,6 +61,25 @@ float step_between(float before, float p, float q, float after, int gap) {
   return std::min(std::abs(rise - across * slope_p), std::abs(rise - across * slope_q));
 }
 
+/// Where a surface plainly goes on from a pixel to the next of a row, `right`, and to it from the
+/// row above, `down`: both have a depth, and their w differ by no more than tau. 1 there, 0
+/// elsewhere. `flags`: 1 at pixels with a depth that one of the two does not lead to.
+MAPSCORE_WIDE_VECTORS
+void go_on(const float* row, const float* above, float tau, int columns, float* right, float* down,
+           std::uint8_t* flags) {
+  const auto on = [tau](float before, float here) {
+    return static_cast<int>(before > 0) & static_cast<int>(here > 0) &
+           static_cast<int>(std::abs(here - before) <= tau);
+  };
+  for (int u = 0; u + 1 < columns; ++u) right[u] = on(row[u], row[u + 1]) != 0 ? 1.0F : 0.0F;
+  for (int u = 0; u < columns; ++u) down[u] = on(above[u], row[u]) != 0 ? 1.0F : 0.0F;
+  flags[0] = static_cast<std::uint8_t>(row[0] > 0);
+  for (int u = 1; u < columns; ++u)
+    flags[u] = static_cast<std::uint8_t>(
+        static_cast<int>(row[u] > 0) &
+        (1 ^ (static_cast<int>(right[u - 1] > 0) & static_cast<int>(down[u] > 0))));
+}
+
 class EdgeFinder {
  public:
   EdgeFinder(const cv::Mat1w& depth, const Calibration& believed) : camera_(believed.depth) {
@@ -70,42 +90,53 @@ class EdgeFinder {
     tau_ = std::max(kLeastStep, kStepSigmas * edges_.noise);
     edges_.right = cv::Mat1f(depth.rows, depth.cols, 0.0F);
     edges_.down = cv::Mat1f(depth.rows, depth.cols, 0.0F);
-    last_row_.assign(static_cast<std::size_t>(depth.cols), -1);
   }
 
   DepthEdges find() {
     const cv::Mat1f& w = edges_.inverse_depth;
+    std::vector<float> unused(static_cast<std::size_t>(w.cols), 0.0F);
+    std::vector<std::uint8_t> flags(unused.size());
     for (int v = 0; v < w.rows; ++v) {
-      const float* row = w[v];
-      const float* above_row = v > 0 ? w[v - 1] : row;
-      float *right = edges_.right[v], *down = edges_.down[std::max(v - 1, 0)];
-      int last = -1;
-      for (int u = 0; u < w.cols; ++u) {
-        if (!(row[u] > 0)) continue;
-        if (u - last > kWidestGap) beside_hole_in_row(v, last, u);
-        if (last >= 0 && last == u - 1 && std::abs(row[u] - row[last]) <= tau_)
-          right[last] = 1.0F;
-        else if (last >= 0)
-          across_row(v, last, u);
-        last = u;
-        int& above = last_row_[static_cast<std::size_t>(u)];
-        if (v - above > kWidestGap) beside_hole_in_column(u, above, v);
-        if (above >= 0 && above == v - 1 && std::abs(row[u] - above_row[u]) <= tau_)
-          down[u] = 1.0F;
-        else if (above >= 0)
-          across_column(u, above, v);
-        above = v;
-      }
+      float* const down = v > 0 ? edges_.down[v - 1] : unused.data();
+      go_on(w[v], v > 0 ? w[v - 1] : unused.data(), tau_, w.cols, edges_.right[v], down,
+            flags.data());
+      const auto end = flags.end();
+      for (auto at = std::find(flags.begin(), end, 1); at != end; at = std::find(at + 1, end, 1))
+        look_back(v, static_cast<int>(at - flags.begin()));
+      const int last = last_in_row(v, w.cols);
       if (w.cols - last > kWidestGap) beside_hole_in_row(v, last, w.cols);
     }
     for (int u = 0; u < w.cols; ++u) {
-      const int last = last_row_[static_cast<std::size_t>(u)];
+      const int last = last_in_column(u, w.rows);
       if (w.rows - last > kWidestGap) beside_hole_in_column(u, last, w.rows);
     }
     return std::move(edges_);
   }
 
  private:
+  /// The last pixel with a depth before a place of a row, of a column; -1 where there is none.
+  [[nodiscard]] int last_in_row(int v, int before) const {
+    const float* row = edges_.inverse_depth[v];
+    int last = before - 1;
+    while (last >= 0 && !(row[last] > 0)) --last;
+    return last;
+  }
+  [[nodiscard]] int last_in_column(int u, int before) const {
+    int last = before - 1;
+    while (last >= 0 && !(edges_.inverse_depth(last, u) > 0)) --last;
+    return last;
+  }
+
+  /// What lies between a pixel with a depth and the ones before it in its row and its column, where
+  /// a surface does not plainly go on.
+  void look_back(int v, int u) {
+    const int left = last_in_row(v, u), above = last_in_column(u, v);
+    if (u - left > kWidestGap) beside_hole_in_row(v, left, u);
+    if (left >= 0 && (left != u - 1 || edges_.right(v, left) < 1.0F)) across_row(v, left, u);
+    if (v - above > kWidestGap) beside_hole_in_column(u, above, v);
+    if (above >= 0 && (above != v - 1 || edges_.down(above, u) < 1.0F)) across_column(u, above, v);
+  }
+
   void across_row(int v, int p, int q) {
     const float* w = edges_.inverse_depth[v];
     if (q == p + 1) edges_.right(v, p) = 1.0F;
@@ -161,7 +192,6 @@ class EdgeFinder {
 
   CameraModel camera_;
   float tau_ = 0, farthest_ = 0;
-  std::vector<int> last_row_;  ///< by column: the last row with a depth
   DepthEdges edges_;
 };
 

@@ -11,9 +11,18 @@
 
 #include <opencv2/core.hpp>
 
+#include <array>
+#include <string_view>
 #include <vector>
 
 namespace mapscore {
+
+/// What each frame's fit may change: registration and size of the masks, or their size alone, which
+/// is cheaper and right where the calibration is known.
+enum class OutlineFit { calibration, masks };
+constexpr auto names_of(OutlineFit) {
+  return std::to_array<std::string_view>({"calibration", "masks"});
+}
 
 /// Outlines of a frame's masks fitted to its depth edges, then votes on the depth surface
 /// (docs/methods.md). Segments a whole frame at once.
@@ -22,6 +31,7 @@ struct EdgeAligned {
   static constexpr std::string_view kMeaning =
       "fit a frame's masks to its depth edges, then vote on the depth surface";
   double search_px = 40, reach_px = 3;
+  OutlineFit fit = OutlineFit::calibration;
 
   static void fields(auto& s, auto&& visit) {
     visit(s.search_px, Field{"search_px",
@@ -29,6 +39,9 @@ struct EdgeAligned {
                              {0, 200}});
     visit(s.reach_px,
           Field{"reach_px", "how far votes spread over a depth surface", above(0, 100)});
+    visit(s.fit, later({"fit",
+                        "what each frame mends: its calibration and the masks' size, or, of a "
+                        "calibration that is known, the masks' size alone"}));
   }
   /// Segments of all detections, in their order; points in row-major order of their depth pixels.
   [[nodiscard]] std::vector<Segment> segment(const Sight& sight, double voxel_m,

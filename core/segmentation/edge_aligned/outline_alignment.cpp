@@ -5,6 +5,7 @@
 
 #include "core/geometry/pose.hpp"
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
+#include "core/wide_vectors.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -39,6 +40,38 @@ struct ProjectedEdge {
   float strength;
 };
 
+/// Some of the edges, their coordinates apart, so that one loop projects many of them.
+struct EdgeColumns {
+  std::vector<float> x, y, z, strength;
+  std::vector<int> map;  ///< where the coarse map of the edge's way begins
+};
+
+/// The cells of coarse maps of rows x columns that edges fall into after a motion, as their places
+/// in the maps behind each other; `beyond` for those outside.
+MAPSCORE_WIDE_VECTORS
+void find_cells(const EdgeColumns& edges, const Eigen::Matrix3f& R, const Eigen::Vector3f& t,
+                const Projection& project, const cv::Size& size, int beyond, int* cells) {
+  const int count = static_cast<int>(edges.x.size()), columns = size.width;
+  const float *xs = edges.x.data(), *ys = edges.y.data(), *zs = edges.z.data();
+  const int* maps = edges.map.data();
+  const float right = static_cast<float>(columns), bottom = static_cast<float>(size.height);
+  const float fx = project.fx, fy = project.fy, cx = project.cx, cy = project.cy;
+  const float xx = R(0, 0), xy = R(0, 1), xz = R(0, 2), yx = R(1, 0), yy = R(1, 1), yz = R(1, 2),
+              zx = R(2, 0), zy = R(2, 1), zz = R(2, 2), tx = t.x(), ty = t.y(), tz = t.z();
+  constexpr float kCells = 1.0F / OutlineField::kCell_px;
+  for (int n = 0; n < count; ++n) {
+    const float x = xs[n], y = ys[n], z = zs[n];
+    const float X = xx * x + xy * y + xz * z + tx;
+    const float Y = yx * x + yy * y + yz * z + ty;
+    const float Z = zx * x + zy * y + zz * z + tz;
+    const float u = (fx * X / Z + cx) * kCells, v = (fy * Y / Z + cy) * kCells;
+    const bool within = (u >= 0) & (v >= 0) & (u < right) & (v < bottom);
+    const int column = static_cast<int>(within ? u : 0.0F);
+    const int row = static_cast<int>(within ? v : 0.0F);
+    cells[n] = within ? maps[n] + row * columns + column : beyond;
+  }
+}
+
 class Aligner {
  public:
   Aligner(const DepthEdges& edges, const OutlineField& field, const Calibration& believed,
@@ -58,21 +91,38 @@ class Aligner {
   }
 
   OutlineAlignment align() {
-    if (edges_.empty() || field_.length_px == 0) return {};
+    return edges_.empty() || field_.length_px == 0 ? OutlineAlignment{}
+                                                   : fit(candidates(), Parameters::Ones());
+  }
+
+  OutlineAlignment fit_size() {
+    return edges_.empty() || field_.length_px == 0
+               ? OutlineAlignment{}
+               : fit(sizes(Family::none), Parameters::Unit(Parameters::RowsAtCompileTime - 1));
+  }
+
+ private:
+  enum class Family { none, turn, shift };
+  struct Candidate : OutlineAlignment {
+    Family family = Family::none;
+  };
+
+  /// The best of the candidates, each refined where it starts; `free`: 1 for what may change.
+  OutlineAlignment fit(const std::vector<Candidate>& candidates, const Parameters& free) {
     OutlineAlignment best;
     float most = -1e9F;
-    for (Candidate candidate : candidates()) {
+    for (Candidate candidate : candidates) {
       if (candidate.family != Family::none) {
         refine(candidate, 5.0F, 4, kCoarseEdges, free_of(candidate.family, 0));
         refine(candidate, 3.0F, 3, kCoarseEdges, free_of(candidate.family, 1));
       }
-      refine(candidate, 2.0F, 4, kCoarseEdges, Parameters::Ones());
+      refine(candidate, 2.0F, 4, kCoarseEdges, free);
       candidate.score = fine_score(candidate, 1.5F);
       const float value = candidate.score - penalty(candidate);
       if (value > most) most = value, best = static_cast<OutlineAlignment>(candidate);
     }
-    refine(best, 2.0F, 2, kFineEdges, Parameters::Ones());
-    refine(best, 1.2F, 4, kFineEdges, Parameters::Ones());
+    refine(best, 2.0F, 2, kFineEdges, free);
+    refine(best, 1.2F, 4, kFineEdges, free);
     best.score = fine_score(best, 1.5F);
     if (best.score < kLeastScore &&
         best.score * static_cast<float>(field_.length_px) < kLeastLength_px)
@@ -81,7 +131,6 @@ class Aligner {
     return best;
   }
 
- private:
   /// Distance to the nearest outline; beyond the image that of the nearest pixel, and the way to
   /// it.
   [[nodiscard]] float distance_near(const Eigen::Vector2f& at) const {
@@ -91,21 +140,32 @@ class Aligner {
            std::abs(u - at.x()) + std::abs(v - at.y());
   }
 
-  [[nodiscard]] float coarse_score(const OutlineAlignment& a) const {
-    const std::size_t stride = 1 + edges_.size() / kCoarseEdges;
+  /// Every so-manieth edge, and the coarse maps.
+  void prepare_coarse() {
     const cv::Mat1b& any = field_.coarse[0];
-    float sum = 0;
-    for (std::size_t n = 0; n < edges_.size(); n += stride) {
+    for (const cv::Mat1b& map : field_.coarse) maps_.insert(maps_.end(), map.begin(), map.end());
+    maps_.push_back(0);
+    for (std::size_t n = 0; n < edges_.size(); n += coarse_stride()) {
       const ProjectedEdge& edge = edges_[n];
-      const Eigen::Vector2f at = project_(a.rotation * edge.p + a.translation);
-      const float u = at.x() / OutlineField::kCell_px, v = at.y() / OutlineField::kCell_px;
-      if (!(u >= 0 && v >= 0 && u < static_cast<float>(any.cols) &&
-            v < static_cast<float>(any.rows)))
-        continue;
-      sum += edge.strength *
-             static_cast<float>(field_.coarse[edge.way](static_cast<int>(v), static_cast<int>(u)));
+      coarse_.x.push_back(edge.p.x());
+      coarse_.y.push_back(edge.p.y());
+      coarse_.z.push_back(edge.p.z());
+      coarse_.strength.push_back(edge.strength);
+      coarse_.map.push_back(edge.way * static_cast<int>(any.total()));
     }
-    return sum * static_cast<float>(stride) / (255.0F * static_cast<float>(field_.length_px));
+    cells_.resize(coarse_.x.size());
+  }
+
+  [[nodiscard]] std::size_t coarse_stride() const { return 1 + edges_.size() / kCoarseEdges; }
+
+  [[nodiscard]] float coarse_score(const OutlineAlignment& a) {
+    find_cells(coarse_, a.rotation, a.translation, project_, field_.coarse[0].size(),
+               static_cast<int>(maps_.size()) - 1, cells_.data());
+    float sum = 0;
+    for (std::size_t n = 0; n < cells_.size(); ++n)
+      sum += coarse_.strength[n] * static_cast<float>(maps_[static_cast<std::size_t>(cells_[n])]);
+    return sum * static_cast<float>(coarse_stride()) /
+           (255.0F * static_cast<float>(field_.length_px));
   }
 
   /// What large corrections cost: they need evidence, and a short outline holds little, since it
@@ -117,11 +177,6 @@ class Aligner {
            ((turn.squaredNorm() + shift.squaredNorm()) / (20.0F * 20.0F) +
             a.offset_px * a.offset_px / (4.0F * 4.0F));
   }
-
-  enum class Family { none, turn, shift };
-  struct Candidate : OutlineAlignment {
-    Family family = Family::none;
-  };
 
   /// What the fit may change at its first stages: turns alone, or shifts alone.
   [[nodiscard]] static Parameters free_of(Family family, int stage) {
@@ -139,13 +194,22 @@ class Aligner {
     return a;
   }
 
+  /// No correction, of masks that are right, too small and too large.
+  [[nodiscard]] static std::vector<Candidate> sizes(Family family) {
+    std::vector<Candidate> starts(3);
+    for (Candidate& start : starts) start.family = family;
+    starts[1].offset_px = kLabelOffset_px;
+    starts[2].offset_px = -kLabelOffset_px;
+    return starts;
+  }
+
   /// The alignments that the fine fit starts from: none, which is believed unless something better
   /// is found; none from farther away, with offsets; the best turns; the best shifts.
-  [[nodiscard]] std::vector<Candidate> candidates() const {
-    std::vector<Candidate> starts(4);
-    starts[1].family = starts[2].family = starts[3].family = Family::turn;
-    starts[2].offset_px = kLabelOffset_px;
-    starts[3].offset_px = -kLabelOffset_px;
+  [[nodiscard]] std::vector<Candidate> candidates() {
+    prepare_coarse();
+    std::vector<Candidate> starts{Candidate{}};
+    const std::vector<Candidate> far = sizes(Family::turn);
+    starts.insert(starts.end(), far.begin(), far.end());
     std::vector<Candidate> tried;
     for (float dv = -search_px_; dv <= search_px_; dv += kStepPx)
       for (float du = -search_px_; du <= search_px_; du += kStepPx)
@@ -164,8 +228,7 @@ class Aligner {
     return starts;
   }
 
-  void keep_best(std::vector<Candidate> tried, std::size_t most,
-                 std::vector<Candidate>& starts) const {
+  void keep_best(std::vector<Candidate> tried, std::size_t most, std::vector<Candidate>& starts) {
     for (Candidate& a : tried) a.score = coarse_score(a) - penalty(a);
     std::stable_sort(tried.begin(), tried.end(),
                      [](const auto& a, const auto& b) { return a.score > b.score; });
@@ -272,6 +335,9 @@ class Aligner {
   Projection project_;
   float search_px_;
   std::vector<ProjectedEdge> edges_;
+  EdgeColumns coarse_;
+  std::vector<std::uint8_t> maps_;  ///< the coarse maps, behind each other, and a 0
+  std::vector<int> cells_;
   std::array<cv::Mat1f, 4> votes_;
 };
 
@@ -280,6 +346,11 @@ class Aligner {
 OutlineAlignment align_outlines(const DepthEdges& edges, const OutlineField& field,
                                 const Calibration& believed, double search_px) {
   return Aligner(edges, field, believed, search_px).align();
+}
+
+OutlineAlignment fit_mask_size(const DepthEdges& edges, const OutlineField& field,
+                               const Calibration& believed) {
+  return Aligner(edges, field, believed, 0.0).fit_size();
 }
 
 }  // namespace mapscore

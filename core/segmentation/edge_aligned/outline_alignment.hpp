@@ -26,4 +26,8 @@ struct OutlineAlignment {
 [[nodiscard]] OutlineAlignment align_outlines(const DepthEdges& edges, const OutlineField& field,
                                               const Calibration& believed, double search_px);
 
+/// The same where the believed registration is right: only the masks' size is fitted.
+[[nodiscard]] OutlineAlignment fit_mask_size(const DepthEdges& edges, const OutlineField& field,
+                                             const Calibration& believed);
+
 }  // namespace mapscore

@@ -22,13 +22,25 @@ constexpr float kFine_px = 1.5F, kWide_px = 3.0F;  // sigmas of the matches
 constexpr float kGood = 0.6F;                      // share of an outline that shows a good fit
 constexpr float kGain = 1.5F;                      // that a shift must bring
 constexpr float kLeastLength = 12.0F;              // weighted outline elements about a node
-constexpr float kSearch_px = 15.0F, kStep_px = 3.0F;
+constexpr int kShiftSearch = 15, kShiftStep = 3;   // px, of the shifts that are tried
+constexpr float kSearch_px = kShiftSearch;
 constexpr float kCostAtSearch = 0.15F;  // of the outline, for the largest shift
 
 struct PlacedEdge {
   Eigen::Vector2f at, outward;
   float strength;
+  std::size_t tried =
+      0;  ///< where its weights at all tried shifts begin; 0 while they are not known
 };
+
+std::vector<Eigen::Vector2f> tried_shifts() {
+  std::vector<Eigen::Vector2f> shifts;
+  for (int dv = -kShiftSearch; dv <= kShiftSearch; dv += kShiftStep)
+    for (int du = -kShiftSearch; du <= kShiftSearch; du += kShiftStep)
+      if (du * du + dv * dv <= kShiftSearch * kShiftSearch)
+        shifts.emplace_back(static_cast<float>(du), static_cast<float>(dv));
+  return shifts;
+}
 
 class ShiftFinder {
  public:
@@ -76,7 +88,8 @@ class ShiftFinder {
   }
 
  private:
-  struct NearEdge : PlacedEdge {
+  struct NearEdge {
+    PlacedEdge* edge;
     float support;
   };
 
@@ -112,23 +125,40 @@ class ShiftFinder {
     near_.clear();
     for (int i = std::max(0, row - 2); i <= std::min(rows_ - 1, row + 1); ++i)
       for (int j = std::max(0, column - 2); j <= std::min(columns_ - 1, column + 1); ++j)
-        for (const PlacedEdge& edge : cell(i, j)) {
+        for (PlacedEdge& edge : cell(i, j)) {
           const float weight = support(edge.at.x() - static_cast<float>(column * kPitch),
                                        edge.at.y() - static_cast<float>(row * kPitch));
-          if (weight > 0) near_.push_back({edge, weight});
+          if (weight > 0) near_.push_back({&edge, weight});
         }
+  }
+
+  [[nodiscard]] EdgeMatch match(const PlacedEdge& edge, const Eigen::Vector2f& shift,
+                                float sigma) const {
+    return match_edge(field_, edge.at + shift, edge.outward, edge.strength, offset_px_, sigma);
   }
 
   [[nodiscard]] float score(const Eigen::Vector2f& shift, float sigma) const {
     float sum = 0;
-    for (const NearEdge& edge : near_)
-      sum += edge.support *
-             match_edge(field_, edge.at + shift, edge.outward, edge.strength, offset_px_, sigma)
-                 .weight;
+    for (const NearEdge& near : near_) sum += near.support * match(*near.edge, shift, sigma).weight;
     return sum;
   }
 
-  [[nodiscard]] Eigen::Vector2f shift_of(float length) const {
+  /// Scores of all tried shifts. An edge lies near up to nine nodes, so what it weighs is kept.
+  [[nodiscard]] std::vector<float> scores_of_tried() {
+    std::vector<float> sums(tried_.size(), 0.0F);
+    for (const NearEdge& near : near_) {
+      if (near.edge->tried == 0) {
+        near.edge->tried = weights_.size();
+        for (const Eigen::Vector2f& shift : tried_)
+          weights_.push_back(match(*near.edge, shift, kWide_px).weight);
+      }
+      const float* const weights = weights_.data() + near.edge->tried;
+      for (std::size_t n = 0; n < sums.size(); ++n) sums[n] += near.support * weights[n];
+    }
+    return sums;
+  }
+
+  [[nodiscard]] Eigen::Vector2f shift_of(float length) {
     const Eigen::Vector2f none(0, 0);
     const float unshifted = score(none, kFine_px);
     const auto gained = [&](const Eigen::Vector2f& shift, float least) {
@@ -139,14 +169,12 @@ class ShiftFinder {
     if (unshifted > kGood * length) return fallback;
     Eigen::Vector2f best = none;
     float most = score(none, kWide_px);
-    for (float dv = -kSearch_px; dv <= kSearch_px; dv += kStep_px)
-      for (float du = -kSearch_px; du <= kSearch_px; du += kStep_px) {
-        const Eigen::Vector2f shift(du, dv);
-        if (shift.norm() > kSearch_px) continue;
-        const float value = score(shift, kWide_px) - kCostAtSearch * length * shift.squaredNorm() /
-                                                         (kSearch_px * kSearch_px);
-        if (value > most) most = value, best = shift;
-      }
+    const std::vector<float> scores = scores_of_tried();
+    for (std::size_t n = 0; n < tried_.size(); ++n) {
+      const float value =
+          scores[n] - kCostAtSearch * length * tried_[n].squaredNorm() / (kSearch_px * kSearch_px);
+      if (value > most) most = value, best = tried_[n];
+    }
     best = refined(best, length);
     const float shifted = score(best, kFine_px);
     const bool accepted = shifted > kGain * unshifted && shifted > 0.5F * kGood * length;
@@ -159,10 +187,9 @@ class ShiftFinder {
     for (int step = 0; step < 5; ++step) {
       Eigen::Matrix2f H = Eigen::Matrix2f::Identity() * (0.02F * length);
       Eigen::Vector2f b = -0.02F * length * (shift - start);
-      for (const NearEdge& edge : near_) {
-        const EdgeMatch m =
-            match_edge(field_, edge.at + shift, edge.outward, edge.strength, offset_px_, kFine_px);
-        const float weight = edge.support * m.weight;
+      for (const NearEdge& near : near_) {
+        const EdgeMatch m = match(*near.edge, shift, kFine_px);
+        const float weight = near.support * m.weight;
         H += weight * m.gradient * m.gradient.transpose();
         b -= weight * m.residual * m.gradient;
       }
@@ -176,6 +203,8 @@ class ShiftFinder {
   int rows_, columns_;
   std::vector<std::vector<PlacedEdge>> cells_;
   std::vector<NearEdge> near_;
+  std::vector<Eigen::Vector2f> tried_ = tried_shifts();
+  std::vector<float> weights_{0.0F};  ///< of edges at all tried shifts; the first is nobody's
 };
 
 }  // namespace

@@ -3,12 +3,14 @@
 
 #include "core/segmentation/edge_aligned/settled_depth.hpp"
 
+#include "core/wide_vectors.hpp"
+
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 
 namespace mapscore {
 namespace {
@@ -16,58 +18,73 @@ namespace {
 constexpr int kReach_px = 4;
 constexpr float kSigmas = 4.0F;
 constexpr float kNoisy = 0.0005F;  // 1/m: 4 sigma reach the least step
-constexpr int kLeast = 4;
+constexpr float kLeast = 4;
 constexpr float kLeastShare = 0.5F;
 
-/// Sums of a plane's fit, about the pixel itself.
+/// How many neighbouring pixels of a row are fitted at once.
+constexpr int kFitted = 16;
+using Fitted = std::array<float, kFitted>;
+
+/// Sums of planes' fits, each about its pixel.
 struct PlaneSums {
-  int labelled = 0, near = 0;
-  float u = 0, v = 0, uu = 0, uv = 0, vv = 0, w = 0, uw = 0, vw = 0;
-
-  void add(float du, float dv, float dw) {
-    ++near;
-    u += du, v += dv, uu += du * du, uv += du * dv, vv += dv * dv;
-    w += dw, uw += du * dw, vw += dv * dw;
-  }
-
-  /// At the pixel; the mean where all lie in a line.
-  [[nodiscard]] float at_pixel() const {
-    const float n = static_cast<float>(near);
-    Eigen::Matrix3f A;
-    A << n, u, v, u, uu, uv, v, uv, vv;
-    const float determinant = A.determinant();
-    if (determinant < 1.0F) return w / n;
-    const Eigen::Vector3f b(w, uw, vw);
-    Eigen::Matrix3f first = A;
-    first.col(0) = b;
-    return first.determinant() / determinant;
-  }
+  Fitted labelled{}, near{}, u{}, v{}, uu{}, uv{}, vv{}, w{}, uw{}, vw{};
 };
 
 /// How much w rises from pixel to pixel.
-struct WindowSlope {
-  float du = 0, dv = 0;
+struct WindowSlopes {
+  Fitted du{}, dv{};
 };
 
-PlaneSums sums_about(const cv::Mat1f& inverse, const cv::Mat1w& labels, int v, int u, float within,
-                     const WindowSlope& slope) {
+/// The images with a rim as wide as the window's reach, so that no window leaves them; labels as
+/// floats, which hold them exactly.
+struct RimmedImages {
+  cv::Mat1f labels, inverse;
+};
+
+/// Sums about kFitted pixels from a place of the rimmed images on.
+MAPSCORE_WIDE_VECTORS
+PlaneSums sums_about(const RimmedImages& images, int row, int column, float within,
+                     const WindowSlopes& slopes) {
   PlaneSums sums;
-  const std::uint16_t own = labels(v, u);
-  const float here = inverse(v, u);
-  const int top = std::max(v - kReach_px, 0), bottom = std::min(v + kReach_px, labels.rows - 1);
-  const int left = std::max(u - kReach_px, 0), right = std::min(u + kReach_px, labels.cols - 1);
-  for (int y = top; y <= bottom; ++y) {
-    const std::uint16_t* label = labels[y];
-    const float* w = inverse[y];
-    for (int x = left; x <= right; ++x) {
-      if (label[x] != own) continue;
-      ++sums.labelled;
-      const float du = static_cast<float>(x - u), dv = static_cast<float>(y - v);
-      const float rise = w[x] - here;
-      if (std::abs(rise - slope.du * du - slope.dv * dv) <= within) sums.add(du, dv, rise);
+  const float* const own = images.labels[row] + column;
+  const float* const here = images.inverse[row] + column;
+  for (int y = -kReach_px; y <= kReach_px; ++y)
+    for (int x = -kReach_px; x <= kReach_px; ++x) {
+      const float* const label = images.labels[row + y] + column + x;
+      const float* const w = images.inverse[row + y] + column + x;
+      const float du = static_cast<float>(x), dv = static_cast<float>(y);
+      for (std::size_t n = 0; n < kFitted; ++n) {
+        const float rise = w[n] - here[n];
+        const float off = std::abs(rise - slopes.du[n] * du - slopes.dv[n] * dv);
+        const float same = label[n] == own[n] ? 1.0F : 0.0F;
+        const float near = off <= within ? same : 0.0F;
+        sums.labelled[n] += same;
+        sums.near[n] += near;
+        sums.u[n] += near * du, sums.v[n] += near * dv;
+        sums.uu[n] += near * (du * du), sums.uv[n] += near * (du * dv);
+        sums.vv[n] += near * (dv * dv);
+        sums.w[n] += near * rise;
+        sums.uw[n] += near * (du * rise), sums.vw[n] += near * (dv * rise);
+      }
     }
-  }
   return sums;
+}
+
+/// Whether enough of the label's pixels lie near the fitted surface.
+bool is_on_surface(const PlaneSums& sums, std::size_t n) {
+  return sums.near[n] >= kLeast && sums.near[n] >= kLeastShare * sums.labelled[n];
+}
+
+/// The fitted plane at its pixel; the mean where all lie in a line.
+float at_pixel(const PlaneSums& sums, std::size_t n) {
+  Eigen::Matrix3f A;
+  A << sums.near[n], sums.u[n], sums.v[n], sums.u[n], sums.uu[n], sums.uv[n], sums.v[n], sums.uv[n],
+      sums.vv[n];
+  const float determinant = A.determinant();
+  if (determinant < 1.0F) return sums.w[n] / sums.near[n];
+  Eigen::Matrix3f first = A;
+  first.col(0) = Eigen::Vector3f(sums.w[n], sums.uw[n], sums.vw[n]);
+  return first.determinant() / determinant;
 }
 
 float median_of(float* first, float* last) {
@@ -77,27 +94,38 @@ float median_of(float* first, float* last) {
   return *middle;
 }
 
-/// Medians over pairs of neighbours of the label in the window.
-WindowSlope slope_about(const cv::Mat1f& inverse, const cv::Mat1w& labels, int v, int u) {
+/// Medians over pairs of neighbours of the label in the window about a pixel.
+void find_slope(const RimmedImages& images, int row, int column, std::size_t n,
+                WindowSlopes& slopes) {
   constexpr int kSide = 2 * kReach_px + 1;
   std::array<float, kSide * kSide> across, down;
   float *end_across = across.data(), *end_down = down.data();
-  const std::uint16_t own = labels(v, u);
-  const int top = std::max(v - kReach_px, 0), bottom = std::min(v + kReach_px, labels.rows - 1);
-  const int left = std::max(u - kReach_px, 0), right = std::min(u + kReach_px, labels.cols - 1);
-  for (int y = top; y <= bottom; ++y)
-    for (int x = left; x <= right; ++x) {
-      if (labels(y, x) != own) continue;
-      if (x < right && labels(y, x + 1) == own) *end_across++ = inverse(y, x + 1) - inverse(y, x);
-      if (y < bottom && labels(y + 1, x) == own) *end_down++ = inverse(y + 1, x) - inverse(y, x);
+  const float own = images.labels(row, column);
+  for (int y = row - kReach_px; y <= row + kReach_px; ++y) {
+    const float *label = images.labels[y], *w = images.inverse[y];
+    const float *label_below = images.labels[y + 1], *w_below = images.inverse[y + 1];
+    for (int x = column - kReach_px; x <= column + kReach_px; ++x) {
+      if (label[x] != own) continue;
+      if (x < column + kReach_px && label[x + 1] == own) *end_across++ = w[x + 1] - w[x];
+      if (y < row + kReach_px && label_below[x] == own) *end_down++ = w_below[x] - w[x];
     }
-  return {median_of(across.data(), end_across), median_of(down.data(), end_down)};
+  }
+  slopes.du[n] = median_of(across.data(), end_across);
+  slopes.dv[n] = median_of(down.data(), end_down);
 }
 
-/// Whether enough of the label's pixels lie near the fitted surface.
-bool is_on_surface(const PlaneSums& sums) {
-  return sums.near >= kLeast &&
-         static_cast<float>(sums.near) >= kLeastShare * static_cast<float>(sums.labelled);
+/// A row is fitted in blocks of kFitted pixels; the last block reaches beyond the image.
+RimmedImages rimmed(const DepthEdges& edges, const cv::Mat1w& labels) {
+  RimmedImages images;
+  cv::Mat1f as_floats;
+  labels.convertTo(as_floats, CV_32F);
+  const auto widen = [](const cv::Mat1f& from, cv::Mat1f& to) {
+    cv::copyMakeBorder(from, to, kReach_px, kReach_px + 1, kReach_px, kReach_px + kFitted,
+                       cv::BORDER_CONSTANT, 0.0);
+  };
+  widen(as_floats, images.labels);
+  widen(edges.inverse_depth, images.inverse);
+  return images;
 }
 
 }  // namespace
@@ -107,20 +135,34 @@ bool is_noisy(const DepthEdges& edges) {
 }
 
 cv::Mat1f settle_on_surfaces(const DepthEdges& edges, cv::Mat1w& labels) {
-  const cv::Mat1f& inverse = edges.inverse_depth;
-  const cv::Mat1w given = labels.clone();
-  cv::Mat1f settled(inverse.rows, inverse.cols, 0.0F);
-  for (int v = 0; v < given.rows; ++v)
-    for (int u = 0; u < given.cols; ++u) {
-      if (given(v, u) == 0) continue;
-      const float within = kSigmas * edges.noise;
-      PlaneSums sums = sums_about(inverse, given, v, u, within, {});
-      if (!is_on_surface(sums))  // or it slopes
-        sums = sums_about(inverse, given, v, u, within, slope_about(inverse, given, v, u));
-      if (is_on_surface(sums))
-        settled(v, u) = inverse(v, u) + sums.at_pixel();
-      else
-        labels(v, u) = 0;
+  const RimmedImages images = rimmed(edges, labels);
+  const float within = kSigmas * edges.noise;
+  cv::Mat1f settled(labels.rows, labels.cols, 0.0F);
+  for (int v = 0; v < labels.rows; ++v)
+    for (int u = 0; u < labels.cols; u += kFitted) {
+      const int row = v + kReach_px, column = u + kReach_px;
+      const auto lanes = static_cast<std::size_t>(std::min(kFitted, labels.cols - u));
+      const float* const label = images.labels[row] + column;
+      if (std::all_of(label, label + lanes, [](float own) { return own == 0.0F; })) continue;
+      const PlaneSums level = sums_about(images, row, column, within, {});
+      PlaneSums sloped;
+      WindowSlopes slopes;
+      bool any_slopes = false;
+      for (std::size_t n = 0; n < lanes; ++n)
+        if (label[n] != 0.0F && !is_on_surface(level, n)) {
+          find_slope(images, row, column + static_cast<int>(n), n, slopes);
+          any_slopes = true;
+        }
+      if (any_slopes) sloped = sums_about(images, row, column, within, slopes);
+      for (std::size_t n = 0; n < lanes; ++n) {
+        if (label[n] == 0.0F) continue;
+        const PlaneSums& sums = is_on_surface(level, n) ? level : sloped;
+        const int at = u + static_cast<int>(n);
+        if (is_on_surface(sums, n))
+          settled(v, at) = edges.inverse_depth(v, at) + at_pixel(sums, n);
+        else
+          labels(v, at) = 0;
+      }
     }
   return settled;
 }

@@ -3,11 +3,14 @@
 
 #include "core/segmentation/edge_aligned/surface_vote.hpp"
 
+#include "core/segmentation/edge_aligned/edge_matching.hpp"
 #include "core/segmentation/edge_aligned/filled_slits.hpp"
+#include "core/wide_vectors.hpp"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -34,52 +37,73 @@ struct Votes {
   cv::Mat1f weight;    ///< little where the colour camera does not see the surface
 };
 
+/// From a depth pixel to the colour image.
+struct RayMotion {
+  Eigen::Matrix3f R;
+  Eigen::Vector3f t;
+  Projection color, depth;
+};
+
+/// Projects the pixels of a row of inverse depths w: with p = z ray, p_color / z = R ray + t w.
+MAPSCORE_WIDE_VECTORS
+void project_row(const RayMotion& motion, int v, const float* w, int columns, float* us,
+                 float* vs) {
+  const Eigen::Matrix3f& R = motion.R;
+  const Projection &color = motion.color, &depth = motion.depth;
+  const float y = (static_cast<float>(v) - depth.cy) / depth.fy, inverse_f = 1.0F / depth.fx;
+  const float xx = R(0, 0), xy = R(0, 1) * y, xz = R(0, 2), yx = R(1, 0), yy = R(1, 1) * y,
+              yz = R(1, 2), zx = R(2, 0), zy = R(2, 1) * y, zz = R(2, 2);
+  const float tx = motion.t.x(), ty = motion.t.y(), tz = motion.t.z();
+  const float fx = color.fx, fy = color.fy, cx = color.cx, cy = color.cy, centre = depth.cx;
+  for (int u = 0; u < columns; ++u) {
+    const float x = (static_cast<float>(u) - centre) * inverse_f;
+    const float X = xx * x + xy + xz + tx * w[u];
+    const float Y = yx * x + yy + yz + ty * w[u];
+    const float Z = zx * x + zy + zz + tz * w[u];
+    const float inverse_z = 1.0F / Z;
+    us[u] = fx * X * inverse_z + cx;
+    vs[u] = fy * Y * inverse_z + cy;
+  }
+}
+
+/// The pixels of an image, row-major, that hold some places; -1 beyond it.
+MAPSCORE_WIDE_VECTORS
+void find_pixels(const float* us, const float* vs, int count, const cv::Size& image, int* pixels) {
+  const int columns = image.width;
+  const float right = static_cast<float>(columns), bottom = static_cast<float>(image.height);
+  for (int n = 0; n < count; ++n) {
+    const float u = us[n] + 0.5F, v = vs[n] + 0.5F;
+    const bool within = (u >= 0) & (v >= 0) & (u < right) & (v < bottom);
+    const int column = static_cast<int>(within ? u : 0.0F);
+    const int row = static_cast<int>(within ? v : 0.0F);
+    pixels[n] = within ? row * columns + column : -1;
+  }
+}
+
 class Voting {
  public:
   Voting(const DepthEdges& edges, const OutlineField& field, const OutlineAlignment& alignment,
          const Calibration& believed)
       : edges_(edges), field_(field), alignment_(alignment), believed_(believed) {}
 
-  void project() {
+  /// Finds the colour pixel that each depth pixel lies in.
+  void locate(const OutlineShifts& shifts) {
     const cv::Mat1f& w = edges_.inverse_depth;
-    u_.create(w.rows, w.cols);
-    v_.create(w.rows, w.cols);
-    const Eigen::Matrix3f R = alignment_.rotation * believed_.T_color_depth.linear().cast<float>();
-    const Eigen::Vector3f t =
-        alignment_.rotation * believed_.T_color_depth.translation().cast<float>() +
-        alignment_.translation;
-    const auto& color = believed_.color;
-    const auto& depth = believed_.depth;
-    const float fx = static_cast<float>(color.fx_px), fy = static_cast<float>(color.fy_px);
-    const float cx = static_cast<float>(color.cx_px), cy = static_cast<float>(color.cy_px);
-    // With p = z (ray), p_color / z = R ray + t w.
+    cells_.create(w.rows, w.cols);
+    RayMotion motion{alignment_.rotation * believed_.T_color_depth.linear().cast<float>(),
+                     alignment_.rotation * believed_.T_color_depth.translation().cast<float>() +
+                         alignment_.translation,
+                     Projection(believed_.color), Projection(believed_.depth)};
+    std::vector<float> us(static_cast<std::size_t>(w.cols)), vs(us.size());
     for (int v = 0; v < w.rows; ++v) {
-      const float y = (static_cast<float>(v) - static_cast<float>(depth.cy_px)) /
-                      static_cast<float>(depth.fy_px);
-      const float inverse_f = 1.0F / static_cast<float>(depth.fx_px);
-      const float centre = static_cast<float>(depth.cx_px);
-      const float* in = w[v];
-      float *u_out = u_[v], *v_out = v_[v];
-      for (int u = 0; u < w.cols; ++u) {
-        const float x = (static_cast<float>(u) - centre) * inverse_f;
-        const float X = R(0, 0) * x + R(0, 1) * y + R(0, 2) + t.x() * in[u];
-        const float Y = R(1, 0) * x + R(1, 1) * y + R(1, 2) + t.y() * in[u];
-        const float Z = R(2, 0) * x + R(2, 1) * y + R(2, 2) + t.z() * in[u];
-        const float inverse_z = 1.0F / Z;
-        u_out[u] = fx * X * inverse_z + cx;
-        v_out[u] = fy * Y * inverse_z + cy;
-      }
+      project_row(motion, v, w[v], w.cols, us.data(), vs.data());
+      if (!shifts.nodes.empty())
+        for (std::size_t u = 0; u < us.size(); ++u) {
+          const cv::Vec2f by = shifts.at(us[u], vs[u]);
+          us[u] += by[0], vs[u] += by[1];
+        }
+      find_pixels(us.data(), vs.data(), w.cols, field_.owner.size(), cells_[v]);
     }
-  }
-
-  void shift(const OutlineShifts& shifts) {
-    if (shifts.nodes.empty()) return;
-    for (int v = 0; v < u_.rows; ++v)
-      for (int u = 0; u < u_.cols; ++u) {
-        const cv::Vec2f by = shifts.at(u_(v, u), v_(v, u));
-        u_(v, u) += by[0];
-        v_(v, u) += by[1];
-      }
   }
 
   /// An object nearer than the sensor's range hides what the colour camera has behind it, wherever
@@ -111,14 +135,12 @@ class Voting {
   void find_nearest() {
     const cv::Mat1f& w = edges_.inverse_depth;
     cv::Mat1f hit(field_.owner.rows, field_.owner.cols, 0.0F);
+    float* const hits = hit[0];
     for (int v = 0; v < w.rows; ++v) {
-      const float *in = w[v], *us = u_[v], *vs = v_[v];
-      for (int u = 0; u < w.cols; ++u) {
-        const int c = static_cast<int>(us[u] + 0.5F), r = static_cast<int>(vs[u] + 0.5F);
-        if (c < 0 || r < 0 || c >= hit.cols || r >= hit.rows) continue;
-        float& nearest = hit(r, c);
-        if (in[u] > nearest) nearest = in[u];
-      }
+      const float* in = w[v];
+      const int* cells = cells_[v];
+      for (int u = 0; u < w.cols; ++u)
+        if (cells[u] >= 0 && in[u] > hits[cells[u]]) hits[cells[u]] = in[u];
     }
     hide_behind_holes(hit);
     cv::dilate(hit, nearest_, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
@@ -131,17 +153,19 @@ class Voting {
         alignment_.offset_px > 0.5F ? spread_owners(field_.owner, beyond_px) : field_.owner;
     Votes votes{cv::Mat1w(w.rows, w.cols, std::uint16_t{0}), cv::Mat1f(w.rows, w.cols, -1e4F),
                 cv::Mat1f(w.rows, w.cols, 0.0F)};
+    const std::uint16_t* const owner_of = owners[0];
+    const float *const distance = field_.distance[0], *const nearest = nearest_[0];
     for (int v = 0; v < w.rows; ++v) {
-      const float *in = w[v], *us = u_[v], *vs = v_[v];
+      const float* in = w[v];
+      const int* cells = cells_[v];
       std::uint16_t* owner = votes.owner[v];
       float *depth_in = votes.depth_in[v], *weight = votes.weight[v];
       for (int u = 0; u < w.cols; ++u) {
-        if (!(in[u] > 0)) continue;
-        const int c = static_cast<int>(us[u] + 0.5F), r = static_cast<int>(vs[u] + 0.5F);
-        if (c < 0 || r < 0 || c >= owners.cols || r >= owners.rows) continue;
-        owner[u] = owners(r, c);
-        depth_in[u] = alignment_.offset_px - field_.distance(r, c);
-        const float behind = nearest_(r, c) * (1.0F - kHidden) - kNoise * edges_.noise - in[u];
+        const int cell = cells[u];
+        if (!(in[u] > 0) || cell < 0) continue;
+        owner[u] = owner_of[cell];
+        depth_in[u] = alignment_.offset_px - distance[cell];
+        const float behind = nearest[cell] * (1.0F - kHidden) - kNoise * edges_.noise - in[u];
         if (behind > 0 && behind > kSlopes * slope_at(v, u)) {
           depth_in[u] = -1.0F, weight[u] = kHiddenVote;
           continue;
@@ -184,38 +208,56 @@ class Voting {
   const OutlineField& field_;
   const OutlineAlignment& alignment_;
   const Calibration& believed_;
-  cv::Mat1f u_, v_, nearest_;
+  cv::Mat1i cells_;  ///< by depth pixel: place in a colour image, row-major; -1 beyond it
+  cv::Mat1f nearest_;
 };
 
+/// Adds to each pixel what reaches it from the one before: `open`, in `gate`, of it.
+MAPSCORE_WIDE_VECTORS
+void add_from(const float* before, const float* open, float feedback, float* row, int columns) {
+  for (int u = 0; u < columns; ++u) row[u] += feedback * open[u] * before[u];
+}
+
+/// The same against that direction. What came along it is in the row already; the pixel itself must
+/// not count twice.
+MAPSCORE_WIDE_VECTORS
+void add_back(const float* after, const float* open, float feedback, float* row, int columns) {
+  for (int u = 0; u < columns; ++u) {
+    const float a = feedback * open[u];
+    row[u] = row[u] + a * (after[u] - a * row[u]);
+  }
+}
+
+/// Recursive average along some rows at once: each waits for its pixel before, not for the others.
+template <int kRows>
+void smooth_rows(cv::Mat1f& votes, const cv::Mat1f& right, int v, float feedback) {
+  std::array<float*, kRows> row;
+  std::array<const float*, kRows> open;
+  for (int n = 0; n < kRows; ++n) {
+    const auto at = static_cast<std::size_t>(n);
+    row[at] = votes[v + n], open[at] = right[v + n];
+  }
+  for (int u = 1; u < votes.cols; ++u)
+    for (std::size_t n = 0; n < kRows; ++n) row[n][u] += feedback * open[n][u - 1] * row[n][u - 1];
+  for (int u = votes.cols - 2; u >= 0; --u)
+    for (std::size_t n = 0; n < kRows; ++n) {
+      const float a = feedback * open[n][u];
+      row[n][u] = row[n][u] + a * (row[n][u + 1] - a * row[n][u]);
+    }
+}
+
 /// Recursive averages along rows and columns, which do not cross depth edges.
-void smooth(cv::Mat2f& votes, const cv::Mat1f& right, const cv::Mat1f& down, float reach_px) {
+void smooth(cv::Mat1f& votes, const cv::Mat1f& right, const cv::Mat1f& down, float reach_px) {
+  constexpr int kAtOnce = 4;
   for (int round = 0; round < kRounds; ++round) {
     const float feedback = std::exp(-1.0F / (reach_px * std::pow(0.5F, static_cast<float>(round))));
-    for (int v = 0; v < votes.rows; ++v) {
-      cv::Vec2f* row = votes[v];
-      const float* open = right[v];
-      for (int u = 1; u < votes.cols; ++u) row[u] += feedback * open[u - 1] * row[u - 1];
-      // what came from the left is in row[u]; the backward pass must not count the pixel twice
-      for (int u = votes.cols - 2; u >= 0; --u) {
-        const float a = feedback * open[u];
-        row[u] = row[u] + a * (row[u + 1] - a * row[u]);
-      }
-    }
-    for (int v = 1; v < votes.rows; ++v) {
-      const cv::Vec2f* above = votes[v - 1];
-      const float* open = down[v - 1];
-      cv::Vec2f* row = votes[v];
-      for (int u = 0; u < votes.cols; ++u) row[u] += feedback * open[u] * above[u];
-    }
-    for (int v = votes.rows - 2; v >= 0; --v) {
-      const cv::Vec2f* below = votes[v + 1];
-      const float* open = down[v];
-      cv::Vec2f* row = votes[v];
-      for (int u = 0; u < votes.cols; ++u) {
-        const float a = feedback * open[u];
-        row[u] = row[u] + a * (below[u] - a * row[u]);
-      }
-    }
+    int v = 0;
+    for (; v + kAtOnce <= votes.rows; v += kAtOnce) smooth_rows<kAtOnce>(votes, right, v, feedback);
+    for (; v < votes.rows; ++v) smooth_rows<1>(votes, right, v, feedback);
+    for (v = 1; v < votes.rows; ++v)
+      add_from(votes[v - 1], down[v - 1], feedback, votes[v], votes.cols);
+    for (v = votes.rows - 2; v >= 0; --v)
+      add_back(votes[v + 1], down[v], feedback, votes[v], votes.cols);
   }
 }
 
@@ -225,8 +267,7 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
                            const OutlineAlignment& alignment, const OutlineShifts& shifts,
                            const Calibration& believed, std::size_t detections, double reach_px) {
   Voting voting(edges, field, alignment, believed);
-  voting.project();
-  voting.shift(shifts);
+  voting.locate(shifts);
   voting.find_nearest();
   const Votes votes = voting.collect();
   const cv::Size size = votes.owner.size();
@@ -244,19 +285,21 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
     const cv::Rect box = cv::Rect(boxes[n].x - margin, boxes[n].y - margin,
                                   boxes[n].width + 2 * margin, boxes[n].height + 2 * margin) &
                          cv::Rect({0, 0}, size);
-    cv::Mat2f sums(box.size());
+    cv::Mat1f own(box.size()), all(box.size());
     for (int v = 0; v < box.height; ++v)
       for (int u = 0; u < box.width; ++u) {
         const int row = v + box.y, column = u + box.x;
         const float weight = votes.weight(row, column);
         const bool in_mask = votes.owner(row, column) != 0 && votes.depth_in(row, column) > 0;
         const bool inside = in_mask && votes.owner(row, column) == n;
-        sums(v, u) = {inside ? weight : 0.0F, in_mask && !inside ? kOtherVote * weight : weight};
+        own(v, u) = inside ? weight : 0.0F;
+        all(v, u) = in_mask && !inside ? kOtherVote * weight : weight;
       }
-    smooth(sums, edges.right(box), edges.down(box), static_cast<float>(reach_px));
+    smooth(own, edges.right(box), edges.down(box), static_cast<float>(reach_px));
+    smooth(all, edges.right(box), edges.down(box), static_cast<float>(reach_px));
     for (int v = 0; v < box.height; ++v)
       for (int u = 0; u < box.width; ++u)
-        if (sums(v, u)[0] > kShare * sums(v, u)[1] && sums(v, u)[1] > 1e-4F &&
+        if (own(v, u) > kShare * all(v, u) && all(v, u) > 1e-4F &&
             edges.inverse_depth(v + box.y, u + box.x) > 0)
           labels(v + box.y, u + box.x) = static_cast<std::uint16_t>(n);
   }

@@ -4,6 +4,7 @@
 #include "core/segmentation/edge_aligned/edge_aligned.hpp"
 
 #include "core/error.hpp"
+#include "core/segmentation/edge_aligned/outline_alignment.hpp"
 #include "core/segmentation/edge_aligned/outline_shifts.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "plate_scene.hpp"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -156,6 +158,37 @@ TEST(OutlineShifts, AreSoughtOnlyWhereTheAlignmentExplainsEnough) {
   alignment.score = 0.3F;
   alignment.sharpness = 0.9F;
   EXPECT_TRUE(find_outline_shifts(edges, field, alignment, off).nodes.empty());
+}
+
+/// A calibration that is known is not changed, and the masks' size is found as well as otherwise.
+TEST(EdgeAligned, FitsTheMasksSizeAlone) {
+  const PlateScene scene = plain_scene();
+  for (const int grown_px : {-2, 0, 3}) {
+    const cv::Mat1b square(2 * std::abs(grown_px) + 1, 2 * std::abs(grown_px) + 1, std::uint8_t{1});
+    cv::Mat1w label;
+    grown_px > 0 ? cv::dilate(scene.label(), label, square)
+                 : cv::erode(scene.label(), label, square);
+    const std::vector<Detection> detections = scene.detections(label);
+    const OutlineField field = outline_field(detections, 320, 240, 60);
+    const OutlineAlignment alignment =
+        fit_mask_size(find_depth_edges(scene.depth(), scene.truth()), field, scene.truth());
+    EXPECT_TRUE(alignment.rotation.isIdentity(0) && alignment.translation.isZero(0));
+    EXPECT_NEAR(alignment.offset_px, -grown_px, 0.6) << grown_px;
+    const Agreement found =
+        agreement(label_depth(detections, scene.depth(), scene.truth(), {.fit = OutlineFit::masks}),
+                  detections, scene.depth_label());
+    EXPECT_GE(found.precision, 0.995) << grown_px;
+    EXPECT_GE(found.recall, 0.98) << grown_px;
+  }
+}
+
+TEST(EdgeAligned, AKnownCalibrationIsBelieved) {
+  const PlateScene scene = plain_scene();
+  const Calibration off = scene.misregistered({0.03, 0, 0}, {0, 0.03, 0});
+  const OutlineField field = outline_field(scene.detections(), 320, 240, 60);
+  const OutlineAlignment alignment =
+      fit_mask_size(find_depth_edges(scene.depth(), off), field, off);
+  EXPECT_TRUE(alignment.rotation.isIdentity(0) && alignment.translation.isZero(0));
 }
 
 TEST(EdgeAligned, NothingToSegment) {

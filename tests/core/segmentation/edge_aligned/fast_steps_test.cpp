@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/random_stream.hpp"
+#include "core/segmentation/edge_aligned/settled_depth.hpp"
+#include "core/segmentation/edge_aligned/surface_vote.hpp"
+#include "plain_edge_aligned.hpp"
+#include "plate_scene.hpp"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include <string>
+
+namespace mapscore {
+namespace {
+
+using namespace mapscore::testing;
+
+/// Plates before a wall, on a floor; its depth has noise, single pixels without depth and a hole.
+struct RoughScene {
+  Calibration believed;
+  cv::Mat1w depth;
+  std::vector<Detection> detections;
+
+  RoughScene(double noise, double grown_px, const Eigen::Vector3d& shift_m) {
+    const PlateScene scene({{-0.5, 0.1, -0.3, 0.35, 1.4, 1},
+                            {0.05, 0.3, -0.5, 0.2, 1.7, 2},
+                            {0.3, 0.32, -0.4, 0.5, 1.9, 3},
+                            {-0.9, -0.5, 0.1, 0.6, 2.1, 4}},
+                           0.6);
+    believed = scene.misregistered(shift_m, {0, 0.004, 0});
+    depth = scene.depth();
+    RandomStream random(11, "rough", {});
+    for (std::uint16_t& z : depth) {
+      const double w = kDepthUnitsPerMetre / z + noise * random.normal();
+      z = random.uniform() < 0.01 ? std::uint16_t{0}
+                                  : cv::saturate_cast<std::uint16_t>(kDepthUnitsPerMetre / w);
+    }
+    depth(cv::Rect(200, 30, 60, 40)) = 0;
+    cv::Mat1w label = scene.label();
+    const int size = 2 * static_cast<int>(std::abs(grown_px)) + 1;
+    const cv::Mat1b square(size, size, std::uint8_t{1});
+    cv::Mat1w changed;
+    grown_px > 0 ? cv::dilate(label, changed, square) : cv::erode(label, changed, square);
+    detections = scene.detections(changed);
+  }
+};
+
+bool same_bits(const cv::Mat1f& a, const cv::Mat1f& b) {
+  return a.size() == b.size() && cv::countNonZero(a != b) == 0;
+}
+
+TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
+  int shifted = 0, settled_pixels = 0, labelled = 0;
+  for (const double noise : {0.0, 0.0015, 0.003})
+    for (const double grown_px : {-2.0, 0.0, 3.0})
+      for (const double shift_m : {0.0, 0.03}) {
+        SCOPED_TRACE("noise " + std::to_string(noise) + "/m, masks grown by " +
+                     std::to_string(grown_px) + " px, shift " + std::to_string(shift_m) + " m");
+        const RoughScene scene(noise, grown_px, {shift_m, 0, 0});
+        const DepthEdges edges = find_depth_edges(scene.depth, scene.believed);
+        const DepthEdges plain = plain_steps(edges, scene.believed);
+        EXPECT_TRUE(same_bits(edges.right, plain.right));
+        EXPECT_TRUE(same_bits(edges.down, plain.down));
+        ASSERT_EQ(edges.steps.size(), plain.steps.size());
+        for (std::size_t n = 0; n < plain.steps.size(); ++n) {
+          ASSERT_EQ(edges.steps[n].point, plain.steps[n].point) << n;
+          ASSERT_EQ(edges.steps[n].outward, plain.steps[n].outward) << n;
+          ASSERT_EQ(edges.steps[n].strength, plain.steps[n].strength) << n;
+        }
+        ASSERT_EQ(cv::countNonZero(edges.near_holes), 0);
+
+        const OutlineField field = outline_field(scene.detections, 320, 240, 60);
+        OutlineAlignment alignment = align_outlines(edges, field, scene.believed, 40);
+        if (shift_m > 0) alignment = {};  // so that something is left to shift
+        alignment.score = 0.5F, alignment.sharpness = 0.5F;
+        alignment.offset_px = static_cast<float>(-grown_px);
+        const OutlineShifts shifts = find_outline_shifts(edges, field, alignment, scene.believed);
+        const OutlineShifts plain_ones = plain_shifts(edges, field, alignment, scene.believed);
+        ASSERT_EQ(shifts.nodes.empty(), plain_ones.nodes.empty());
+        if (!shifts.nodes.empty()) {
+          EXPECT_TRUE(same_bits(shifts.nodes.reshape(1), plain_ones.nodes.reshape(1)));
+          ++shifted;
+        }
+
+        cv::Mat1w labels = vote_on_surfaces(edges, field, alignment, shifts, scene.believed,
+                                            scene.detections.size(), 3.0);
+        EXPECT_EQ(cv::countNonZero(labels != plain_surface_votes(edges, field, alignment, shifts,
+                                                                 scene.believed,
+                                                                 scene.detections.size(), 3.0F)),
+                  0);
+        labelled += cv::countNonZero(labels);
+        cv::Mat1w plain_labels = labels.clone();
+        const cv::Mat1f settled = settle_on_surfaces(edges, labels);
+        EXPECT_TRUE(same_bits(settled, settle_plainly(edges, plain_labels)));
+        EXPECT_EQ(cv::countNonZero(labels != plain_labels), 0);
+        settled_pixels += cv::countNonZero(settled != edges.inverse_depth);
+      }
+  EXPECT_GT(shifted, 5);
+  EXPECT_GT(labelled, 18 * 5000);
+  EXPECT_GT(settled_pixels, 18 * 5000);
+}
+
+}  // namespace
+}  // namespace mapscore

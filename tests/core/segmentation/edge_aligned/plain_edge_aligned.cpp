@@ -1,0 +1,433 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "plain_edge_aligned.hpp"
+
+#include "core/segmentation/edge_aligned/edge_matching.hpp"
+#include "core/segmentation/edge_aligned/filled_slits.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace mapscore::testing {
+namespace {
+
+constexpr int kGap = 24;  // px, the widest that is stepped over
+
+/// A line of pixels of an image: a row, or a column.
+struct PixelLine {
+  const cv::Mat1f& image;
+  bool row;
+  int index;
+
+  [[nodiscard]] int size() const { return row ? image.cols : image.rows; }
+  [[nodiscard]] float at(int n) const {
+    if (n < 0 || n >= size()) return 0.0F;
+    return row ? image(index, n) : image(n, index);
+  }
+  /// The last with a value before a place, -1 for none.
+  [[nodiscard]] int last_before(int n) const {
+    do --n;
+    while (n >= 0 && !(at(n) > 0));
+    return n;
+  }
+};
+
+class PlainSteps {
+ public:
+  PlainSteps(const DepthEdges& given, const Calibration& believed)
+      : believed_(believed), edges_(given) {
+    edges_.right = cv::Mat1f(given.inverse_depth.size(), 0.0F);
+    edges_.down = cv::Mat1f(given.inverse_depth.size(), 0.0F);
+    edges_.steps.clear();
+  }
+
+  DepthEdges find() {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    for (int v = 0; v < w.rows; ++v) {
+      for (int u = 0; u < w.cols; ++u) {
+        if (!(w(v, u) > 0)) continue;
+        look_back({w, true, v}, u);
+        look_back({w, false, u}, v);
+      }
+      beside_hole({w, true, v}, w.cols);
+    }
+    for (int u = 0; u < w.cols; ++u) beside_hole({w, false, u}, w.rows);
+    return edges_;
+  }
+
+ private:
+  void look_back(const PixelLine& line, int q) {
+    const int p = line.last_before(q);
+    beside_hole(line, q);
+    if (p < 0) return;
+    const float tau = std::max(0.002F, 4 * edges_.noise), rise = line.at(q) - line.at(p);
+    const float gap = static_cast<float>(q - p);
+    float strength = 0;
+    if (std::abs(rise) > tau && q - p <= kGap) {
+      const float before = line.at(p - 1), after = line.at(q + 1);
+      const float slope_p = before > 0 ? line.at(p) - before : 0.0F;
+      const float slope_q = after > 0 ? after - line.at(q) : 0.0F;
+      const float step = std::min(std::abs(rise - gap * slope_p), std::abs(rise - gap * slope_q));
+      strength = std::clamp((step - tau) / (2 * tau), 0.0F, 1.0F);
+    }
+    if (q == p + 1)
+      (line.row ? edges_.right(line.index, p) : edges_.down(p, line.index)) = 1.0F - strength;
+    if (strength > 0) add(line, line.at(p) > line.at(q) ? p : q, line.at(p) > line.at(q), strength);
+  }
+
+  /// What ends at a hole before a place.
+  void beside_hole(const PixelLine& line, int q) {
+    const int p = line.last_before(q), middle = (p + q) / 2;
+    const float farthest = static_cast<float>(1.0 / (0.9 * believed_.range_max_m));
+    if (q - p <= kGap) return;
+    if ((line.row ? edges_.near_holes(line.index, middle) : edges_.near_holes(middle, line.index)))
+      return;
+    if (p >= 0 && line.at(p) > farthest) add(line, p, true, 1.0F);
+    if (q < line.size() && line.at(q) > farthest) add(line, q, false, 1.0F);
+  }
+
+  void add(const PixelLine& line, int n, bool ends, float strength) {
+    const double at = n + (ends ? 0.5 : -0.5);
+    const double z = 1.0 / static_cast<double>(line.at(n));
+    const auto point = line.row ? believed_.depth.back_project(at, line.index, z)
+                                : believed_.depth.back_project(line.index, at, z);
+    const Outward way =
+        line.row ? (ends ? Outward::right : Outward::left) : (ends ? Outward::down : Outward::up);
+    edges_.steps.push_back({point.cast<float>(), way, strength});
+  }
+
+  const Calibration& believed_;
+  DepthEdges edges_;
+};
+
+/// p_color = R p_depth + t with the alignment.
+struct Mended {
+  Eigen::Matrix3f R;
+  Eigen::Vector3f t;
+  Mended(const OutlineAlignment& alignment, const Calibration& believed)
+      : R(alignment.rotation * believed.T_color_depth.linear().cast<float>()),
+        t(alignment.rotation * believed.T_color_depth.translation().cast<float>() +
+          alignment.translation) {}
+};
+
+class PlainShifts {
+ public:
+  PlainShifts(const DepthEdges& edges, const OutlineField& field, const OutlineAlignment& alignment,
+              const Calibration& believed)
+      : field_(field), offset_px_(alignment.offset_px) {
+    const Mended mended(alignment, believed);
+    const Projection project(believed.color);
+    std::vector<Placed> placed;
+    for (const DepthEdge& edge : edges.steps) {
+      const Eigen::Vector3f p = mended.R * edge.point + mended.t;
+      const Eigen::Vector2f at = project(p);
+      const bool within = at.x() >= 0 && at.y() >= 0 &&
+                          at.x() < static_cast<float>(field.distance.cols) &&
+                          at.y() < static_cast<float>(field.distance.rows);
+      if (!(p.z() > 0.05F) || !within) continue;
+      const float distance = field.distance(static_cast<int>(at.y()), static_cast<int>(at.x()));
+      if (std::abs(distance) <= 27.0F)
+        placed.push_back({at, direction_of(edge.outward), edge.strength, 0});
+    }
+    // The core keeps them by cell: so that sums are added up in its order.
+    const auto cell = [](const Placed& edge) {
+      return std::pair(static_cast<int>(edge.at.y()) / kPitch,
+                       static_cast<int>(edge.at.x()) / kPitch);
+    };
+    std::stable_sort(placed.begin(), placed.end(),
+                     [&](const Placed& a, const Placed& b) { return cell(a) < cell(b); });
+    edges_ = placed;
+  }
+
+  OutlineShifts find() {
+    const int rows = field_.distance.rows / kPitch + 2, columns = field_.distance.cols / kPitch + 2;
+    OutlineShifts shifts;
+    shifts.nodes = cv::Mat2f(rows, columns, cv::Vec2f(0, 0));
+    bool any = false;
+    for (int row = 0; row < rows; ++row)
+      for (int column = 0; column < columns; ++column) {
+        const float length = length_about(row, column);
+        near_.clear();
+        for (Placed edge : edges_) {
+          edge.support = support(edge.at, row, column);
+          if (edge.support > 0) near_.push_back(edge);
+        }
+        if (length < 12.0F || near_.empty()) continue;
+        const Eigen::Vector2f shift = shift_of(length);
+        shifts.nodes(row, column) = {shift.x(), shift.y()};
+        any = any || shift.squaredNorm() > 0;
+      }
+    if (!any) shifts.nodes.release();
+    return shifts;
+  }
+
+ private:
+  static constexpr int kPitch = OutlineShifts::kPitch_px;
+  struct Placed {
+    Eigen::Vector2f at, outward;
+    float strength, support;
+  };
+
+  static float support(const Eigen::Vector2f& at, int row, int column) {
+    const float du = at.x() - static_cast<float>(column * kPitch);
+    const float dv = at.y() - static_cast<float>(row * kPitch);
+    return std::max(0.0F, 1 - std::abs(du) / (1.5F * kPitch)) *
+           std::max(0.0F, 1 - std::abs(dv) / (1.5F * kPitch));
+  }
+
+  [[nodiscard]] float length_about(int row, int column) const {
+    float length = 0;
+    for (const cv::Mat1f& elements : field_.elements)
+      for (int r = 0; r < elements.rows; ++r)
+        for (int c = 0; c < elements.cols; ++c)
+          if (elements(r, c) > 0)
+            length += elements(r, c) *
+                      support({static_cast<float>(4 * c) + 1.5F, static_cast<float>(4 * r) + 1.5F},
+                              row, column);
+    return length;
+  }
+
+  [[nodiscard]] EdgeMatch match(const Placed& edge, const Eigen::Vector2f& shift,
+                                float sigma) const {
+    return match_edge(field_, edge.at + shift, edge.outward, edge.strength, offset_px_, sigma);
+  }
+
+  [[nodiscard]] float score(const Eigen::Vector2f& shift, float sigma) const {
+    float sum = 0;
+    for (const Placed& edge : near_) sum += edge.support * match(edge, shift, sigma).weight;
+    return sum;
+  }
+
+  [[nodiscard]] Eigen::Vector2f refined(Eigen::Vector2f shift, float length) const {
+    const Eigen::Vector2f start = shift;
+    for (int step = 0; step < 5; ++step) {
+      Eigen::Matrix2f H = Eigen::Matrix2f::Identity() * (0.02F * length);
+      Eigen::Vector2f b = -0.02F * length * (shift - start);
+      for (const Placed& edge : near_) {
+        const EdgeMatch m = match(edge, shift, 1.5F);
+        const float weight = edge.support * m.weight;
+        H += weight * m.gradient * m.gradient.transpose();
+        b -= weight * m.residual * m.gradient;
+      }
+      shift += H.inverse() * b;
+    }
+    return shift;
+  }
+
+  [[nodiscard]] Eigen::Vector2f shift_of(float length) const {
+    const Eigen::Vector2f none(0, 0), near = refined(none, length);
+    const float unshifted = score(none, 1.5F);
+    const Eigen::Vector2f fallback = score(near, 1.5F) > 1.08F * unshifted ? near : none;
+    if (unshifted > 0.6F * length) return fallback;
+    Eigen::Vector2f best = none;
+    float most = score(none, 3.0F);
+    for (float dv = -15; dv <= 15; dv += 3)
+      for (float du = -15; du <= 15; du += 3) {
+        const Eigen::Vector2f shift(du, dv);
+        if (shift.squaredNorm() > 15 * 15) continue;
+        const float value =
+            score(shift, 3.0F) - 0.15F * length * shift.squaredNorm() / (15.0F * 15.0F);
+        if (value > most) most = value, best = shift;
+      }
+    best = refined(best, length);
+    const float shifted = score(best, 1.5F);
+    return shifted > 1.5F * unshifted && shifted > 0.5F * 0.6F * length ? best : fallback;
+  }
+
+  const OutlineField& field_;
+  float offset_px_;
+  std::vector<Placed> edges_, near_;
+};
+
+/// Pixels that a vote may spread between: 1 on a surface, less across a step.
+void average_along(cv::Mat1f& votes, const cv::Mat1f& open, bool rows, float feedback) {
+  const int lines = rows ? votes.rows : votes.cols, length = rows ? votes.cols : votes.rows;
+  const auto at = [&](auto& image, int line, int n) -> auto& {
+    return rows ? image(line, n) : image(n, line);
+  };
+  for (int line = 0; line < lines; ++line) {
+    for (int n = 1; n < length; ++n)
+      at(votes, line, n) += feedback * at(open, line, n - 1) * at(votes, line, n - 1);
+    for (int n = length - 2; n >= 0; --n) {
+      const float a = feedback * at(open, line, n), here = at(votes, line, n);
+      at(votes, line, n) = here + a * (at(votes, line, n + 1) - a * here);
+    }
+  }
+}
+
+void spread_votes(cv::Mat1f& votes, const cv::Mat1f& right, const cv::Mat1f& down, float reach_px) {
+  for (int round = 0; round < 3; ++round) {
+    const float feedback = std::exp(-1.0F / (reach_px * std::pow(0.5F, static_cast<float>(round))));
+    average_along(votes, right, true, feedback);
+    average_along(votes, down, false, feedback);
+  }
+}
+
+/// How much a surface rises to the next pixel.
+float plain_slope(const DepthEdges& edges, int v, int u) {
+  const cv::Mat1f& w = edges.inverse_depth;
+  float steepest = 0;
+  for (const bool row : {true, false}) {
+    float least = 1.0F;
+    bool any = false;
+    for (const int way : {-1, 1}) {
+      const int y = row ? v : v + way, x = row ? u + way : u;
+      if (y < 0 || x < 0 || y >= w.rows || x >= w.cols) continue;
+      const float open = (row ? edges.right : edges.down)(std::min(v, y), std::min(u, x));
+      if (open < 1.0F) continue;
+      any = true, least = std::min(least, std::abs(w(y, x) - w(v, u)));
+    }
+    if (any) steepest = std::max(steepest, least);
+  }
+  return steepest;
+}
+
+}  // namespace
+
+DepthEdges plain_steps(const DepthEdges& given, const Calibration& believed) {
+  return PlainSteps(given, believed).find();
+}
+
+OutlineShifts plain_shifts(const DepthEdges& edges, const OutlineField& field,
+                           const OutlineAlignment& alignment, const Calibration& believed) {
+  if (alignment.sharpness > 0.85F || alignment.score < 0.25F) return {};
+  return PlainShifts(edges, field, alignment, believed).find();
+}
+
+cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field,
+                              const OutlineAlignment& alignment, const OutlineShifts& shifts,
+                              const Calibration& believed, std::size_t detections, float reach_px) {
+  const cv::Mat1f& w = edges.inverse_depth;
+  const Mended mended(alignment, believed);
+  const Projection color(believed.color), depth(believed.depth);
+  cv::Mat2i pixels(w.size());
+  cv::Mat1f nearest(field.owner.size(), 0.0F);
+  const cv::Rect image({0, 0}, field.owner.size());
+  for (int v = 0; v < w.rows; ++v)
+    for (int u = 0; u < w.cols; ++u) {
+      const float x = (static_cast<float>(u) - depth.cx) * (1.0F / depth.fx);
+      const float y = (static_cast<float>(v) - depth.cy) / depth.fy;
+      Eigen::Vector3f p;  // over z
+      for (int n = 0; n < 3; ++n)
+        p[n] = mended.R(n, 0) * x + mended.R(n, 1) * y + mended.R(n, 2) + mended.t[n] * w(v, u);
+      const float inverse_z = 1.0F / p.z();
+      cv::Vec2f at(color.fx * p.x() * inverse_z + color.cx,
+                   color.fy * p.y() * inverse_z + color.cy);
+      if (!shifts.nodes.empty()) at += shifts.at(at[0], at[1]);
+      const cv::Vec2i pixel(cvFloor(at[0] + 0.5F), cvFloor(at[1] + 0.5F));
+      pixels(v, u) = pixel;
+      if (image.contains(cv::Point(pixel)))
+        for (int r = std::max(pixel[1] - 1, 0); r <= std::min(pixel[1] + 1, image.height - 1); ++r)
+          for (int c = std::max(pixel[0] - 1, 0); c <= std::min(pixel[0] + 1, image.width - 1); ++c)
+            nearest(r, c) = std::max(nearest(r, c), w(v, u));
+    }
+  const float k = alignment.offset_px;
+  const cv::Mat1w owners =
+      k > 0.5F ? spread_owners(field.owner, static_cast<int>(std::ceil(1.5F * k))) : field.owner;
+  cv::Mat1w owner(w.size(), std::uint16_t{0});
+  cv::Mat1f inside(w.size(), -1e4F), weight(w.size(), 0.0F);
+  for (int v = 0; v < w.rows; ++v)
+    for (int u = 0; u < w.cols; ++u) {
+      const cv::Point pixel(pixels(v, u));
+      if (!(w(v, u) > 0) || !image.contains(pixel)) continue;
+      owner(v, u) = owners(pixel);
+      inside(v, u) = k - field.distance(pixel);
+      const float behind = nearest(pixel) * (1.0F - 0.015F) - 4.0F * edges.noise - w(v, u);
+      if (behind > 0 && behind > 2.0F * plain_slope(edges, v, u))
+        inside(v, u) = -1.0F, weight(v, u) = 0.2F;
+      else
+        weight(v, u) = std::clamp(std::abs(inside(v, u)) / 2.0F, 0.05F, 1.0F);
+    }
+  if (k <= -0.5F) {
+    const cv::Mat1b slits = filled_slits(edges, owner, static_cast<int>(std::ceil(-2 * k)));
+    inside.setTo(-1.0F, slits);
+    weight.setTo(1.0F, slits);
+  }
+  cv::Mat1w labels(w.size(), std::uint16_t{0});
+  for (std::size_t n = 1; n <= detections; ++n) {
+    const cv::Mat1b in_mask = (owner != 0) & (inside > 0),
+                    own_mask = in_mask & (owner == static_cast<double>(n));
+    cv::Rect box = cv::boundingRect(own_mask);
+    if (box.empty()) continue;
+    const int margin = static_cast<int>(std::ceil(2.0F * reach_px)) + 2;
+    box =
+        cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
+        cv::Rect({0, 0}, w.size());
+    cv::Mat1f own(box.size(), 0.0F), all = weight(box).clone();
+    weight(box).copyTo(own, own_mask(box));
+    const float other = (1 - 0.8F) / 0.8F;
+    cv::Mat1f others = other * all;
+    others.copyTo(all, in_mask(box) & ~own_mask(box));
+    spread_votes(own, edges.right(box), edges.down(box), reach_px);
+    spread_votes(all, edges.right(box), edges.down(box), reach_px);
+    for (int v = 0; v < box.height; ++v)
+      for (int u = 0; u < box.width; ++u)
+        if (own(v, u) > 0.8F * all(v, u) && all(v, u) > 1e-4F && w(v + box.y, u + box.x) > 0)
+          labels(v + box.y, u + box.x) = static_cast<std::uint16_t>(n);
+  }
+  return labels;
+}
+
+cv::Mat1f settle_plainly(const DepthEdges& edges, cv::Mat1w& labels) {
+  const cv::Mat1f& w = edges.inverse_depth;
+  const cv::Mat1w given = labels.clone();
+  cv::Mat1f settled(w.size(), 0.0F);
+  const float within = 4 * edges.noise;
+  for (int v = 0; v < w.rows; ++v)
+    for (int u = 0; u < w.cols; ++u) {
+      if (given(v, u) == 0) continue;
+      const auto same = [&](int y, int x) {
+        return y >= 0 && x >= 0 && y < w.rows && x < w.cols && std::abs(y - v) <= 4 &&
+               std::abs(x - u) <= 4 && given(y, x) == given(v, u);
+      };
+      const auto fit = [&](float slope_u, float slope_v) -> std::optional<float> {
+        int labelled = 0;
+        Eigen::Matrix3f A = Eigen::Matrix3f::Zero();
+        Eigen::Vector3f b = Eigen::Vector3f::Zero();
+        for (int y = v - 4; y <= v + 4; ++y)
+          for (int x = u - 4; x <= u + 4; ++x) {
+            if (!same(y, x)) continue;
+            ++labelled;
+            const Eigen::Vector3f at(1, static_cast<float>(x - u), static_cast<float>(y - v));
+            const float rise = w(y, x) - w(v, u);
+            if (std::abs(rise - slope_u * at[1] - slope_v * at[2]) > within) continue;
+            A += at * at.transpose();
+            b += rise * at;
+          }
+        if (A(0, 0) < 4 || A(0, 0) < 0.5F * static_cast<float>(labelled)) return {};
+        const float determinant = A.determinant();
+        if (determinant < 1.0F) return b[0] / A(0, 0);
+        A.col(0) = b;
+        return A.determinant() / determinant;
+      };
+      std::optional<float> rise = fit(0, 0);
+      if (!rise) {
+        std::vector<float> across, down;
+        for (int y = v - 4; y <= v + 4; ++y)
+          for (int x = u - 4; x <= u + 4; ++x) {
+            if (same(y, x) && same(y, x + 1)) across.push_back(w(y, x + 1) - w(y, x));
+            if (same(y, x) && same(y + 1, x)) down.push_back(w(y + 1, x) - w(y, x));
+          }
+        const auto median = [](std::vector<float>& all) {
+          std::sort(all.begin(), all.end());
+          return all.empty() ? 0.0F : all[all.size() / 2];
+        };
+        rise = fit(median(across), median(down));
+      }
+      if (rise)
+        settled(v, u) = w(v, u) + *rise;
+      else
+        labels(v, u) = 0;
+    }
+  return settled;
+}
+
+}  // namespace mapscore::testing
