@@ -248,7 +248,7 @@ void smooth_rows(cv::Mat1f& votes, const cv::Mat1f& right, int v, float feedback
 
 /// Recursive averages along rows and columns, which do not cross depth edges.
 void smooth(cv::Mat1f& votes, const cv::Mat1f& right, const cv::Mat1f& down, float reach_px) {
-  constexpr int kAtOnce = 4;
+  constexpr int kAtOnce = 8;
   for (int round = 0; round < kRounds; ++round) {
     const float feedback = std::exp(-1.0F / (reach_px * std::pow(0.5F, static_cast<float>(round))));
     int v = 0;
