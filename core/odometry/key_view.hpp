@@ -17,9 +17,9 @@ namespace mapscore {
                                                      const Calibration& believed);
 
 /// Share of the upright points of an earlier scan that an image sees through, of those where it
-/// shows anything: it shows something more than 5 % farther. Where they stood is nothing now, or
-/// one of the poses is wrong. 0 of fewer than 50 points. `T_map_image`: of the image's base.
-/// Thread-safe.
+/// shows anything: all that it shows within 2 pixels is more than 5 % farther, since silhouettes
+/// are not sharp. Where they stood is nothing now, or one of the poses is wrong. 0 of fewer than 50
+/// points. `T_map_image`: of the image's base. Thread-safe.
 [[nodiscard]] double seen_through(const cv::Mat1w& depth, const Pose& T_map_image,
                                   const DepthScan& scan, const Pose& T_map_scan,
                                   const Calibration& believed);

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace mapscore {
 namespace {
 
@@ -39,6 +41,21 @@ TEST(SeenThrough, WhereSomethingStoodIsNothing) {
   EXPECT_EQ(seen_through(with.depth, kPose, with.scan, kPose, camera), 0.0);
   // What stands in front hides it: that says nothing.
   EXPECT_EQ(seen_through(with.depth, kPose, without.scan, kPose, camera), 0.0);
+}
+
+/// The end of a wall, seen from before it; along the wall's thickness it is no more than a line,
+/// beside which the room goes on.
+TEST(SeenThrough, ASilhouetteIsNotSeenThrough) {
+  const Calibration camera = testing::odometry_camera();
+  BoxFlat flat(6.0, 5.0);
+  flat.add(3.0, 2.0, 0.0, 4.5, 2.1, 2.5);
+  const Pose other = planar_pose(3.05, 3.9, -std::numbers::pi / 2);
+  const Seen end = seen(flat, planar_pose(1.2, 2.3, -0.15));
+  for (const double turned_by : {-0.005, 0.0, 0.005})  // a pixel and a half
+    EXPECT_LT(seen_through(seen(flat, other).depth, other * planar_pose(0.0, 0.0, turned_by),
+                           end.scan, planar_pose(1.2, 2.3, -0.15), camera),
+              0.05)
+        << turned_by;
 }
 
 TEST(SeenThrough, ADarkImageSaysNothing) {
