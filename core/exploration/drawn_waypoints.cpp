@@ -6,9 +6,13 @@
 
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 namespace mapscore {
 namespace {
+
+/// A robot as far from a waypoint as this has not reached it.
+constexpr double kReached_m = 0.2;
 
 class DrawnWaypointsExplorer : public Explorer {
  public:
@@ -20,12 +24,19 @@ class DrawnWaypointsExplorer : public Explorer {
 
   ExplorationStep next(const ExplorationState& state) override {
     ExplorationStep step;
-    step.reason = "all waypoints were driven to";
+    const auto way_m = [&](const PlanarPose& to) {
+      return std::hypot(to.x_m - state.T_map_base.x_m, to.y_m - state.T_map_base.y_m);
+    };
+    if (next_ > 0 && way_m(params_.T_map_waypoints[next_ - 1]) > kReached_m) ++missed_;
+    step.reason = missed_ == 0
+                      ? "all waypoints were driven to"
+                      : "all waypoints were driven to, but " + std::to_string(missed_) + " of " +
+                            std::to_string(params_.T_map_waypoints.size()) + " not reached";
     if (next_ == params_.T_map_waypoints.size()) return step;
     const PlanarPose& to = params_.T_map_waypoints[next_++];
     NextView view;
     view.way = {state.T_map_base, to};
-    view.way_m = std::hypot(to.x_m - state.T_map_base.x_m, to.y_m - state.T_map_base.y_m);
+    view.way_m = way_m(to);
     step.view = view;
     return step;
   }
@@ -33,6 +44,7 @@ class DrawnWaypointsExplorer : public Explorer {
  private:
   DrawnWaypoints params_;
   std::size_t next_ = 0;
+  int missed_ = 0;  ///< waypoints that something stood before
 };
 
 }  // namespace

@@ -40,6 +40,7 @@ struct Calibration {
   Pose T_base_depth = Pose::Identity();   ///< depth_optical -> base_footprint
   double range_min_m = 0.6;               ///< planar z of the depth camera, limits included
   double range_max_m = 8.0;
+  bool is_doubtful = false;  ///< it was to be estimated, and the estimate was refused
 };
 
 /// Throws Error naming the camera unless both have pixels, positive focal lengths and a finite

@@ -22,6 +22,9 @@ constexpr double kFirstBlur = 0.03 * 0.03;
 /// Points that make a plane, and how flat they lie: standard deviation across over that along.
 constexpr std::size_t kPlanePoints = 6;
 constexpr double kFlatness = 0.25;
+/// Standard deviation of a plane's tilt (rad) beyond which its normal tells nothing: far floor, of
+/// which few noisy rows fall into a cube, would turn a robot that sees nothing else.
+constexpr double kMostTilt = 6.0 * std::numbers::pi / 180.0;
 /// Least cosine between the normals of a point and of its plane.
 constexpr double kFacing = 0.7;
 /// Of a base that stands on a floor: standard deviations of its height (m) and tilt (rad). Where
@@ -60,7 +63,8 @@ struct Plane {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
     const double across = std::max(axes.eigenvalues()[0], 0.0), along = axes.eigenvalues()[1];
     const double noise = static_cast<double>(count) / weight;
-    flat = across < kFlatness * kFlatness * along + noise;
+    const double tilt_squared = 1.0 / (weight * along);
+    flat = across < kFlatness * kFlatness * along + noise && tilt_squared < kMostTilt * kMostTilt;
     normal = axes.eigenvectors().col(0);
     if (normal.dot(facing) < 0.0) normal = -normal;
     variance = across + 1.0 / weight + kPlaneFloor;

@@ -161,6 +161,7 @@ void Sights::calibrate(const Recording& recording, const CalibratorSettings& set
     calibrator.add(seen);
   const CalibrationEstimate estimate = calibrator.estimate();
   believed_ = estimate.calibration;
+  believed_.is_doubtful = !is_known(estimate.verdict);
   calibration_note_ = fmt::format(
       "calibration, estimated: {}{}", word_of(estimate.verdict),
       is_known(estimate.verdict) ? ""

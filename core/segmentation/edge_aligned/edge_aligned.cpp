@@ -24,7 +24,8 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
   const int reach_px = static_cast<int>(std::ceil(1.3 * params.search_px)) + 16;
   const OutlineField field =
       outline_field(detections, believed.color.width_px, believed.color.height_px, reach_px);
-  const OutlineAlignment alignment = params.fit == OutlineFit::masks
+  const bool is_known = params.fit == OutlineFit::masks && !believed.is_doubtful;
+  const OutlineAlignment alignment = is_known
                                          ? fit_mask_size(edges, field, believed)
                                          : align_outlines(edges, field, believed, params.search_px);
   const OutlineShifts shifts = find_outline_shifts(edges, field, alignment, believed);

@@ -18,7 +18,8 @@
 namespace mapscore {
 
 /// What each frame's fit may change: registration and size of the masks, or their size alone, which
-/// is cheaper and right where the calibration is known.
+/// is cheaper and right where the calibration is known. One that is doubtful (Calibration) is not:
+/// then both are fitted.
 enum class OutlineFit { calibration, masks };
 constexpr auto names_of(OutlineFit) {
   return std::to_array<std::string_view>({"calibration", "masks"});
@@ -41,7 +42,8 @@ struct EdgeAligned {
           Field{"reach_px", "how far votes spread over a depth surface", above(0, 100)});
     visit(s.fit, later({"fit",
                         "what each frame mends: its calibration and the masks' size, or, of a "
-                        "calibration that is known, the masks' size alone"}));
+                        "calibration that is known (not one whose estimate was refused), the "
+                        "masks' size alone"}));
   }
   /// Segments of all detections, in their order; points in row-major order of their depth pixels.
   [[nodiscard]] std::vector<Segment> segment(const Sight& sight, double voxel_m,

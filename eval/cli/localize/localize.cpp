@@ -106,25 +106,27 @@ void remove_earlier(const fs::path& folder, const Study& study) {
                            shown(folder));
 }
 
+/// Names and texts, kept until all is computed: until then an earlier run's files stay.
+using FileTexts = std::vector<std::pair<std::string, std::string>>;
+
 /// Of one repetition; says how visual odometry fared.
 BelievedTrajectory believed_by(const Recording& recording, const Task& task,
-                               const OccupancyGrid* grid, const fs::path& folder,
+                               const OccupancyGrid* grid, FileTexts& files,
                                const std::function<void(int, int)>& progress) {
   const PoseSource source = task.config.localization.source;
   if (!is_visual(source)) return believed_trajectory(recording, task, grid, progress);
   const VisualTrajectory visual = visual_trajectory(recording, task, progress);
   const std::string name = leaf_text(task.config, "localization.source");
-  if (task.seed_index == 0)
-    write_whole_file(folder / (name + "_tracking.csv"), tracking_csv(visual));
+  if (task.seed_index == 0) files.emplace_back(name + "_tracking.csv", tracking_csv(visual));
   std::cerr << fmt::format("{}, seed {}: {}\n", name, task.seed_index,
                            TrackingCounts::of(visual).text());
   return visual.believed;
 }
 
-/// Where one source is, in all repetitions; writes the poses of the first one.
+/// Where one source is, in all repetitions; the files hold the poses of the first one.
 SourceScores localised(const Study& study, const Recording& recording, const OccupancyGrid* grid,
-                       const LocalizeFlags& flags, const std::vector<TrajectoryPose>& truth) {
-  const fs::path folder = flags.output;
+                       const LocalizeFlags& flags, const std::vector<TrajectoryPose>& truth,
+                       FileTexts& files) {
   const std::string name = leaf_text(study, "localization.source");
   Progress progress("localize", is_visual(study.localization.source) ? "depth images" : "turns",
                     flags.quiet);
@@ -135,7 +137,7 @@ SourceScores localised(const Study& study, const Recording& recording, const Occ
     task.config = study;
     task.seed_index = run;
     const BelievedTrajectory believed =
-        believed_by(recording, task, grid, folder, [&](int done, int total) {
+        believed_by(recording, task, grid, files, [&](int done, int total) {
           progress.show(std::int64_t{run} * total + done, std::int64_t{study.seeds} * total);
         });
     if (run == 1 && believed_text(believed) == first) {
@@ -147,11 +149,10 @@ SourceScores localised(const Study& study, const Recording& recording, const Occ
     }
     if (run == 0) {
       first = believed_text(believed);
-      write_whole_file(
-          folder / (flags.source == kAllSources ? fmt::format("localization_{}.txt", name)
-                                                : "localization.txt"),
-          first);
-      write_whole_file(folder / (name + "_at_frames.txt"), frame_poses_text(believed, truth));
+      files.emplace_back(flags.source == kAllSources ? fmt::format("localization_{}.txt", name)
+                                                     : "localization.txt",
+                         first);
+      files.emplace_back(name + "_at_frames.txt", frame_poses_text(believed, truth));
     }
     scores.seeds.push_back(score_localization(believed, truth));
   }
@@ -161,17 +162,17 @@ SourceScores localised(const Study& study, const Recording& recording, const Occ
 /// Of all sources, one after the other, and the files of their errors.
 std::vector<SourceScores> all_localised(Study study, const Recording& recording,
                                         const std::vector<std::string>& sources,
-                                        const OccupancyGrid* grid, const LocalizeFlags& flags) {
-  const fs::path folder = flags.output;
+                                        const OccupancyGrid* grid, const LocalizeFlags& flags,
+                                        FileTexts& files) {
   const std::vector<TrajectoryPose> truth = true_poses(recording);
-  write_whole_file(folder / "truth_at_frames.txt", trajectory_text(truth));
+  files.emplace_back("truth_at_frames.txt", trajectory_text(truth));
   std::vector<SourceScores> scores;
   for (const std::string& source : sources) {
     set_leaf(study, "localization.source", source);
-    scores.push_back(localised(study, recording, grid, flags, truth));
+    scores.push_back(localised(study, recording, grid, flags, truth, files));
   }
-  write_whole_file(folder / "localization.csv", frame_errors_csv(scores));
-  write_whole_file(folder / kScoresFile, scores_csv(scores));
+  files.emplace_back("localization.csv", frame_errors_csv(scores));
+  files.emplace_back(kScoresFile, scores_csv(scores));
   return scores;
 }
 
@@ -207,10 +208,12 @@ void localize(const LocalizeFlags& flags) {
   const fs::path folder = flags.output;
   const FolderLock lock(folder);
   fs::create_directories(folder);
+  FileTexts files;
+  const std::vector<SourceScores> scores =
+      all_localised(study, recording, sources, grid ? &*grid : nullptr, flags, files);
   remove_earlier(folder, study);
   if (grid) save_grid(*grid, folder / "grid.yaml");
-  const std::vector<SourceScores> scores =
-      all_localised(study, recording, sources, grid ? &*grid : nullptr, flags);
+  for (const auto& [name, text] : files) write_whole_file(folder / name, text);
   const StudySummary summary = pose_summary(study, scores);
   study.sweep = {{"localization.source", drawn}};
   const Pictures pictures = draw_believed(study, recording, {}, folder, style);

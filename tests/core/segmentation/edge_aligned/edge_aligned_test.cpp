@@ -191,6 +191,19 @@ TEST(EdgeAligned, AKnownCalibrationIsBelieved) {
   EXPECT_TRUE(alignment.rotation.isIdentity(0) && alignment.translation.isZero(0));
 }
 
+TEST(EdgeAligned, ADoubtfulCalibrationIsMendedInEachFrame) {
+  const PlateScene scene = plain_scene();
+  // Farther than local shifts reach.
+  Calibration off = scene.misregistered({0.03, 0, 0}, {0, 0.06, 0});
+  const auto labels = [&](OutlineFit fit) {
+    return label_depth(scene.detections(), scene.depth(), off, {.fit = fit});
+  };
+  const cv::Mat1w mended = labels(OutlineFit::calibration);
+  EXPECT_GT(cv::countNonZero(labels(OutlineFit::masks) != mended), 100);
+  off.is_doubtful = true;
+  EXPECT_EQ(cv::countNonZero(labels(OutlineFit::masks) != mended), 0);
+}
+
 TEST(EdgeAligned, NothingToSegment) {
   const PlateScene scene = plain_scene();
   EXPECT_EQ(cv::countNonZero(label_depth({}, scene.depth(), scene.truth(), {})), 0);
