@@ -219,7 +219,9 @@ void add_map(CLI::App& program) {
   add_mapping_flags(*verb, *flags);
   verb->add_flag("-q,--quiet", flags->quiet, "No progress on standard error");
   verb->footer(
-      "Prints frames, detections and voxels by class. docs/foreign_recordings.md has the files.\n"
+      "Prints frames, detections and voxels by class. docs/foreign_recordings.md has the files. "
+      "With\n"
+      "--poses of a source the poses that were found stand beside the map, in NAME_poses.txt.\n"
       "Examples:\n"
       "  mapscore map /data/apartment -o map.ot\n"
       "  mapscore map rgbd_dataset_freiburg3_long_office --intrinsics 535.4,539.2,320.1,247.6 "

@@ -60,6 +60,17 @@ void check_explorable(const Study& config) {
   if (depth_rate(config) != config.trajectory.frames_per_s)
     refuse("trajectory.depth_frames_per_s",
            "differs from frames_per_s; an exploration maps pairs of one instant, leave it out");
+  const PoseSource source = config.localization.source;
+  if (source != PoseSource::truth && source != PoseSource::gaussian &&
+      source != PoseSource::odometry)
+    refuse("localization.source",
+           fmt::format("{} is computed from a whole recording, and there is none yet; explore with "
+                       "gaussian, truth or odometry, and replay what it recorded",
+                       word_of(source)));
+  if (config.trajectory.max_frames != 0)
+    refuse("trajectory.max_frames",
+           "ends a drive along waypoints, and an exploration ends by exploration.budget_m and "
+           "budget_s; leave it out");
   if (config.score.unit == ScoreUnit::frame)
     refuse("score.unit", "is frame, and an exploration scores its map; write map");
   if (config.methods.front().command)

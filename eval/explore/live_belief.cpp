@@ -5,11 +5,8 @@
 
 #include "eval/explore/live_belief.hpp"
 
-#include "core/error.hpp"
 #include "eval/localization/localization_run.hpp"
 #include "sim/robot/drive_simulation.hpp"
-
-#include <fmt/format.h>
 
 namespace mapscore::eval {
 LiveBelief::LiveBelief(const Task& task, const Pose& T_map_world)
@@ -17,14 +14,7 @@ LiveBelief::LiveBelief(const Task& task, const Pose& T_map_world)
   const PoseSource source = task.config.localization.source;
   sim::PoseNoise noise = task.config.faults.pose;
   if (source == PoseSource::truth) noise = {};
-  if (source == PoseSource::odometry) {
-    by_odometry_ = true;
-  } else if (source != PoseSource::truth && source != PoseSource::gaussian) {
-    throw Error(
-        fmt::format("localization.source: {} is computed from a whole recording, and there is none "
-                    "yet; explore with gaussian, truth or odometry, and replay what it recorded",
-                    word_of(source)));
-  }
+  by_odometry_ = source == PoseSource::odometry;
   covariance_ = sim::reported_covariance(noise);
   errors_.emplace(sim::covariance_of(noise), noise.kind, trial_seed(task));
 }

@@ -85,9 +85,18 @@ TEST_F(OdometryInput, WithoutAnyDepthThereAreNoPoses) {
 
 TEST_F(OdometryInput, NorWhereTheStudysCameraSeesNone) {
   record([](std::vector<Frame>&) {});
+  expect_done(localize("visual_odometry"));
+  const auto files = {"localization.txt", "localization_scores.csv", "trajectory_on_grid.png",
+                      "visual_odometry_tracking.csv"};
+  std::vector<std::string> earlier;
+  for (const char* file : files) earlier.push_back(bytes_of(folder() / "out" / file));
   expect_refused(localize("visual_odometry", {"--set", "faults.depth.range=1", "--set",
                                               "faults.depth.range_max_m=0.61"}),
                  {"depth.txt", "no depth image has enough depth", "faults.depth"});
+  std::size_t n = 0;
+  for (const char* file : files)
+    EXPECT_EQ(bytes_of(folder() / "out" / file), earlier.at(n++))
+        << "what was there is lost: " << file;
 }
 
 TEST_F(OdometryInput, ADarkFrameInATrialIsSaidByRunAndInTheTidyTable) {

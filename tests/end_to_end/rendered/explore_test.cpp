@@ -228,6 +228,8 @@ TEST_F(Explore, WhatCannotActIsRefused) {
       {"exploration.planner", "none"},
       {"--set", "exploration.planner=none", "--set", "trajectory.waypoints_m_deg=[[0, 0, 0]]"});
   expect_refused_without_a_run({"occupancy.carve"}, {"-q", "--set", "occupancy.carve=false"});
+  expect_refused_without_a_run({"trajectory.max_frames", "exploration.budget_m"},
+                               {"-q", "--set", "trajectory.max_frames=3"});
   expect_refused_without_a_run({"localization.source: particle_filter", "whole recording"},
                                {"-q", "--set", "localization.source=particle_filter"});
   expect_refused_without_a_run(
