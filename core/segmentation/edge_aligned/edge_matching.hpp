@@ -41,6 +41,14 @@ struct Projection {
   }
 };
 
+/// An edge in the colour camera's frame under the believed calibration.
+struct ProjectedEdge {
+  Eigen::Vector3f p;
+  Eigen::Vector2f outward;
+  std::uint8_t way;
+  float strength;
+};
+
 /// A value between four pixels, and how it changes along rows and columns, by its values at the
 /// pixel above left, the next in the row, the one below and the next of that; a, b: place between
 /// them, 0 to 1.

@@ -4,8 +4,8 @@
 #include "core/segmentation/edge_aligned/outline_alignment.hpp"
 
 #include "core/geometry/pose.hpp"
+#include "core/segmentation/edge_aligned/coarse_outlines.hpp"
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
-#include "core/wide_vectors.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -31,46 +31,6 @@ constexpr float kCost = 0.03F;       // share of the outline that 20 px, or an o
 constexpr float kShort_px = 150.0F;  // and as much of an outline of this length again
 
 using Parameters = Eigen::Matrix<float, 5, 1>;  // rx ry (px at the image's middle) tx ty (m) offset
-
-/// An edge in the colour camera's frame under the believed calibration.
-struct ProjectedEdge {
-  Eigen::Vector3f p;
-  Eigen::Vector2f outward;
-  std::uint8_t way;
-  float strength;
-};
-
-/// Some of the edges, their coordinates apart, so that one loop projects many of them.
-struct EdgeColumns {
-  std::vector<float> x, y, z, strength;
-  std::vector<int> map;  ///< where the coarse map of the edge's way begins
-};
-
-/// The cells of coarse maps of rows x columns that edges fall into after a motion, as their places
-/// in the maps behind each other; `beyond` for those outside.
-MAPSCORE_WIDE_VECTORS
-void find_cells(const EdgeColumns& edges, const Eigen::Matrix3f& R, const Eigen::Vector3f& t,
-                const Projection& project, const cv::Size& size, int beyond, int* cells) {
-  const int count = static_cast<int>(edges.x.size()), columns = size.width;
-  const float *xs = edges.x.data(), *ys = edges.y.data(), *zs = edges.z.data();
-  const int* maps = edges.map.data();
-  const float right = static_cast<float>(columns), bottom = static_cast<float>(size.height);
-  const float fx = project.fx, fy = project.fy, cx = project.cx, cy = project.cy;
-  const float xx = R(0, 0), xy = R(0, 1), xz = R(0, 2), yx = R(1, 0), yy = R(1, 1), yz = R(1, 2),
-              zx = R(2, 0), zy = R(2, 1), zz = R(2, 2), tx = t.x(), ty = t.y(), tz = t.z();
-  constexpr float kCells = 1.0F / OutlineField::kCell_px;
-  for (int n = 0; n < count; ++n) {
-    const float x = xs[n], y = ys[n], z = zs[n];
-    const float X = xx * x + xy * y + xz * z + tx;
-    const float Y = yx * x + yy * y + yz * z + ty;
-    const float Z = zx * x + zy * y + zz * z + tz;
-    const float u = (fx * X / Z + cx) * kCells, v = (fy * Y / Z + cy) * kCells;
-    const bool within = (u >= 0) & (v >= 0) & (u < right) & (v < bottom);
-    const int column = static_cast<int>(within ? u : 0.0F);
-    const int row = static_cast<int>(within ? v : 0.0F);
-    cells[n] = within ? maps[n] + row * columns + column : beyond;
-  }
-}
 
 class Aligner {
  public:
@@ -140,34 +100,6 @@ class Aligner {
            std::abs(u - at.x()) + std::abs(v - at.y());
   }
 
-  /// Every so-manieth edge, and the coarse maps.
-  void prepare_coarse() {
-    const cv::Mat1b& any = field_.coarse[0];
-    for (const cv::Mat1b& map : field_.coarse) maps_.insert(maps_.end(), map.begin(), map.end());
-    maps_.push_back(0);
-    for (std::size_t n = 0; n < edges_.size(); n += coarse_stride()) {
-      const ProjectedEdge& edge = edges_[n];
-      coarse_.x.push_back(edge.p.x());
-      coarse_.y.push_back(edge.p.y());
-      coarse_.z.push_back(edge.p.z());
-      coarse_.strength.push_back(edge.strength);
-      coarse_.map.push_back(edge.way * static_cast<int>(any.total()));
-    }
-    cells_.resize(coarse_.x.size());
-  }
-
-  [[nodiscard]] std::size_t coarse_stride() const { return 1 + edges_.size() / kCoarseEdges; }
-
-  [[nodiscard]] float coarse_score(const OutlineAlignment& a) {
-    find_cells(coarse_, a.rotation, a.translation, project_, field_.coarse[0].size(),
-               static_cast<int>(maps_.size()) - 1, cells_.data());
-    float sum = 0;
-    for (std::size_t n = 0; n < cells_.size(); ++n)
-      sum += coarse_.strength[n] * static_cast<float>(maps_[static_cast<std::size_t>(cells_[n])]);
-    return sum * static_cast<float>(coarse_stride()) /
-           (255.0F * static_cast<float>(field_.length_px));
-  }
-
   /// What large corrections cost: they need evidence, and a short outline holds little, since it
   /// fits somewhere by chance.
   [[nodiscard]] float penalty(const OutlineAlignment& a) const {
@@ -205,8 +137,8 @@ class Aligner {
 
   /// The alignments that the fine fit starts from: none, which is believed unless something better
   /// is found; none from farther away, with offsets; the best turns; the best shifts.
-  [[nodiscard]] std::vector<Candidate> candidates() {
-    prepare_coarse();
+  [[nodiscard]] std::vector<Candidate> candidates() const {
+    CoarseOutlines coarse(edges_, field_, project_);
     std::vector<Candidate> starts{Candidate{}};
     const std::vector<Candidate> far = sizes(Family::turn);
     starts.insert(starts.end(), far.begin(), far.end());
@@ -215,7 +147,7 @@ class Aligner {
       for (float du = -search_px_; du <= search_px_; du += kStepPx)
         if (du * du + dv * dv <= search_px_ * search_px_)
           tried.push_back({turned(du, dv), Family::turn});
-    keep_best(std::move(tried), 5, starts);
+    keep_best(std::move(tried), 5, coarse, starts);
     tried.clear();
     for (float ty = -kReachM; ty <= kReachM; ty += kStepM)
       for (float tx = -kReachM; tx <= kReachM; tx += kStepM)
@@ -224,12 +156,13 @@ class Aligner {
           a.translation = {tx, ty, 0};
           tried.push_back({a, Family::shift});
         }
-    keep_best(std::move(tried), 4, starts);
+    keep_best(std::move(tried), 4, coarse, starts);
     return starts;
   }
 
-  void keep_best(std::vector<Candidate> tried, std::size_t most, std::vector<Candidate>& starts) {
-    for (Candidate& a : tried) a.score = coarse_score(a) - penalty(a);
+  void keep_best(std::vector<Candidate> tried, std::size_t most, CoarseOutlines& coarse,
+                 std::vector<Candidate>& starts) const {
+    for (Candidate& a : tried) a.score = coarse.score(a.rotation, a.translation) - penalty(a);
     std::stable_sort(tried.begin(), tried.end(),
                      [](const auto& a, const auto& b) { return a.score > b.score; });
     std::vector<Eigen::Vector2f> kept;
@@ -335,9 +268,6 @@ class Aligner {
   Projection project_;
   float search_px_;
   std::vector<ProjectedEdge> edges_;
-  EdgeColumns coarse_;
-  std::vector<std::uint8_t> maps_;  ///< the coarse maps, behind each other, and a 0
-  std::vector<int> cells_;
   std::array<cv::Mat1f, 4> votes_;
 };
 

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/edge_aligned/coarse_outlines.hpp"
+
+#include "core/wide_vectors.hpp"
+
+namespace mapscore {
+namespace {
+
+constexpr std::size_t kCoarseSearchEdges = 800;
+
+struct EdgeColumns {
+  const float *x, *y, *z;
+  const int* map;
+  int count;
+};
+
+/// The cells of maps of `size` that edges fall into after a motion, as their places in the maps
+/// behind each other; `beyond` for those outside.
+MAPSCORE_WIDE_VECTORS
+void find_cells(const EdgeColumns& edges, const Eigen::Matrix3f& R, const Eigen::Vector3f& t,
+                const Projection& project, const cv::Size& size, int beyond, int* cells) {
+  const int columns = size.width;
+  const float *xs = edges.x, *ys = edges.y, *zs = edges.z;
+  const int* maps = edges.map;
+  const float right = static_cast<float>(columns), bottom = static_cast<float>(size.height);
+  const float fx = project.fx, fy = project.fy, cx = project.cx, cy = project.cy;
+  const float xx = R(0, 0), xy = R(0, 1), xz = R(0, 2), yx = R(1, 0), yy = R(1, 1), yz = R(1, 2),
+              zx = R(2, 0), zy = R(2, 1), zz = R(2, 2), tx = t.x(), ty = t.y(), tz = t.z();
+  constexpr float kCells = 1.0F / OutlineField::kCell_px;
+  for (int n = 0; n < edges.count; ++n) {
+    const float x = xs[n], y = ys[n], z = zs[n];
+    const float X = xx * x + xy * y + xz * z + tx;
+    const float Y = yx * x + yy * y + yz * z + ty;
+    const float Z = zx * x + zy * y + zz * z + tz;
+    const float u = (fx * X / Z + cx) * kCells, v = (fy * Y / Z + cy) * kCells;
+    const bool within = (u >= 0) & (v >= 0) & (u < right) & (v < bottom);
+    const int column = static_cast<int>(within ? u : 0.0F);
+    const int row = static_cast<int>(within ? v : 0.0F);
+    cells[n] = within ? maps[n] + row * columns + column : beyond;
+  }
+}
+
+}  // namespace
+
+CoarseOutlines::CoarseOutlines(const std::vector<ProjectedEdge>& edges, const OutlineField& field,
+                               const Projection& project)
+    : field_(field), project_(project), stride_(1 + edges.size() / kCoarseSearchEdges) {
+  for (const cv::Mat1b& map : field.coarse) maps_.insert(maps_.end(), map.begin(), map.end());
+  maps_.push_back(0);
+  for (std::size_t n = 0; n < edges.size(); n += stride_) {
+    const ProjectedEdge& edge = edges[n];
+    x_.push_back(edge.p.x());
+    y_.push_back(edge.p.y());
+    z_.push_back(edge.p.z());
+    strength_.push_back(edge.strength);
+    map_.push_back(edge.way * static_cast<int>(field.coarse[0].total()));
+  }
+  cells_.resize(x_.size());
+}
+
+float CoarseOutlines::score(const Eigen::Matrix3f& R, const Eigen::Vector3f& t) {
+  const EdgeColumns edges{x_.data(), y_.data(), z_.data(), map_.data(),
+                          static_cast<int>(x_.size())};
+  find_cells(edges, R, t, project_, field_.coarse[0].size(), static_cast<int>(maps_.size()) - 1,
+             cells_.data());
+  float sum = 0;
+  for (std::size_t n = 0; n < cells_.size(); ++n)
+    sum += strength_[n] * static_cast<float>(maps_[static_cast<std::size_t>(cells_[n])]);
+  return sum * static_cast<float>(stride_) / (255.0F * static_cast<float>(field_.length_px));
+}
+
+}  // namespace mapscore
