@@ -163,6 +163,7 @@ const std::vector<std::string> kTexts{
     "[[1,0,0,0,0,0],[0,1,0,0,0,0],[0,0,1,0,0,0],[0,0,0,1,0,0],[0,0,0,0,1,0],[0,0,0,0,0,1]]",
     "[crate]",
     "points",
+    "masks",
     "voxels",
     "box_centre",
     "depth_mode",
