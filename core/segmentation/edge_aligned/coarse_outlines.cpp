@@ -21,7 +21,7 @@ struct EdgeColumns {
 MAPSCORE_WIDE_VECTORS
 void find_cells(const EdgeColumns& edges, const Eigen::Matrix3f& R, const Eigen::Vector3f& t,
                 const Projection& project, const cv::Size& size, int beyond, int* cells) {
-  const int columns = size.width;
+  const int count = edges.count, columns = size.width;
   const float *xs = edges.x, *ys = edges.y, *zs = edges.z;
   const int* maps = edges.map;
   const float right = static_cast<float>(columns), bottom = static_cast<float>(size.height);
@@ -29,7 +29,7 @@ void find_cells(const EdgeColumns& edges, const Eigen::Matrix3f& R, const Eigen:
   const float xx = R(0, 0), xy = R(0, 1), xz = R(0, 2), yx = R(1, 0), yy = R(1, 1), yz = R(1, 2),
               zx = R(2, 0), zy = R(2, 1), zz = R(2, 2), tx = t.x(), ty = t.y(), tz = t.z();
   constexpr float kCells = 1.0F / OutlineField::kCell_px;
-  for (int n = 0; n < edges.count; ++n) {
+  for (int n = 0; n < count; ++n) {
     const float x = xs[n], y = ys[n], z = zs[n];
     const float X = xx * x + xy * y + xz * z + tx;
     const float Y = yx * x + yy * y + yz * z + ty;
