@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -67,7 +68,7 @@ struct NextView {
 struct ExplorationStep {
   std::optional<NextView> view;
   ExplorationEnd end = ExplorationEnd::explored;  ///< where there is no view
-  std::string_view reason = {};  ///< why, of a planner that does not look for what is new
+  std::string reason;  ///< why, of a planner that does not look for what is new
   std::vector<Frontier> frontiers;
 };
 

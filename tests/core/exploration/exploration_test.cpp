@@ -152,6 +152,27 @@ TEST(Exploration, TheLawnMowerGoesBackFromWhereItIsBarred) {
   EXPECT_EQ(last.reason, "the robot can get no farther than its own radius");
 }
 
+// A robot that something stopped before a waypoint goes on to the next; the end says it.
+TEST(Exploration, DrawnWaypointsThatWereNotReachedAreCounted) {
+  const OccupancyGrid grid({0.05, {}, 120, 120});
+  const SemanticMap map(0.05, Carving{.carve = true});
+  DrawnWaypoints drawn;
+  drawn.T_map_waypoints = {{4.0, 3.0, 0.0}, {3.0, 3.0, 0.0}};
+  for (const double stopped_x_m : {4.0, 3.5}) {
+    const auto explorer = make_explorer(drawn, flat_robot(), 1);
+    ExplorationState state{map, grid, {3.0, 3.0, 0.0}};
+    ASSERT_TRUE(explorer->next(state).view);
+    state.T_map_base.x_m = stopped_x_m;
+    ASSERT_TRUE(explorer->next(state).view);
+    state.T_map_base.x_m = 3.0;
+    const ExplorationStep last = explorer->next(state);
+    EXPECT_FALSE(last.view);
+    EXPECT_EQ(last.reason, stopped_x_m == 4.0
+                               ? "all waypoints were driven to"
+                               : "all waypoints were driven to, but 1 of 2 not reached");
+  }
+}
+
 // Noise has closed the door to a room that is seen through it: before it gives up, it goes near and
 // looks at what bars it; and when that stays, it ends.
 TEST(Exploration, ABarIsLookedAtOnceMore) {
