@@ -37,7 +37,7 @@ MotionPrior wheel_motion(const Pose& T_before_after, const OdometryNoise& noise)
 MotionPrior robot_motion(const LastStep& last, double dt_s) {
   const double half = 0.5 * dt_s * dt_s;
   return {
-      exp_pose(log_pose(last.T_before_after) * going_on(last, dt_s)),
+      exp_pose(log_pose(last.T_before_after) * going_on(last, std::min(dt_s, 2.0))),
       sigmas6(0.5 * half + 0.001, 0.002 + 0.05 * half, 0.2 * kRadPerDeg + 5.0 * kRadPerDeg * half,
               85.0 * kRadPerDeg * half + 0.1 * kRadPerDeg)};
 }

@@ -27,8 +27,8 @@ struct LastStep {
 /// By the encoders' increment; they do not say the base's spring and tilt.
 [[nodiscard]] MotionPrior wheel_motion(const Pose& T_before_after, const OdometryNoise& noise);
 
-/// Of a robot whose wheels are not read: it goes on as it went, within 0.5 m/s^2 and 85
-/// degrees/s^2.
+/// Of a robot whose wheels are not read: it goes on as it went, for two seconds at most,
+/// within 0.5 m/s^2 and 85 degrees/s^2.
 [[nodiscard]] MotionPrior robot_motion(const LastStep& last, double dt_s);
 
 /// Of a camera that may be in a hand: it forgets its speed within a tenth of a second, so that what

@@ -18,6 +18,9 @@ inline constexpr std::size_t kHorizon = 60;
 /// the support of the last one that was.
 inline constexpr double kStillSeen = 0.75;
 
+/// Of the filter's covariance where a scan confirmed it: what its errors show (docs/odometry.md).
+inline constexpr double kStatedPart = 0.25;
+
 /// Of a key frame's place against the map it is put into.
 inline Covariance6 key_frame_floor() {
   return sigmas6(0.00015, 0.00015, 0.005 * kDegree, 0.005 * kDegree);

@@ -43,18 +43,28 @@ constexpr double kSeenThrough = 0.25, kMostlyThrough = 0.5;
 constexpr std::ptrdiff_t kLeastContradicting = 3;
 /// Frames lost in a row after which a new map begins.
 constexpr int kMostLost = 5;
+/// Frames lost in a row that may be misjudged: the next one is still matched near the prior.
+constexpr int kMisjudged = 1;
 /// Share of a pose's uncertainty that the part of the map takes over which a key frame adds: all of
-/// it where everything is new, little where most is known. The power was chosen so that the errors
-/// of three drives fit (docs/odometry.md).
+/// it where everything is new, little where most is known.
 double taken_over(double new_share) {
   constexpr double kLeast = 0.0005;
-  return std::max(kLeast, std::pow(new_share, 5));
+  return std::max(kLeast, std::pow(new_share, 6));
 }
 
 /// Of a pose in the map, however often it is matched: the map's own errors are the same each time.
 Covariance6 map_bias() {
-  return sigmas6(0.002, 0.002, 0.05 * kDegree, 0.04 * kDegree);
+  return sigmas6(0.0015, 0.0015, 0.04 * kDegree, 0.03 * kDegree);
 }
+
+/// Part of the filter's covariance that is stated of an image's pose. The filter is cautious, so
+/// that no scan is thrown away in vain: where a scan placed the image, errors are half of what it
+/// says (docs/odometry.md, "Covariance").
+double stated_part(Tracking tracking) {
+  const bool by_scan = tracking == Tracking::tracked || tracking == Tracking::slipped;
+  return by_scan ? kStatedPart : 1.0;
+}
+
 /// Whether the encoders say what no wheels can do.
 bool wheels_jump(const OdometryFrame& before, const OdometryFrame& after) {
   if (!before.T_odom_base || !after.T_odom_base) return false;
@@ -230,7 +240,7 @@ void VisualOdometry::begin(DepthScan scan, const OdometryFrame& frame, OdometryS
 
 void VisualOdometry::recover(const DepthScan& scan, const OdometryFrame& frame, OdometryStep& step,
                              int most_lost) {
-  if (++lost_for_ == 1) state_.relative += jump_when_lost();
+  if (++lost_for_ == std::min(kMisjudged, most_lost) + 1) state_.relative += jump_when_lost();
   if (relocate(scan, frame)) {
     step.tracking = Tracking::relocated;
     step.key_frame = step.closed_loop = true;
@@ -254,7 +264,8 @@ bool VisualOdometry::hardly_moved(const OdometryFrame& frame) const {
 
 OdometryStep VisualOdometry::placed(OdometryStep step, const State& state) {
   step.T_map_base = state.T_map_base;
-  step.covariance = state.relative + state.drift + map_bias();
+  step.covariance = stated_part(step.tracking) * state.relative + state.drift + map_bias();
+  if (lost_for_ > 0 && lost_for_ <= kMisjudged) step.covariance += jump_when_lost();
   if (keys_.empty())
     placed_.push_back({step.stamp_s, {}, state.T_map_base});
   else
@@ -276,7 +287,8 @@ void VisualOdometry::keep(DepthScan scan, const OdometryFrame& frame, OdometrySt
         step.tracking == Tracking::restarted
             ? 1.0
             : taken_over(1.0 - std::min(step.known_share, step.upright_known_share));
-    const Covariance6 growth = share * state_.relative + key_frame_floor();
+    const Covariance6 growth =
+        share * stated_part(step.tracking) * state_.relative + key_frame_floor();
     state_.drift += growth;
     state_.relative *= 1.0 - share;
     edges_.push_back({keys_.size() - 1, keys_.size(),

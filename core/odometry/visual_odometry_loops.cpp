@@ -36,7 +36,8 @@ bool VisualOdometry::close_loop(const cv::Mat1w& depth, bool anywhere) {
       continue;
     const Covariance6 weak = lost_jump().inverse();
     edges_.push_back({n, keys_.size() - 1, keys_[n].T_map_base.inverse() * match.T_map_base,
-                      (match.information + weak).inverse() + key_frame_floor(), true});
+                      kStatedPart * (match.information + weak).inverse() + key_frame_floor(),
+                      true});
     keys_.back().T_map_base = match.T_map_base;
     spread();
     return true;

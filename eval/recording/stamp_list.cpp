@@ -12,6 +12,8 @@
 namespace mapscore::eval {
 namespace {
 
+/// No robot is farther from where it started; beyond, sums of such numbers lose centimetres.
+constexpr double kFarthest_m = 1e9;
 constexpr const char* kNoFrames = "the file was cut off, or nothing was recorded; record anew";
 
 /// Lines of poses under a comment that names the frame.
@@ -39,6 +41,8 @@ Pose StampedLine::pose() const {
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = number_at(i + 1);
   const auto pose = pose_of(numbers);
   if (!pose) refuse("quaternion qx qy qz qw is not of length 1; normalise it");
+  if (pose->translation().cwiseAbs().maxCoeff() > kFarthest_m)
+    refuse("a position of more than 1e9 m; give tx, ty and tz in metres");
   return *pose;
 }
 

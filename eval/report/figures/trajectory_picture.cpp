@@ -20,6 +20,9 @@ namespace {
 constexpr double kThinnestM =
     1e-3;  ///< axis of a drawn ellipse; gnuplot takes 0 for its own default
 constexpr double kLongestSide_in = 6.2, kHighest_in = 7.5, kMargin_m = 0.25;
+/// A way that leaves its home by so much is drawn in a square, its grid of at most kMostCells along
+/// a side.
+constexpr double kFarAway_m = 100.0, kMostCells = 2000.0;
 constexpr double kThinnest_lw = 1.4, kStep_lw = 0.6;
 constexpr double kTurned_rad = 1e-9;  ///< a grid turned by less lies along the map's axes
 constexpr const char* kTruthColour = "#999999";
@@ -124,17 +127,23 @@ class TrajectoryFigure {
   }
 
   void lay_out() {
-    const Eigen::AlignedBox2d box = drawn();
+    Eigen::AlignedBox2d box = drawn();
+    const double longest = box.sizes().maxCoeff();
+    const bool astray = longest > kFarAway_m;
+    if (astray) box = {box.center().array() - 0.5 * longest, box.center().array() + 0.5 * longest};
     const GridFrame& frame = grid_.frame();
     const bool turned = std::abs(wrapped_angle(frame.T_map_grid.yaw_rad)) > kTurned_rad;
-    const double step = turned ? 0.5 * frame.resolution_m : frame.resolution_m;
+    double step = turned ? 0.5 * frame.resolution_m : frame.resolution_m;
+    while (longest > kMostCells * step) step *= 2.0;
     x_ = cells_over(box.min().x(), box.max().x(), frame.T_map_grid.x_m, step);
     y_ = cells_over(box.min().y(), box.max().y(), frame.T_map_grid.y_m, step);
     const double width = x_.high() - x_.low(), height = y_.high() - y_.low();
     const double in_per_m = std::min(kLongestSide_in / width, kHighest_in / height);
     sheet_.panel_width_in = std::max(2.0, width * in_per_m);
     sheet_.panel_height_in = sheet_.panel_width_in * height / width;
-    const double tics = std::max(width, height) > 12.0 ? 2.0 : 1.0;
+    const double tics = astray                           ? tic_step(longest, kLongestSide_in)
+                        : std::max(width, height) > 12.0 ? 2.0
+                                                         : 1.0;
     panel_.settings = {
         fmt::format("set xrange [{:.6g}:{:.6g}]; set xtics {}", x_.low(), x_.high(), tics),
         fmt::format("set yrange [{:.6g}:{:.6g}]; set ytics {}", y_.low(), y_.high(), tics),

@@ -22,6 +22,10 @@ TEST(MotionPrior, ARobotGoesOnAsItWent) {
   EXPECT_NEAR(motion.T_before_after.translation().x(), 0.08, 1e-12);
   EXPECT_NEAR(std::sqrt(motion.noise(0, 0)), 0.5 * 0.02 + 0.001, 1e-12);
   EXPECT_NEAR(std::sqrt(motion.noise(5, 5)), (85.0 * 0.02 + 0.1) * kRadPerDeg, 1e-12);
+  // Images that stop for an hour: it has not gone on all the while, but may be anywhere.
+  const MotionPrior later = robot_motion(ahead(0.04, 0.1), 3600.0);
+  EXPECT_NEAR(later.T_before_after.translation().x(), 0.8, 1e-12);
+  EXPECT_GT(std::sqrt(later.noise(0, 0)), 1e6);
 }
 
 TEST(MotionPrior, WithoutAStepBeforeNothingMoves) {

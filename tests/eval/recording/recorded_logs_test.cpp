@@ -149,6 +149,8 @@ TEST_F(RecordedLogs, TruncatedDisorderedOrTwistedAreRefused) {
                       "odometry.txt:4: stamp 0.04 does not come after");
   expect_refused_line(folder, "\n0 0 0 0 0 0 0 1\n", "\n0 0 0 0 0 0 0 2\n",
                       "odometry.txt:2: quaternion qx qy qz qw is not of length 1");
+  expect_refused_line(folder, "\n0 0 0 0 0 0 0 1\n", "\n0 1e300 0 0 0 0 0 1\n",
+                      "odometry.txt:2: a position of more than 1e9 m");
   expect_refused_line(folder, "\n0 0 0 0 0 0 0 1\n", "\n",
                       "75 lines, recording.yaml says odometry_count 76");
   ScanLog fewer = scans();

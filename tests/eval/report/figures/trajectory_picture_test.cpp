@@ -108,6 +108,14 @@ TEST(TrajectoryFigure, GrowsWithWhatIsDrawnAndIsUnknownBeyondTheGrid) {
   EXPECT_NEAR(sheet.panel_height_in / sheet.panel_width_in, 1.0, 1e-12) << "one scale";
 }
 
+TEST(TrajectoryFigure, AWayThatIsLostFarFromHomeIsASmallSquarePicture) {
+  const std::vector<DrawnTrajectory> astray{{"odometry", {{1.25, 2.75}, {1.25, 1e6}}, {}}};
+  const FigureSheet sheet = trajectory_figure(small_grid(), astray, {});
+  EXPECT_NEAR(sheet.panel_height_in / sheet.panel_width_in, 1.0, 0.01);
+  EXPECT_LT(sheet.panel_width_in, 10.0);
+  EXPECT_LT(sheet.data.size(), 10'000'000u);
+}
+
 TEST(TrajectoryFigure, ATurnedGridIsShownOnAFinerLatticeOfTheMap) {
   const OccupancyGrid grid = small_grid(std::numbers::pi / 2);
   const FigureSheet sheet = trajectory_figure(grid, {}, {});
