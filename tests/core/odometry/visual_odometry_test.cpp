@@ -283,6 +283,25 @@ TEST(VisualOdometry, AlongABareWallItBelievesTheWheelsAndSaysHowLittle) {
   EXPECT_LT(std::sqrt(steps.back().covariance(0, 0)), 0.01);
 }
 
+TEST(VisualOdometry, OneWrongImageDoesNotUnsettleARobotThatIsWhereItBelieves) {
+  const BoxFlat hall(3.0, 200.0), elsewhere = furnished_room();
+  const Calibration camera = testing::odometry_camera();
+  VisualOdometry visual({}, camera, planar_pose(1.5, 100.0, 0.0));
+  std::vector<OdometryStep> steps;
+  for (int n = 0; n < 20; ++n) {
+    const Pose way = planar_pose(0.0, 0.06 * n, 0.0), pose = planar_pose(1.5, 100.0, 0.0) * way;
+    const cv::Mat1w depth = n == 15
+                                ? testing::flat_depth(elsewhere, planar_pose(2.0, 2.0, 0.6), camera)
+                                : testing::flat_depth(hall, pose, camera);
+    steps.push_back(visual.add({0.1 * n, depth, way}));
+  }
+  EXPECT_EQ(steps[15].tracking, Tracking::lost);
+  EXPECT_GT(std::sqrt(steps[15].covariance(0, 0)), 0.4) << "it may have been carried away";
+  EXPECT_EQ(steps[16].tracking, Tracking::tracked);
+  // The wall says nothing of the way along it: there, too, it is where it was, as it was.
+  EXPECT_LT(std::sqrt(steps[16].covariance(1, 1)), 1.5 * std::sqrt(steps[14].covariance(1, 1)));
+}
+
 TEST(VisualOdometry, WithoutWheelsItGoesOnAsItWent) {
   const Driven run = driven(furnished_room(), {.frames = 120, .turns = 0.5, .use_wheels = false});
   for (std::size_t n = 0; n < run.steps.size(); ++n) EXPECT_LT(run.error_m(n), 0.08) << n;
