@@ -8,6 +8,7 @@
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace mapscore {
 
@@ -20,6 +21,16 @@ struct OutlineAlignment {
   float offset_px = 0;
   float sharpness = 1;  ///< `score` at sigma 1.2 px over that at 4 px: near 1 for a rigid scene
   float score = 0;      ///< share of the outline that depth edges explain at sigma 1.5 px, 0 to 1
+
+  /// T_color_depth, corrected.
+  template <class Scalar = float>
+  [[nodiscard]] Eigen::Transform<Scalar, 3, Eigen::Isometry> corrected(const Pose& believed) const {
+    Eigen::Transform<Scalar, 3, Eigen::Isometry> T = believed.cast<Scalar>();
+    const auto R = rotation.cast<Scalar>().eval();
+    T.linear() = (R * T.linear()).eval();
+    T.translation() = (R * T.translation() + translation.cast<Scalar>()).eval();
+    return T;
+  }
 };
 
 /// Fits the outlines of a frame to its depth edges.

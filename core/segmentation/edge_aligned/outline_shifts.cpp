@@ -52,10 +52,9 @@ class ShiftFinder {
         columns_(field.distance.cols / kPitch + 2),
         cells_(static_cast<std::size_t>(rows_ * columns_)) {
     const Projection project(believed.color);
-    const Eigen::Matrix3f R = alignment.rotation * believed.T_color_depth.linear().cast<float>();
-    const Eigen::Vector3f t =
-        alignment.rotation * believed.T_color_depth.translation().cast<float>() +
-        alignment.translation;
+    const Eigen::Isometry3f T = alignment.corrected(believed.T_color_depth);
+    const Eigen::Matrix3f R = T.linear();
+    const Eigen::Vector3f t = T.translation();
     for (const DepthEdge& edge : edges.steps) {
       const Eigen::Vector3f p = R * edge.point + t;
       if (!(p.z() > 0.05F)) continue;

@@ -89,10 +89,9 @@ class Voting {
   void locate(const OutlineShifts& shifts) {
     const cv::Mat1f& w = edges_.inverse_depth;
     cells_.create(w.rows, w.cols);
-    RayMotion motion{alignment_.rotation * believed_.T_color_depth.linear().cast<float>(),
-                     alignment_.rotation * believed_.T_color_depth.translation().cast<float>() +
-                         alignment_.translation,
-                     Projection(believed_.color), Projection(believed_.depth)};
+    const Eigen::Isometry3f T_color_depth = alignment_.corrected(believed_.T_color_depth);
+    const RayMotion motion{T_color_depth.linear(), T_color_depth.translation(),
+                           Projection(believed_.color), Projection(believed_.depth)};
     std::vector<float> us(static_cast<std::size_t>(w.cols)), vs(us.size());
     for (int v = 0; v < w.rows; ++v) {
       project_row(motion, v, w[v], w.cols, us.data(), vs.data());
@@ -111,11 +110,7 @@ class Voting {
     const cv::Mat1b& hole = edges_.near_holes;
     if (cv::countNonZero(hole) == 0) return;
     Calibration mended = believed_;
-    mended.T_color_depth.linear() =
-        alignment_.rotation.cast<double>() * believed_.T_color_depth.linear();
-    mended.T_color_depth.translation() =
-        alignment_.rotation.cast<double>() * believed_.T_color_depth.translation() +
-        alignment_.translation.cast<double>();
+    mended.T_color_depth = alignment_.corrected<double>(believed_.T_color_depth);
     for (const double share : {1.0, 0.85, 0.7, 0.6, 0.5}) {
       const double z_m = share * believed_.range_min_m;
       for (int v = 0; v < hole.rows; ++v)
