@@ -13,7 +13,8 @@ namespace {
 /// A surface is behind another where it is this many times as far.
 constexpr double kBehind = 1.05;
 constexpr double kLeastOnPlanes = 0.3, kLeastShown = 0.3;
-constexpr std::size_t kLeastShownPoints = 50;
+constexpr double kLeastShownPoints = 50;
+constexpr int kCells = 16;  ///< of a key frame's image, along its width
 
 /// Pixels by which a silhouette may stand elsewhere, by the noise of image and pose.
 constexpr int kRagged_px = 2;
@@ -66,17 +67,37 @@ double seen_through(const cv::Mat1w& depth, const Pose& T_map_image, const Depth
                                    : static_cast<double>(through) / static_cast<double>(shown);
 }
 
+KeyView::KeyView(const cv::Mat1w& depth, const DepthScan& scan,
+                 const std::vector<UprightPoint>& upright, const Calibration& believed)
+    : depth_(depth.clone()), cell_px_(std::max(depth.cols / kCells, 1)) {
+  const cv::Size cells(depth.cols / cell_px_ + 1, depth.rows / cell_px_ + 1);
+  cv::Mat1f count(cells, 0.0F), on_plane(cells, 0.0F);
+  const Pose T_camera_base = believed.T_base_depth.inverse();
+  for (const UprightPoint& point : upright) {
+    const auto pixel = pixel_in_view(T_camera_base * scan.points[point.index], believed);
+    if (!pixel) continue;
+    count(*pixel / cell_px_) += 1.0F;
+    on_plane(*pixel / cell_px_) += point.on_plane ? 1.0F : 0.0F;
+  }
+  cv::divide(on_plane, count, local_share_);  // 0 where there is none
+  if (const double all = cv::sum(count)[0]; all >= kLeastShownPoints)
+    on_plane_share_ = cv::sum(on_plane)[0] / all;
+}
+
 bool KeyView::misses(const DepthScan& scan, const ScanMatch& match, const Calibration& believed,
                      const Pose& T_key_base) const {
   if (!match.upright) return false;
   const std::vector<std::size_t> upright = upright_points(scan, match.T_map_base);
-  std::size_t shown = 0;
+  double should = 0.0;
   for_each_in_view(scan, upright, believed, T_key_base, [&](double z_m, const cv::Point& pixel) {
-    if (z_m <= kBehind * (depth_(pixel) / kDepthUnitsPerMetre)) ++shown;
+    const double seen_z_m = depth_(pixel) / kDepthUnitsPerMetre;
+    if (z_m <= seen_z_m / kBehind)
+      should += on_plane_share_;
+    else if (z_m <= seen_z_m * kBehind)
+      should += static_cast<double>(local_share_(pixel / cell_px_));
   });
-  const double known =
-      upright_share_ * static_cast<double>(shown) / static_cast<double>(upright.size());
-  return known >= kLeastShown && match.upright->on_plane_share < kLeastOnPlanes * known;
+  should /= static_cast<double>(upright.size());
+  return should >= kLeastShown && match.upright->on_plane_share < kLeastOnPlanes * should;
 }
 
 }  // namespace mapscore

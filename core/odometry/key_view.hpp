@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include <optional>
+#include <vector>
 
 namespace mapscore {
 
@@ -29,21 +30,26 @@ namespace mapscore {
 class KeyView {
  public:
   KeyView() = default;
-  /// `upright`: what the map knows of the key frame's own points, once they are in it.
-  KeyView(const cv::Mat1w& depth, const std::optional<UprightMatch>& upright)
-      : depth_(depth.clone()), upright_share_(upright ? upright->on_plane_share : 0.0) {}
+  /// `upright`: what the map knows of the upright points of the key frame's own `scan`, once they
+  /// are in it.
+  KeyView(const cv::Mat1w& depth, const DepthScan& scan, const std::vector<UprightPoint>& upright,
+          const Calibration& believed);
 
   [[nodiscard]] const cv::Mat1w& depth() const { return depth_; }
 
-  /// Whether less than 0.3 of the upright points that the key frame must have shown, in its view
-  /// and no more than 5 % behind what it saw, lie on planes, as a share of its own that do. Never
-  /// where it should have shown less than 0.3. `T_key_base`: of the scan's base in the key frame's.
+  /// Whether of the scan's upright points less than 0.3 of those lie on planes that should. A point
+  /// that the key frame must have shown should as often as the key frame's own: those that it had
+  /// in that part of its image where the point lies on what it saw, within 5 %; all of them where
+  /// it stands before that. Never where less than 0.3 of all should. `T_key_base`: of the scan's
+  /// base in the key frame's.
   [[nodiscard]] bool misses(const DepthScan& scan, const ScanMatch& match,
                             const Calibration& believed, const Pose& T_key_base) const;
 
  private:
   cv::Mat1w depth_;
-  double upright_share_ = 0.0;
+  double on_plane_share_ = 0.0;  ///< of all its upright points
+  int cell_px_ = 1;
+  cv::Mat1f local_share_;  ///< of those in each cell of its image, cell_px_ wide
 };
 
 }  // namespace mapscore

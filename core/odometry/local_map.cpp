@@ -283,15 +283,18 @@ ScanMatch LocalMap::match(const DepthScan& scan, const PosePrior& prior,
   return match;
 }
 
-std::optional<UprightMatch> LocalMap::upright_at(const DepthScan& scan,
-                                                 const Pose& T_map_base) const {
-  std::vector<PlaneFactor> factors(scan.size(), PlaneFactor{params_.correlation, 0.0});
+std::vector<UprightPoint> LocalMap::upright_at(const DepthScan& scan,
+                                               const Pose& T_map_base) const {
+  PlaneFactor factor{params_.correlation, 0.0};
   Covariance6 H;
   Vector6 b;
   double e = 0.0;
-  for (std::size_t i = 0; i < scan.size(); ++i)
-    factors[i].linearize(planes_->map, scan, planes_->map, T_map_base, i, {}, &H, &b, &e);
-  return upright_match(scan, T_map_base, factors);
+  std::vector<UprightPoint> points;
+  for (const std::size_t i : upright_points(scan, T_map_base)) {
+    factor.linearize(planes_->map, scan, planes_->map, T_map_base, i, {}, &H, &b, &e);
+    points.push_back({i, factor.inlier()});
+  }
+  return points;
 }
 
 }  // namespace mapscore

@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace mapscore {
 
@@ -42,6 +43,12 @@ struct PosePrior {
 struct UprightMatch {
   double known_share = 0.0;  ///< in a cube that holds a plane
   double on_plane_share = 0.0;
+};
+
+/// One of a scan's upright points.
+struct UprightPoint {
+  std::size_t index = 0;  ///< in the scan
+  bool on_plane = false;  ///< of the map
 };
 
 /// What a scan says of a pose, together with its prior.
@@ -84,9 +91,9 @@ class LocalMap {
     return match(scan, prior, prior.mean);
   }
 
-  /// What the map knows of the scan's upright points at this very pose; nothing of too few.
-  [[nodiscard]] std::optional<UprightMatch> upright_at(const DepthScan& scan,
-                                                       const Pose& T_map_base) const;
+  /// Which of the scan's upright points lie on planes at this very pose.
+  [[nodiscard]] std::vector<UprightPoint> upright_at(const DepthScan& scan,
+                                                     const Pose& T_map_base) const;
 
  private:
   struct Planes;

@@ -295,7 +295,8 @@ void VisualOdometry::keep(DepthScan scan, const OdometryFrame& frame, OdometrySt
                       keys_.back().T_map_base.inverse() * key.T_map_base, growth, false});
   }
   local_map_.insert(scan_of(frame.depth, believed_, params_.sampling.of_map()), key.T_map_base);
-  key_view_ = KeyView(frame.depth, local_map_.upright_at(key.scan, key.T_map_base));
+  key_view_ =
+      KeyView(frame.depth, key.scan, local_map_.upright_at(key.scan, key.T_map_base), believed_);
   keys_.push_back(std::move(key));
   if (params_.loops && way_m_ - loop_closed_at_m_ >= 1.0)
     step.closed_loop = close_loop(frame.depth, false);

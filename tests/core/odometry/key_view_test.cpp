@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <vector>
 
 namespace mapscore {
 namespace {
@@ -70,13 +71,40 @@ struct MissedCase {
   bool key_has_planes, misses;
 };
 
+/// The scan's upright points, on planes where `is_on_plane(point)`.
+std::vector<UprightPoint> own_points(const DepthScan& scan, auto is_on_plane) {
+  std::vector<UprightPoint> points;
+  for (const std::size_t i : upright_points(scan, kPose))
+    points.push_back({i, is_on_plane(scan.points[i])});
+  return points;
+}
+std::vector<UprightPoint> own_points(const DepthScan& scan, bool on_planes) {
+  return own_points(scan, [&](const Eigen::Vector3d&) { return on_planes; });
+}
+
+/// Far walls whose planes are not known yet: an image of them alone says nothing against its pose.
+TEST(KeyView, DoesNotMissWhatItsOwnPointsThereLackToo) {
+  const Calibration camera = testing::odometry_camera();
+  const Seen with = seen(room(true), kPose), far = seen(room(false), kPose);
+  const auto is_near = [](const Eigen::Vector3d& p) { return p.x() < 2.5; };  // the cupboard alone
+  ScanMatch match;
+  match.T_map_base = kPose;
+  match.upright = UprightMatch{0.05, 0.0};
+  const KeyView of_far(far.depth, far.scan, own_points(far.scan, is_near), camera);
+  EXPECT_FALSE(of_far.misses(far.scan, match, camera, Pose::Identity()));
+  const KeyView of_near(with.depth, with.scan, own_points(with.scan, is_near), camera);
+  EXPECT_TRUE(of_near.misses(with.scan, match, camera, Pose::Identity()));
+  // What stands before all that the key frame saw should lie on planes as often as any.
+  const KeyView all_known(far.depth, far.scan, own_points(far.scan, true), camera);
+  EXPECT_TRUE(all_known.misses(with.scan, match, camera, Pose::Identity()));
+}
+
 TEST(KeyView, MissesUprightPointsThatItMustHaveShown) {
   const Calibration camera = testing::odometry_camera();
   const Seen with = seen(room(true), kPose);
   for (const MissedCase& c :
        {MissedCase{0.1, true, true}, MissedCase{0.5, true, false}, MissedCase{0.1, false, false}}) {
-    const KeyView view(with.depth,
-                       c.key_has_planes ? std::optional(UprightMatch{0.9, 0.9}) : std::nullopt);
+    const KeyView view(with.depth, with.scan, own_points(with.scan, c.key_has_planes), camera);
     ScanMatch match;
     match.T_map_base = kPose;
     match.upright = UprightMatch{0.9, c.on_plane_share};
