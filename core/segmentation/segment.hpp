@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -38,6 +39,9 @@ struct Segment {
   /// for.
   std::vector<Eigen::Vector3d> voxel_centres;
   SkipReason skipped = SkipReason::none;
+  /// Probability that the method mended the frame's registration well; none of a method that mends
+  /// none.
+  std::optional<double> confidence = {};
 };
 
 }  // namespace mapscore

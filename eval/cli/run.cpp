@@ -61,6 +61,9 @@ std::string accounting_text(const Accounting& accounting, const Sights& sights) 
   if (accounting.frames_left_out > 0)
     text += fmt::format("# {} of {} frames mapped, the others are no key frames\n",
                         accounting.frames - accounting.frames_left_out, accounting.frames);
+  if (accounting.frames_unsure > 0)
+    text += fmt::format("# {} of {} frames: mended with a confidence below 0.5\n",
+                        accounting.frames_unsure, accounting.frames);
   if (accounting.tracking) text += fmt::format("# poses: {}\n", accounting.tracking->text());
   if (!sights.calibration_note().empty()) text += "# " + sights.calibration_note() + "\n";
   return text;

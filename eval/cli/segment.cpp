@@ -16,8 +16,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <iostream>
+#include <numbers>
+#include <variant>
 
 namespace mapscore::eval {
 namespace {
@@ -91,6 +94,23 @@ void write_all(const std::vector<Segment>& segments, const ClassTable& table,
   std::cout << shown(folder / "segments.csv") << '\n';
 }
 
+/// What edge_aligned mended.
+std::string fit_text(const LabelledDepth& labelled) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const OutlineAlignment& fit = labelled.alignment;
+  const Eigen::AngleAxisf turn(fit.rotation);
+  const Eigen::Vector3d degrees = (turn.angle() * turn.axis()).cast<double>() / kDegree;
+  std::string text = fmt::format(
+      "fit: turned by {:.2f} and {:.2f} degrees about x and y of color_optical, shifted by {:.1f} "
+      "and {:.1f} mm along them; objects end {:.1f} px {} their masks; depth edges lie on {:.2f} "
+      "of the outlines",
+      degrees.x(), degrees.y(), 1e3 * fit.translation.x(), 1e3 * fit.translation.y(),
+      std::abs(fit.offset_px), fit.offset_px < 0 ? "within" : "beyond", fit.score);
+  if (labelled.confidence)
+    text += fmt::format("; right within 2 px with a probability of {:.2f}", *labelled.confidence);
+  return text + '\n';
+}
+
 void write_segments(const SegmentFlags& flags) {
   const Segmentation segmentation = flags.segmentation.value();
   const Recording recording = Recording::open(flags.recording);
@@ -103,6 +123,8 @@ void write_segments(const SegmentFlags& flags) {
   const ClassTable& table = recording.info().table;
   const Sight sight(calibration, frame.depth, detections_of(frame.label, table));
   const std::vector<Segment> segments = segment(sight, segmentation, flags.voxel_m, true);
+  if (const auto* edge_aligned = std::get_if<EdgeAligned>(&segmentation))
+    std::cout << fit_text(label_surfaces(sight, *edge_aligned));
   const fs::path folder = flags.output;
   const FolderLock lock(folder);
   if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))

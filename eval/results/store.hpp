@@ -37,6 +37,7 @@ struct Accounting {
   std::int64_t map_voxels = 0;        ///< in the map at the end; of single frames, their sum
   std::int64_t hits_beyond_span = 0;  ///< hits on voxels that the octree cannot hold; left out
   std::int64_t frames_left_out = 0;   ///< of `frames`: no key frames, so not mapped
+  std::int64_t frames_unsure = 0;     ///< with a Segment::confidence below 0.5
   std::optional<TrackingCounts> tracking = {};        ///< where the poses come from depth images
   std::optional<CalibrationCounts> calibration = {};  ///< where it is estimated
 
@@ -52,6 +53,7 @@ struct Accounting {
         {"map_voxels", &Accounting::map_voxels},
         {"hits_beyond_span", &Accounting::hits_beyond_span},
         {"frames_left_out", &Accounting::frames_left_out},
+        {"frames_unsure", &Accounting::frames_unsure},
     });
   }
   Accounting& operator+=(const Accounting& other);

@@ -25,20 +25,20 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
   const OutlineField field =
       outline_field(detections, believed.color.width_px, believed.color.height_px, reach_px);
   const bool is_known = params.fit == OutlineFit::masks && !believed.is_doubtful;
-  const OutlineAlignment alignment = is_known
-                                         ? fit_mask_size(edges, field, believed)
-                                         : align_outlines(edges, field, believed, params.search_px);
-  const OutlineShifts shifts = find_outline_shifts(edges, field, alignment, believed);
   LabelledDepth labelled;
-  labelled.labels = vote_on_surfaces(edges, field, alignment, shifts, believed, detections.size(),
-                                     params.reach_px);
+  labelled.alignment = is_known ? fit_mask_size(edges, field, believed)
+                                : align_outlines(edges, field, believed, params.search_px);
+  if (!is_known) labelled.confidence = confidence_of(labelled.alignment, field.length_px);
+  const OutlineShifts shifts = find_outline_shifts(edges, field, labelled.alignment, believed);
+  labelled.labels = vote_on_surfaces(edges, field, labelled.alignment, shifts, believed,
+                                     detections.size(), params.reach_px);
   if (is_noisy(edges)) labelled.inverse_depth = settle_on_surfaces(edges, labelled.labels);
   return labelled;
 }
 
 std::vector<Segment> EdgeAligned::segment(const Sight& sight, double voxel_m,
                                           bool with_voxels) const {
-  const auto [labels, inverse_depth] = label_surfaces(sight, *this);
+  const auto [labels, inverse_depth, alignment, confidence] = label_surfaces(sight, *this);
   const cv::Mat1w& depth = sight.depth();
   const auto z_m = [&](int v, int u) {
     return inverse_depth.empty() ? depth(v, u) / kDepthUnitsPerMetre
@@ -51,6 +51,7 @@ std::vector<Segment> EdgeAligned::segment(const Sight& sight, double voxel_m,
     segment.class_id = detection.class_id;
     segment.instance = detection.instance;
     segment.score = detection.score;
+    segment.confidence = confidence;
   }
   const DepthRays rays(sight.believed().depth);
   for (int v = 0; v < depth.rows; ++v)

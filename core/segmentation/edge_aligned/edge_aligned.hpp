@@ -6,12 +6,14 @@
 #include "core/geometry/camera.hpp"
 #include "core/parameters.hpp"
 #include "core/segmentation/detection.hpp"
+#include "core/segmentation/edge_aligned/outline_alignment.hpp"
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/sight.hpp"
 
 #include <opencv2/core.hpp>
 
 #include <array>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -53,8 +55,10 @@ struct EdgeAligned {
 
 /// Depth pixels with the detections they belong to.
 struct LabelledDepth {
-  cv::Mat1w labels;         ///< 1 + index of the detection; 0 for none
-  cv::Mat1f inverse_depth;  ///< of the surface at labelled pixels, 1/m; empty: as measured
+  cv::Mat1w labels;                  ///< 1 + index of the detection; 0 for none
+  cv::Mat1f inverse_depth;           ///< of the surface at labelled pixels, 1/m; empty: as measured
+  OutlineAlignment alignment;        ///< what was mended
+  std::optional<double> confidence;  ///< confidence_of; none of a calibration that is known
 };
 
 /// Labels a frame's depth pixels; of a noisy depth image settles them on their surfaces too

@@ -273,6 +273,14 @@ class Aligner {
 
 }  // namespace
 
+double confidence_of(const OutlineAlignment& fit, int outline_px) {
+  const double score = fit.score, explained_px = std::max(score * outline_px, 10.0);
+  const double sharpness = std::min(static_cast<double>(fit.sharpness), 1.0);
+  const double logit =
+      -2.45 + 0.95 * std::log(explained_px / 100.0) + 4.4 * score + 3.64 * sharpness;
+  return 1.0 / (1.0 + std::exp(-logit));
+}
+
 OutlineAlignment align_outlines(const DepthEdges& edges, const OutlineField& field,
                                 const Calibration& believed, double search_px) {
   return Aligner(edges, field, believed, search_px).align();

@@ -33,6 +33,12 @@ struct OutlineAlignment {
   }
 };
 
+/// Probability that a fit by align_outlines is right: that across the outlines it leaves less than
+/// 2 px, root mean square, between the masks and where their objects are. A logistic regression on
+/// what it explains, of how much outline, and how sharply, in images of 640 x 480 (which ones:
+/// docs/segmentation.md). `outline_px`: OutlineField::length_px.
+[[nodiscard]] double confidence_of(const OutlineAlignment& fit, int outline_px);
+
 /// Fits the outlines of a frame to its depth edges.
 [[nodiscard]] OutlineAlignment align_outlines(const DepthEdges& edges, const OutlineField& field,
                                               const Calibration& believed, double search_px);
