@@ -46,9 +46,10 @@ struct VisualRun {
 
 /// What came of it.
 struct VisualTrajectory {
-  BelievedTrajectory believed;      ///< one entry a depth image
+  BelievedTrajectory believed;      ///< an entry a depth image, and in gaps between them
   std::vector<OdometryStep> steps;  ///< one a depth image
   std::size_t loops = 0;
+  double without_images_s = 0.0;  ///< in gaps between depth images, where the wheels carried
   /// Frames by the way their pose came about, in the order of Tracking's words.
   [[nodiscard]] std::array<int, names_of(Tracking{}).size()> frames_by_tracking() const;
 };

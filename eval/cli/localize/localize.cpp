@@ -120,6 +120,10 @@ BelievedTrajectory believed_by(const Recording& recording, const Task& task,
   if (task.seed_index == 0) files.emplace_back(name + "_tracking.csv", tracking_csv(visual));
   std::cerr << fmt::format("{}, seed {}: {}\n", name, task.seed_index,
                            TrackingCounts::of(visual).text());
+  if (visual.without_images_s > 0.0 && task.seed_index == 0)
+    std::cerr << fmt::format(
+        "{}: {:.1f} s lie in gaps of the depth images, where the wheels alone carry\n", name,
+        visual.without_images_s);
   return visual.believed;
 }
 

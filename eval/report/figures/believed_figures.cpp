@@ -20,8 +20,9 @@ namespace mapscore::eval {
 namespace {
 
 constexpr const char* kSourceKey = "localization.source";
-constexpr double kPointEvery_s = 0.1;     ///< of a drawn line
-constexpr double kEllipseEvery_s = 30.0;  ///< of the ellipses along it
+constexpr double kPointEvery_s = 0.1;                           ///< of a drawn line
+constexpr double kMostPoints = 10000.0, kMostEllipses = 500.0;  ///< of however long a drive
+constexpr double kEllipseEvery_s = 30.0;                        ///< of the ellipses along it
 
 /// Configurations, one for each source that does not put the robot where it is.
 std::vector<Study> sources_of(const Study& study, const PictureChoice& choice) {
@@ -39,9 +40,10 @@ std::vector<Study> sources_of(const Study& study, const PictureChoice& choice) {
 }
 
 /// Stamps from the first to the last frame.
-std::vector<double> stamps_of(const Recording& recording, double every_s) {
+std::vector<double> stamps_of(const Recording& recording, double every_s, double most) {
   const double first_s = recording.color_stamp_s(0);
   const double last_s = recording.color_stamp_s(recording.frame_count() - 1);
+  every_s = std::max(every_s, (last_s - first_s) / most);
   std::vector<double> stamps_s;
   for (int n = 0; first_s + n * every_s < last_s; ++n) stamps_s.push_back(first_s + n * every_s);
   stamps_s.push_back(last_s);
@@ -50,7 +52,7 @@ std::vector<double> stamps_of(const Recording& recording, double every_s) {
 
 DrawnTrajectory drawn_truth(const Recording& recording) {
   DrawnTrajectory truth{"truth", {}, {}};
-  for (const double stamp_s : stamps_of(recording, kPointEvery_s))
+  for (const double stamp_s : stamps_of(recording, kPointEvery_s, kMostPoints))
     if (const auto pose = recording.T_world_base_at(stamp_s))
       truth.points_map.emplace_back(pose->translation().head<2>());
   return truth;
@@ -60,12 +62,12 @@ DrawnTrajectory drawn_truth(const Recording& recording) {
 DrawnTrajectory drawn(const Recording& recording, const std::string& name,
                       const BelievedTrajectory& believed, double from_s) {
   DrawnTrajectory line{name, {}, {}};
-  for (const double stamp_s : stamps_of(recording, kPointEvery_s)) {
+  for (const double stamp_s : stamps_of(recording, kPointEvery_s, kMostPoints)) {
     if (stamp_s < from_s) continue;
     const PlanarPose mean = planar_estimate(believed.at(stamp_s)).mean;
     line.points_map.emplace_back(mean.x_m, mean.y_m);
   }
-  for (const double stamp_s : stamps_of(recording, kEllipseEvery_s))
+  for (const double stamp_s : stamps_of(recording, kEllipseEvery_s, kMostEllipses))
     if (stamp_s >= from_s) line.beliefs.push_back(planar_estimate(believed.at(stamp_s)));
   return line;
 }
