@@ -240,6 +240,7 @@ void VisualOdometry::begin(DepthScan scan, const OdometryFrame& frame, OdometryS
 
 void VisualOdometry::recover(const DepthScan& scan, const OdometryFrame& frame, OdometryStep& step,
                              int most_lost) {
+  // Once it may no longer be misjudged, or is certain, it may have been carried away.
   if (++lost_for_ == std::min(kMisjudged, most_lost) + 1) state_.relative += jump_when_lost();
   if (relocate(scan, frame)) {
     step.tracking = Tracking::relocated;

@@ -123,8 +123,6 @@ void write_segments(const SegmentFlags& flags) {
   const ClassTable& table = recording.info().table;
   const Sight sight(calibration, frame.depth, detections_of(frame.label, table));
   const std::vector<Segment> segments = segment(sight, segmentation, flags.voxel_m, true);
-  if (const auto* edge_aligned = std::get_if<EdgeAligned>(&segmentation))
-    std::cout << fit_text(label_surfaces(sight, *edge_aligned));
   const fs::path folder = flags.output;
   const FolderLock lock(folder);
   if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
@@ -132,6 +130,8 @@ void write_segments(const SegmentFlags& flags) {
                 ": is not an empty folder, and files of two frames would lie side by side; give "
                 "another, or remove it");
   fs::create_directories(folder);
+  if (const auto* edge_aligned = std::get_if<EdgeAligned>(&segmentation))
+    std::cout << fit_text(label_surfaces(sight, *edge_aligned));
   try {
     write_all(segments, table, calibration.T_base_depth, folder);
   } catch (...) {  // a part of the files would keep the next run out

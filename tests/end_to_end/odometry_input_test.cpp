@@ -8,8 +8,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -120,6 +123,19 @@ TEST_F(OdometryInput, AGapOfSecondsIsCarriedByTheWheels) {
   expect_done(outcome);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr(" of 4 depth images"),
                                  HasSubstr("s lie in gaps of the depth images")));
+  // Between the images the robot knows less and less of where it is, and then what they show.
+  std::vector<double> variances_x;
+  std::istringstream lines(bytes_of(folder() / "out/localization.txt"));
+  for (std::string line; std::getline(lines, line);) {
+    if (line[0] == '#') continue;
+    std::istringstream words(line);
+    const std::vector<double> numbers{std::istream_iterator<double>(words), {}};
+    ASSERT_EQ(numbers.size(), 44u);
+    if (numbers[0] > 1.0 && numbers[0] < 20.0) variances_x.push_back(numbers[8]);
+  }
+  ASSERT_GT(variances_x.size(), 50u);
+  EXPECT_TRUE(std::ranges::is_sorted(variances_x));
+  EXPECT_GT(variances_x.back(), 4.0 * variances_x.front());
 }
 
 TEST_F(OdometryInput, StampsThatJumpBackAreOneLine) {

@@ -43,6 +43,10 @@ TEST_F(SegmentFrame, EveryMethodWritesPointsVoxelsAndBoxes) {
     const Outcome outcome = segment(method, flags);
     expect_done(outcome);
     EXPECT_THAT(outcome.out, HasSubstr("crate"));
+    const bool says_fit =
+        outcome.out.starts_with("fit: turned by ") &&
+        outcome.out.find("right within 2 px with a probability of") != std::string::npos;
+    EXPECT_EQ(says_fit, method == "edge_aligned") << outcome.out;
     const std::string csv = bytes_of(path(method + "/segments.csv"));
     EXPECT_THAT(csv, StartsWith("instance,name,class,"));
     EXPECT_THAT(csv, HasSubstr("\n1,crate_1,crate,"));
