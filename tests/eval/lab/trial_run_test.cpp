@@ -134,6 +134,17 @@ TEST_F(PlateTrial, IsAccountedFor) {
             0);
 }
 
+TEST_F(PlateTrial, AFrameWhoseFitIsUnsureIsCounted) {
+  const auto unsure_with = [&](const Segmentation& segmentation) {
+    Study of = study({});
+    of.methods[0].segmentation = segmentation;
+    return first_trial(of, Labels::detected).accounting.frames_unsure;
+  };
+  EXPECT_EQ(unsure_with(EdgeAligned{}), 1) << "of so few pixels an outline tells nothing";
+  EXPECT_EQ(unsure_with(EdgeAligned{.fit = OutlineFit::masks}), 0);
+  EXPECT_EQ(unsure_with(Direct{}), 0);
+}
+
 TEST_F(PlateTrial, ErodedAwayIsSkippedAndAllIsMissed) {
   Study eroding = study({});
   eroding.methods[0].segmentation = Erosion{3};
