@@ -15,6 +15,11 @@
 #include <cmath>
 
 namespace mapscore {
+namespace {
+
+constexpr double kSharpReach = 2.0 / 3.0;  // of the reach: outlines are right to a pixel
+
+}  // namespace
 
 LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
   check_ranges(params);
@@ -30,8 +35,10 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
                                 : align_outlines(edges, field, believed, params.search_px);
   if (!is_known) labelled.confidence = confidence_of(labelled.alignment, field.length_px);
   const OutlineShifts shifts = find_outline_shifts(edges, field, labelled.alignment, believed);
+  const double reach =
+      labelled.alignment.is_sharp() ? kSharpReach * params.reach_px : params.reach_px;
   labelled.labels = vote_on_surfaces(edges, field, labelled.alignment, shifts, believed,
-                                     detections.size(), params.reach_px);
+                                     detections.size(), reach);
   if (is_noisy(edges)) labelled.inverse_depth = settle_on_surfaces(edges, labelled.labels);
   return labelled;
 }

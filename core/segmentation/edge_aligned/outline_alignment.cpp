@@ -27,6 +27,8 @@ constexpr float kLeastScore = 0.15F;    // below, the edges show nothing of the 
 constexpr float kLeastLength_px = 100;  // unless they lie on so much of a long outline
 constexpr float kLabelOffset_px = 3.5F;
 constexpr float kPrior = 3.0F;
+constexpr float kToldOffset = 0.5F;  // share of the outlines that tells the offset by itself
+constexpr float kMostUnexplained = 10.0F;
 constexpr float kCost = 0.03F;       // share of the outline that 20 px, or an offset of 4 px, cost
 constexpr float kShort_px = 150.0F;  // and as much of an outline of this length again
 
@@ -107,7 +109,13 @@ class Aligner {
     const Eigen::Vector2f shift = a.translation.head<2>() * project_.fx / 2.0F;
     return kCost * (1.0F + kShort_px / static_cast<float>(field_.length_px)) *
            ((turn.squaredNorm() + shift.squaredNorm()) / (20.0F * 20.0F) +
-            a.offset_px * a.offset_px / (4.0F * 4.0F));
+            unexplained(a.score) * a.offset_px * a.offset_px / (4.0F * 4.0F));
+  }
+
+  /// How much more an offset of all outlines must be shown where edges explain less than half of
+  /// them: most of the others, as between flush fronts, would show it if they were steps.
+  [[nodiscard]] static float unexplained(float share) {
+    return std::clamp(square(kToldOffset / std::max(share, 1e-3F)), 1.0F, kMostUnexplained);
   }
 
   /// What the fit may change at its first stages: turns alone, or shifts alone.
@@ -241,9 +249,10 @@ class Aligner {
       Parameters prior;
       prior << 1 / square(20.0F), 1 / square(20.0F), 1 / square(0.03F), 1 / square(0.03F),
           1 / square(4.0F);
+      prior[4] *= unexplained(scale * matched / static_cast<float>(field_.length_px));
       // Outlines that scatter about the edges, as ragged masks do, measure less than sharp ones.
       const float scatter = matched > 0 ? squares / (matched * square(sigma)) : 1.0F;
-      prior *= kPrior * square(scatter) * (scale * matched + kShort_px);
+      prior *= kPrior * (square(scatter) + 0.01F) * (scale * matched + kShort_px);
       H.diagonal() += prior;
       b -= prior.cwiseProduct(now);
       H = free.asDiagonal() * H * free.asDiagonal();

@@ -22,6 +22,9 @@ struct OutlineAlignment {
   float sharpness = 1;  ///< `score` at sigma 1.2 px over that at 4 px: near 1 for a rigid scene
   float score = 0;      ///< share of the outline that depth edges explain at sigma 1.5 px, 0 to 1
 
+  /// The scene moved as one, and the masks' outlines are right to about a pixel.
+  [[nodiscard]] bool is_sharp() const { return sharpness > 0.85F; }
+
   /// T_color_depth, corrected.
   template <class Scalar = float>
   [[nodiscard]] Eigen::Transform<Scalar, 3, Eigen::Isometry> corrected(const Pose& believed) const {

@@ -15,8 +15,7 @@ namespace mapscore {
 namespace {
 
 constexpr int kPitch = OutlineShifts::kPitch_px;
-constexpr float kSharp = 0.85F;  // an alignment as sharp as this leaves nothing to shift,
-constexpr float kTold = 0.25F;   // and one that explains less knows too little to tell
+constexpr float kTold = 0.25F;  // an alignment that explains less knows too little to tell
 constexpr float kSupport_px = 1.5F * kPitch;
 constexpr float kFine_px = 1.5F, kWide_px = 3.0F;  // sigmas of the matches
 constexpr float kGood = 0.6F;                      // share of an outline that shows a good fit
@@ -220,7 +219,7 @@ cv::Vec2f OutlineShifts::at(float u, float v) const {
 
 OutlineShifts find_outline_shifts(const DepthEdges& edges, const OutlineField& field,
                                   const OutlineAlignment& alignment, const Calibration& believed) {
-  if (alignment.sharpness > kSharp || alignment.score < kTold) return {};
+  if (alignment.is_sharp() || alignment.score < kTold) return {};
   return ShiftFinder(edges, field, alignment, believed).find();
 }
 

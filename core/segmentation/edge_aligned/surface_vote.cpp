@@ -5,7 +5,10 @@
 
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
 #include "core/segmentation/edge_aligned/filled_slits.hpp"
+#include "core/segmentation/edge_aligned/hole_shadows.hpp"
+#include "core/segmentation/edge_aligned/settled_depth.hpp"
 #include "core/segmentation/edge_aligned/surface_average.hpp"
+#include "core/segmentation/edge_aligned/surface_creases.hpp"
 #include "core/wide_vectors.hpp"
 
 #include <opencv2/imgproc.hpp>
@@ -25,6 +28,7 @@ constexpr float kSureAt_px = 2.0F;  // from the outline a pixel's vote has full 
 constexpr float kLeastVote = 0.05F;
 constexpr float kHiddenVote = 0.2F;  // against every object
 constexpr float kGrown_px = 0.5F;    // from here on masks may have filled slits
+constexpr float kFree_px = 0.5F;     // what no mask holds begins half a pixel before its centre
 constexpr float kShare = 0.8F;       // of the votes; only where a surface goes on does it trim
 /// Of a vote for another object: the share is reached by half of two objects' votes.
 constexpr float kOtherVote = (1 - kShare) / kShare;
@@ -104,27 +108,6 @@ class Voting {
     }
   }
 
-  /// An object nearer than the sensor's range hides what the colour camera has behind it, wherever
-  /// between the least depth and half of it the object stands.
-  void hide_behind_holes(cv::Mat1f& hit) const {
-    const cv::Mat1b& hole = edges_.near_holes;
-    if (cv::countNonZero(hole) == 0) return;
-    Calibration mended = believed_;
-    mended.T_color_depth = alignment_.corrected<double>(believed_.T_color_depth);
-    for (const double share : {1.0, 0.85, 0.7, 0.6, 0.5}) {
-      const double z_m = share * believed_.range_min_m;
-      for (int v = 0; v < hole.rows; ++v)
-        for (int u = 0; u < hole.cols; ++u) {
-          if (!hole(v, u)) continue;
-          const Eigen::Vector2d at =
-              mended.color.project(mended.T_color_depth * mended.depth.back_project(u, v, z_m));
-          const int c = static_cast<int>(at.x() + 0.5), r = static_cast<int>(at.y() + 0.5);
-          if (c < 0 || r < 0 || c >= hit.cols || r >= hit.rows) continue;
-          hit(r, c) = std::max(hit(r, c), static_cast<float>(1.0 / z_m));
-        }
-    }
-  }
-
   /// Nearest surface by colour pixel, as inverse depth, spread over the neighbouring pixels.
   void find_nearest() {
     const cv::Mat1f& w = edges_.inverse_depth;
@@ -136,8 +119,8 @@ class Voting {
       for (int u = 0; u < w.cols; ++u)
         if (cells[u] >= 0 && in[u] > hits[cells[u]]) hits[cells[u]] = in[u];
     }
-    hide_behind_holes(hit);
     cv::dilate(hit, nearest_, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
+    behind_hole_ = hole_shadows(edges_, cells_, field_, alignment_, believed_);
   }
 
   Votes collect() {
@@ -149,6 +132,7 @@ class Voting {
                 cv::Mat1f(w.rows, w.cols, 0.0F)};
     const std::uint16_t* const owner_of = owners[0];
     const float *const distance = field_.distance[0], *const nearest = nearest_[0];
+    const cv::Mat1f to_free = distance_to_free();
     for (int v = 0; v < w.rows; ++v) {
       const float* in = w[v];
       const int* cells = cells_[v];
@@ -159,8 +143,13 @@ class Voting {
         if (!(in[u] > 0) || cell < 0) continue;
         owner[u] = owner_of[cell];
         depth_in[u] = alignment_.offset_px - distance[cell];
+        // A border of two masks stays where it is when both shrink.
+        if (!to_free.empty() && depth_in[u] <= 0 &&
+            to_free[0][cell] > kFree_px - alignment_.offset_px)
+          depth_in[u] = -distance[cell];
         const float behind = nearest[cell] * (1.0F - kHidden) - kNoise * edges_.noise - in[u];
-        if (behind > 0 && behind > kSlopes * slope_at(v, u)) {
+        const bool hidden = behind > 0 && behind > kSlopes * slope_at(v, u);
+        if (hidden || (!behind_hole_.empty() && behind_hole_(v, u) != 0)) {
           depth_in[u] = -1.0F, weight[u] = kHiddenVote;
           continue;
         }
@@ -172,6 +161,14 @@ class Voting {
   }
 
  private:
+  /// By colour pixel, how far it is from what no mask holds; empty unless masks are too large.
+  [[nodiscard]] cv::Mat1f distance_to_free() const {
+    cv::Mat1f distance;
+    if (alignment_.offset_px < -kGrown_px)
+      cv::distanceTransform(field_.owner != 0, distance, cv::DIST_L2, cv::DIST_MASK_3);
+    return distance;
+  }
+
   /// Where masks have been grown over slits of their objects, what lies behind is not the object.
   void close_slits(Votes& votes) const {
     if (alignment_.offset_px > -kGrown_px) return;
@@ -204,6 +201,7 @@ class Voting {
   const Calibration& believed_;
   cv::Mat1i cells_;  ///< by depth pixel: place in a colour image, row-major; -1 beyond it
   cv::Mat1f nearest_;
+  cv::Mat1b behind_hole_;  ///< by depth pixel; empty where nothing is
 };
 
 }  // namespace
@@ -215,6 +213,8 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
   voting.locate(shifts);
   voting.find_nearest();
   const Votes votes = voting.collect();
+  const Continuity on =
+      is_noisy(edges) ? Continuity{edges.right, edges.down} : part_at_creases(edges);
   const cv::Size size = votes.owner.size();
   cv::Mat1w labels(size, std::uint16_t{0});
   std::vector<cv::Rect> boxes(detections + 1);
@@ -240,8 +240,8 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
         own(v, u) = inside ? weight : 0.0F;
         all(v, u) = in_mask && !inside ? kOtherVote * weight : weight;
       }
-    average_on_surfaces(own, edges.right(box), edges.down(box), static_cast<float>(reach_px));
-    average_on_surfaces(all, edges.right(box), edges.down(box), static_cast<float>(reach_px));
+    average_on_surfaces(own, on.right(box), on.down(box), static_cast<float>(reach_px));
+    average_on_surfaces(all, on.right(box), on.down(box), static_cast<float>(reach_px));
     for (int v = 0; v < box.height; ++v)
       for (int u = 0; u < box.width; ++u)
         if (own(v, u) > kShare * all(v, u) && all(v, u) > 1e-4F &&

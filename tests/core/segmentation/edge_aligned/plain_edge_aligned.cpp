@@ -4,9 +4,6 @@
 #include "plain_edge_aligned.hpp"
 
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
-#include "core/segmentation/edge_aligned/filled_slits.hpp"
-
-#include <opencv2/imgproc.hpp>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -247,49 +244,6 @@ class PlainShifts {
   std::vector<Placed> edges_, near_;
 };
 
-/// Pixels that a vote may spread between: 1 on a surface, less across a step.
-void average_along(cv::Mat1f& votes, const cv::Mat1f& open, bool rows, float feedback) {
-  const int lines = rows ? votes.rows : votes.cols, length = rows ? votes.cols : votes.rows;
-  const auto at = [&](auto& image, int line, int n) -> auto& {
-    return rows ? image(line, n) : image(n, line);
-  };
-  for (int line = 0; line < lines; ++line) {
-    for (int n = 1; n < length; ++n)
-      at(votes, line, n) += feedback * at(open, line, n - 1) * at(votes, line, n - 1);
-    for (int n = length - 2; n >= 0; --n) {
-      const float a = feedback * at(open, line, n), here = at(votes, line, n);
-      at(votes, line, n) = here + a * (at(votes, line, n + 1) - a * here);
-    }
-  }
-}
-
-void spread_votes(cv::Mat1f& votes, const cv::Mat1f& right, const cv::Mat1f& down, float reach_px) {
-  for (int round = 0; round < 3; ++round) {
-    const float feedback = std::exp(-1.0F / (reach_px * std::pow(0.5F, static_cast<float>(round))));
-    average_along(votes, right, true, feedback);
-    average_along(votes, down, false, feedback);
-  }
-}
-
-/// How much a surface rises to the next pixel.
-float plain_slope(const DepthEdges& edges, int v, int u) {
-  const cv::Mat1f& w = edges.inverse_depth;
-  float steepest = 0;
-  for (const bool row : {true, false}) {
-    float least = 1.0F;
-    bool any = false;
-    for (const int way : {-1, 1}) {
-      const int y = row ? v : v + way, x = row ? u + way : u;
-      if (y < 0 || x < 0 || y >= w.rows || x >= w.cols) continue;
-      const float open = (row ? edges.right : edges.down)(std::min(v, y), std::min(u, x));
-      if (open < 1.0F) continue;
-      any = true, least = std::min(least, std::abs(w(y, x) - w(v, u)));
-    }
-    if (any) steepest = std::max(steepest, least);
-  }
-  return steepest;
-}
-
 }  // namespace
 
 DepthEdges plain_steps(const DepthEdges& given, const Calibration& believed) {
@@ -300,80 +254,6 @@ OutlineShifts plain_shifts(const DepthEdges& edges, const OutlineField& field,
                            const OutlineAlignment& alignment, const Calibration& believed) {
   if (alignment.sharpness > 0.85F || alignment.score < 0.25F) return {};
   return PlainShifts(edges, field, alignment, believed).find();
-}
-
-cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field,
-                              const OutlineAlignment& alignment, const OutlineShifts& shifts,
-                              const Calibration& believed, std::size_t detections, float reach_px) {
-  const cv::Mat1f& w = edges.inverse_depth;
-  const Mended mended(alignment, believed);
-  const Projection color(believed.color), depth(believed.depth);
-  cv::Mat2i pixels(w.size());
-  cv::Mat1f nearest(field.owner.size(), 0.0F);
-  const cv::Rect image({0, 0}, field.owner.size());
-  for (int v = 0; v < w.rows; ++v)
-    for (int u = 0; u < w.cols; ++u) {
-      const float x = (static_cast<float>(u) - depth.cx) * (1.0F / depth.fx);
-      const float y = (static_cast<float>(v) - depth.cy) / depth.fy;
-      Eigen::Vector3f p;  // over z
-      for (int n = 0; n < 3; ++n)
-        p[n] = mended.R(n, 0) * x + mended.R(n, 1) * y + mended.R(n, 2) + mended.t[n] * w(v, u);
-      const float inverse_z = 1.0F / p.z();
-      cv::Vec2f at(color.fx * p.x() * inverse_z + color.cx,
-                   color.fy * p.y() * inverse_z + color.cy);
-      if (!shifts.nodes.empty()) at += shifts.at(at[0], at[1]);
-      const cv::Vec2i pixel(cvFloor(at[0] + 0.5F), cvFloor(at[1] + 0.5F));
-      pixels(v, u) = pixel;
-      if (image.contains(cv::Point(pixel)))
-        for (int r = std::max(pixel[1] - 1, 0); r <= std::min(pixel[1] + 1, image.height - 1); ++r)
-          for (int c = std::max(pixel[0] - 1, 0); c <= std::min(pixel[0] + 1, image.width - 1); ++c)
-            nearest(r, c) = std::max(nearest(r, c), w(v, u));
-    }
-  const float k = alignment.offset_px;
-  const cv::Mat1w owners =
-      k > 0.5F ? spread_owners(field.owner, static_cast<int>(std::ceil(1.5F * k))) : field.owner;
-  cv::Mat1w owner(w.size(), std::uint16_t{0});
-  cv::Mat1f inside(w.size(), -1e4F), weight(w.size(), 0.0F);
-  for (int v = 0; v < w.rows; ++v)
-    for (int u = 0; u < w.cols; ++u) {
-      const cv::Point pixel(pixels(v, u));
-      if (!(w(v, u) > 0) || !image.contains(pixel)) continue;
-      owner(v, u) = owners(pixel);
-      inside(v, u) = k - field.distance(pixel);
-      const float behind = nearest(pixel) * (1.0F - 0.015F) - 4.0F * edges.noise - w(v, u);
-      if (behind > 0 && behind > 2.0F * plain_slope(edges, v, u))
-        inside(v, u) = -1.0F, weight(v, u) = 0.2F;
-      else
-        weight(v, u) = std::clamp(std::abs(inside(v, u)) / 2.0F, 0.05F, 1.0F);
-    }
-  if (k <= -0.5F) {
-    const cv::Mat1b slits = filled_slits(edges, owner, static_cast<int>(std::ceil(-2 * k)));
-    inside.setTo(-1.0F, slits);
-    weight.setTo(1.0F, slits);
-  }
-  cv::Mat1w labels(w.size(), std::uint16_t{0});
-  for (std::size_t n = 1; n <= detections; ++n) {
-    const cv::Mat1b in_mask = (owner != 0) & (inside > 0),
-                    own_mask = in_mask & (owner == static_cast<double>(n));
-    cv::Rect box = cv::boundingRect(own_mask);
-    if (box.empty()) continue;
-    const int margin = static_cast<int>(std::ceil(2.0F * reach_px)) + 2;
-    box =
-        cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
-        cv::Rect({0, 0}, w.size());
-    cv::Mat1f own(box.size(), 0.0F), all = weight(box).clone();
-    weight(box).copyTo(own, own_mask(box));
-    const float other = (1 - 0.8F) / 0.8F;
-    cv::Mat1f others = other * all;
-    others.copyTo(all, in_mask(box) & ~own_mask(box));
-    spread_votes(own, edges.right(box), edges.down(box), reach_px);
-    spread_votes(all, edges.right(box), edges.down(box), reach_px);
-    for (int v = 0; v < box.height; ++v)
-      for (int u = 0; u < box.width; ++u)
-        if (own(v, u) > 0.8F * all(v, u) && all(v, u) > 1e-4F && w(v + box.y, u + box.x) > 0)
-          labels(v + box.y, u + box.x) = static_cast<std::uint16_t>(n);
-  }
-  return labels;
 }
 
 cv::Mat1f settle_plainly(const DepthEdges& edges, cv::Mat1w& labels) {

@@ -7,6 +7,7 @@
 #include "core/segmentation/edge_aligned/outline_alignment.hpp"
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 #include "core/segmentation/edge_aligned/outline_shifts.hpp"
+#include "core/segmentation/edge_aligned/surface_creases.hpp"
 
 #include <opencv2/core.hpp>
 
@@ -20,6 +21,8 @@ namespace mapscore::testing {
 [[nodiscard]] OutlineShifts plain_shifts(const DepthEdges& edges, const OutlineField& field,
                                          const OutlineAlignment& alignment,
                                          const Calibration& believed);
+
+[[nodiscard]] Continuity plain_creases(const DepthEdges& edges);
 
 /// Of images without near holes.
 [[nodiscard]] cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field,

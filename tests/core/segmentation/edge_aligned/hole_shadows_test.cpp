@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/edge_aligned/hole_shadows.hpp"
+
+#include "plate_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mapscore {
+namespace {
+
+using namespace mapscore::testing;
+
+cv::Mat1w labels_of(const PlateScene& scene) {
+  return label_depth(scene.detections(), scene.depth(), scene.truth(), {});
+}
+
+/// What is nearer than the range is a hole, and what the colour camera has behind it is not its
+/// own.
+TEST(HoleShadows, HideWhatLiesBehindANearObject) {
+  const PlateScene scene({{-0.1, 0.1, -0.1, 5.0, 0.45, 1}});
+  ASSERT_GT(cv::countNonZero(scene.label()), 2000);
+  EXPECT_EQ(cv::countNonZero(labels_of(scene)), 0);
+}
+
+/// A hole that reaches the lower border may be a near object, but no mask holds it.
+TEST(HoleShadows, HideNothingWhereAFloorEnds) {
+  const PlateScene scene({{-0.4, 0.3, -0.3, 0.5, 1.5, 1}}, 1e9, 50.0);
+  const Agreement kept = agreement(labels_of(scene), scene.detections(), scene.depth_label());
+  EXPECT_GE(kept.precision, 0.99);
+  EXPECT_GE(kept.recall, 0.99);
+}
+
+/// A panel that comes nearer from left to right, and so ends at the least depth; its mask goes on.
+TEST(HoleShadows, DoNotHideTheSurfaceThatRunsOn) {
+  const Calibration camera = PlateScene({}).truth();
+  DepthEdges edges;
+  edges.inverse_depth = cv::Mat1f(240, 320);
+  edges.right = edges.down = cv::Mat1f(240, 320, 1.0F);
+  edges.near_holes = cv::Mat1b(240, 320, std::uint8_t{0});
+  OutlineField field;
+  field.owner = cv::Mat1w(240, 320, std::uint16_t{1});
+  field.distance = cv::Mat1f(240, 320, -OutlineField::kFar);
+  cv::Mat1i cells(240, 320);
+  for (int v = 0; v < 240; ++v)
+    for (int u = 0; u < 320; ++u) {
+      const double z_m = 0.6 + 0.002 * (200 - u);
+      edges.inverse_depth(v, u) = u <= 200 ? static_cast<float>(1 / z_m) : 0.0F;
+      edges.near_holes(v, u) = u > 204 ? 255 : 0;
+      const Eigen::Vector2d at =
+          camera.color.project(camera.T_color_depth * camera.depth.back_project(u, v, z_m));
+      cells(v, u) = u <= 200 && at.x() >= 0 ? v * 320 + static_cast<int>(at.x() + 0.5) : -1;
+    }
+  EXPECT_EQ(cv::countNonZero(hole_shadows(edges, cells, field, {}, camera)), 0);
+  edges.right.col(195).setTo(0.0F);  // a step: what lies left of it is something else
+  const cv::Mat1b hidden = hole_shadows(edges, cells, field, {}, camera);
+  EXPECT_GT(cv::countNonZero(hidden), 0);
+  EXPECT_EQ(cv::countNonZero(hidden.colRange(196, 201)), 0);
+}
+
+}  // namespace
+}  // namespace mapscore
