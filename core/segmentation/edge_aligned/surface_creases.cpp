@@ -5,94 +5,131 @@
 
 #include "core/wide_vectors.hpp"
 
-#include <opencv2/imgproc.hpp>
-
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstddef>
+#include <vector>
 
 namespace mapscore {
 namespace {
 
-constexpr int kSlope_px = 4, kLeastSlope_px = 2;
+constexpr std::size_t kSlope_px = 4;
 constexpr int kPeak_px = 2;            // the turn is the largest so far to either side
 constexpr float kLeastTurn = 0.0003F;  // 1/m a pixel
 constexpr float kTurnSigmas = 5.0F;
 constexpr float kGrain_m = 0.00029F;  // standard deviation of a depth in steps of 1 mm
-constexpr int kMargin = kSlope_px + kPeak_px + 1;
+constexpr std::size_t kBefore = kSlope_px, kAfter = kSlope_px + 1;  // pixels about one, of a line
 
-/// Of a run of pixels, and of the same run some pixels before and after along the lines that are
-/// looked at, `stride` apart in memory.
-struct Runs {
-  const float* w;
-  const float* on;  ///< continuity to the next along the line
-  std::ptrdiff_t stride;
+/// By value: std::min and std::max choose between places, which do not become vectors.
+inline float least(float a, float b) {
+  return a < b ? a : b;
+}
+inline float most(float a, float b) {
+  return a > b ? a : b;
+}
+
+/// Some pixels beside each other, and those before and after them along the lines that are looked
+/// at: [kBefore] is their own. `on`: continuity to the next along the line.
+struct Lines {
+  std::array<const float*, kBefore + 1 + kAfter> w, on;
 };
 
 /// How much the slope of w rises from each pixel to the next along its line; 0 where that is not
 /// sure, or not known.
 MAPSCORE_WIDE_VECTORS
-void turns_along(const Runs& runs, float noise, int count, float* turns) {
-  const std::ptrdiff_t s = runs.stride;
+void find_turns(const Lines& lines, float noise, int count, float* __restrict turns) {
+  const auto& [w, on] = lines;
+  const float *w0 = w[0], *w1 = w[1], *w2 = w[2], *w4 = w[4], *w5 = w[5], *w7 = w[7], *w8 = w[8],
+              *w9 = w[9];
+  const float *on0 = on[0], *on1 = on[1], *on2 = on[2], *on3 = on[3], *on4 = on[4], *on5 = on[5],
+              *on6 = on[6], *on7 = on[7], *on8 = on[8];
   for (int n = 0; n < count; ++n) {
-    const float* w = runs.w + n;
-    const float* on = runs.on + n;
-    const int whole = on[0] >= 1.0F;
-    const int p1 = on[-s] >= 1.0F, p2 = p1 & (on[-2 * s] >= 1.0F), p3 = p2 & (on[-3 * s] >= 1.0F),
-              p4 = p3 & (on[-4 * s] >= 1.0F);
-    const int q1 = on[s] >= 1.0F, q2 = q1 & (on[2 * s] >= 1.0F), q3 = q2 & (on[3 * s] >= 1.0F),
-              q4 = q3 & (on[4 * s] >= 1.0F);
-    const float start = p4 ? w[-4 * s] : p3 ? w[-3 * s] : w[-2 * s];
-    const float end = q4 ? w[5 * s] : q3 ? w[4 * s] : w[3 * s];
-    const float before = p4 ? 1.0F / 4 : p3 ? 1.0F / 3 : 1.0F / 2;  // 1 over the slopes' lengths
-    const float after = q4 ? 1.0F / 4 : q3 ? 1.0F / 3 : 1.0F / 2;
-    const float turn = (end - w[s]) * after - (w[0] - start) * before;
-    const float grain = kGrain_m * w[0] * w[0];
-    const float sigma = grain > noise ? grain : noise;
-    const float sure = kTurnSigmas * sigma * std::sqrt(2 * (before * before + after * after));
-    const float least = sure > kLeastTurn ? sure : kLeastTurn;
-    const int is_turn = whole & p2 & q2 & (turn > least);
-    turns[n] = is_turn ? turn : 0.0F;
+    const float p = w4[n], q = w5[n];
+    // How many pixels of a surface lie before p, after q: less than 2, 2, 3, or 4 and more.
+    const float before2 = least(on3[n], on2[n]), before3 = least(before2, on1[n]),
+                before4 = least(before3, on0[n]);
+    const float after2 = least(on5[n], on6[n]), after3 = least(after2, on7[n]),
+                after4 = least(after3, on8[n]);
+    const float before = before4 < 1.0F ? before3 < 1.0F ? w2[n] : w1[n] : w0[n];
+    const float after = after4 < 1.0F ? after3 < 1.0F ? w7[n] : w8[n] : w9[n];
+    const float over_before = before4 < 1.0F ? before3 < 1.0F ? 1.0F / 2 : 1.0F / 3 : 1.0F / 4;
+    const float over_after = after4 < 1.0F ? after3 < 1.0F ? 1.0F / 2 : 1.0F / 3 : 1.0F / 4;
+    const float turn = (after - q) * over_after - (p - before) * over_before;
+    const float sigma = most(kGrain_m * p * p, noise);
+    const float sure = kTurnSigmas * sigma * (over_before + over_after);
+    const float told = turn > most(sure, kLeastTurn) ? turn : 0.0F;
+    turns[n] = least(least(before2, after2), on4[n]) < 1.0F ? 0.0F : told;
   }
 }
 
-/// Takes the continuity from where turns are the largest along their line.
+/// Takes the continuity from where turns are the largest of five along their line; [2] is its own.
 MAPSCORE_WIDE_VECTORS
-void cut_at_peaks(const float* turns, std::ptrdiff_t s, int count, float* on) {
+void cut_at_peaks(const std::array<const float*, 2 * kPeak_px + 1>& turns, int count,
+                  float* __restrict on) {
+  const float *t0 = turns[0], *t1 = turns[1], *t2 = turns[2], *t3 = turns[3], *t4 = turns[4];
   for (int n = 0; n < count; ++n) {
-    const float* t = turns + n;
-    const int is_peak =
-        (t[0] > 0) & (t[0] > t[-s]) & (t[0] > t[-2 * s]) & (t[0] >= t[s]) & (t[0] >= t[2 * s]);
-    on[n] = is_peak ? 0.0F : on[n];
+    const int is_peak = static_cast<int>(t2[n] > most(most(t0[n], t1[n]), 0.0F)) &
+                        static_cast<int>(t2[n] >= most(t3[n], t4[n]));
+    on[n] = is_peak != 0 ? 0.0F : on[n];
   }
 }
 
-cv::Mat1f with_margin(const cv::Mat1f& image) {
-  cv::Mat1f padded;
-  cv::copyMakeBorder(image, padded, kMargin, kMargin, kMargin, kMargin, cv::BORDER_CONSTANT,
-                     cv::Scalar(0));
-  return padded;
+cv::Mat1f parted_in_rows(const DepthEdges& edges) {
+  const cv::Mat1f& w = edges.inverse_depth;
+  cv::Mat1f out = edges.right.clone();
+  const auto columns = static_cast<std::size_t>(w.cols);
+  std::vector<float> line(kBefore + columns + kAfter, 0.0F), on = line,
+                                                             turns(columns + 2 * kPeak_px, 0.0F);
+  Lines lines;
+  for (std::size_t n = 0; n < lines.w.size(); ++n)
+    lines.w[n] = line.data() + n, lines.on[n] = on.data() + n;
+  std::array<const float*, 2 * kPeak_px + 1> near;
+  for (std::size_t n = 0; n < near.size(); ++n) near[n] = turns.data() + n;
+  for (int v = 0; v < w.rows; ++v) {
+    std::copy(w[v], w[v] + w.cols, line.begin() + kBefore);
+    std::copy(out[v], out[v] + w.cols, on.begin() + kBefore);
+    find_turns(lines, edges.noise, w.cols, turns.data() + kPeak_px);
+    cut_at_peaks(near, w.cols, out[v]);
+  }
+  return out;
 }
 
-/// Parts the continuity along lines whose pixels lie `stride` apart in `w`, an image with a margin.
-cv::Mat1f parted(const cv::Mat1f& w, const cv::Mat1f& continuity, std::ptrdiff_t stride,
-                 float noise) {
-  const cv::Mat1f on = with_margin(continuity);
-  cv::Mat1f turns(w.size(), 0.0F);
-  cv::Mat1f out = continuity.clone();
-  for (int v = 0; v < out.rows; ++v)
-    turns_along({w[v + kMargin] + kMargin, on[v + kMargin] + kMargin, stride}, noise, out.cols,
-                turns[v + kMargin] + kMargin);
-  for (int v = 0; v < out.rows; ++v)
-    cut_at_peaks(turns[v + kMargin] + kMargin, stride, out.cols, out[v]);
+cv::Mat1f parted_in_columns(const DepthEdges& edges) {
+  const cv::Mat1f& w = edges.inverse_depth;
+  cv::Mat1f out = edges.down.clone();
+  constexpr int kKept = 2 * kPeak_px + 1;
+  cv::Mat1f turns(kKept, w.cols, 0.0F);  // of the last rows, each in row v % kKept
+  const std::vector<float> nothing(static_cast<std::size_t>(w.cols), 0.0F);
+  const auto row = [&](const cv::Mat1f& image, int v) {
+    return v < 0 || v >= image.rows ? nothing.data() : image[v];
+  };
+  for (int v = 0; v < w.rows + kPeak_px; ++v) {
+    float* const own = turns[v % kKept];
+    if (v < w.rows) {
+      Lines lines;
+      for (int n = 0; n < static_cast<int>(lines.w.size()); ++n) {
+        const int at = v + n - static_cast<int>(kBefore);
+        lines.w[static_cast<std::size_t>(n)] = row(w, at);
+        lines.on[static_cast<std::size_t>(n)] = row(edges.down, at);
+      }
+      find_turns(lines, edges.noise, w.cols, own);
+    } else {
+      std::fill(own, own + w.cols, 0.0F);
+    }
+    const int peak = v - kPeak_px;
+    if (peak < 0) continue;
+    std::array<const float*, kKept> near;
+    for (int n = 0; n < kKept; ++n)
+      near[static_cast<std::size_t>(n)] = turns[(peak + n - kPeak_px + kKept) % kKept];
+    cut_at_peaks(near, w.cols, out[peak]);
+  }
   return out;
 }
 
 }  // namespace
 
 Continuity part_at_creases(const DepthEdges& edges) {
-  const cv::Mat1f w = with_margin(edges.inverse_depth);
-  return {parted(w, edges.right, 1, edges.noise),
-          parted(w, edges.down, static_cast<std::ptrdiff_t>(w.step1()), edges.noise)};
+  return {parted_in_rows(edges), parted_in_columns(edges)};
 }
 
 }  // namespace mapscore

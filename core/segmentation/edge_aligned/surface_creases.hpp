@@ -19,10 +19,10 @@ struct Continuity {
 /// inverse depth w is linear in the pixel, and where two planes meet in a valley its slope rises.
 /// The turn of a pair (p, q) is the slope of w over up to 4 pixels from q on, less that over up to
 /// 4 pixels up to p, at least 2 on either side without a step. A crease is a pair whose turn is the
-/// largest within 2 pixels along its line and exceeds max(0.0003 / m, 5 sigma), with sigma that of
-/// the two slopes where depth is good to 1 mm, or to the image's noise where that is larger. A
-/// floor under a camera h above it turns by 1 / (f h) a pixel, 0.002 / m at 0.9 m, at any distance.
-/// Thread-safe.
+/// largest within 2 pixels along its line and exceeds max(0.0003 / m, 5 sigma (1 / a + 1 / b)),
+/// with a and b the lengths of the two slopes and sigma the noise of w where depth is good to 1 mm,
+/// or the image's where that is larger. A floor under a camera h above it turns by 1 / (f h) a
+/// pixel, 0.002 / m at 0.9 m, at any distance. Thread-safe.
 [[nodiscard]] Continuity part_at_creases(const DepthEdges& edges);
 
 }  // namespace mapscore

@@ -86,8 +86,12 @@ void find_pixels(const float* us, const float* vs, int count, const cv::Size& im
 class Voting {
  public:
   Voting(const DepthEdges& edges, const OutlineField& field, const OutlineAlignment& alignment,
-         const Calibration& believed)
-      : edges_(edges), field_(field), alignment_(alignment), believed_(believed) {}
+         const Calibration& believed, std::size_t detections)
+      : edges_(edges),
+        field_(field),
+        alignment_(alignment),
+        believed_(believed),
+        detections_(detections) {}
 
   /// Finds the colour pixel that each depth pixel lies in.
   void locate(const OutlineShifts& shifts) {
@@ -161,10 +165,11 @@ class Voting {
   }
 
  private:
-  /// By colour pixel, how far it is from what no mask holds; empty unless masks are too large.
+  /// By colour pixel, how far it is from what no mask holds; empty unless there are some masks that
+  /// are too large.
   [[nodiscard]] cv::Mat1f distance_to_free() const {
     cv::Mat1f distance;
-    if (alignment_.offset_px < -kGrown_px)
+    if (detections_ > 1 && alignment_.offset_px < -kGrown_px)
       cv::distanceTransform(field_.owner != 0, distance, cv::DIST_L2, cv::DIST_MASK_3);
     return distance;
   }
@@ -199,6 +204,7 @@ class Voting {
   const OutlineField& field_;
   const OutlineAlignment& alignment_;
   const Calibration& believed_;
+  std::size_t detections_;
   cv::Mat1i cells_;  ///< by depth pixel: place in a colour image, row-major; -1 beyond it
   cv::Mat1f nearest_;
   cv::Mat1b behind_hole_;  ///< by depth pixel; empty where nothing is
@@ -209,7 +215,7 @@ class Voting {
 cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
                            const OutlineAlignment& alignment, const OutlineShifts& shifts,
                            const Calibration& believed, std::size_t detections, double reach_px) {
-  Voting voting(edges, field, alignment, believed);
+  Voting voting(edges, field, alignment, believed, detections);
   voting.locate(shifts);
   voting.find_nearest();
   const Votes votes = voting.collect();

@@ -31,7 +31,7 @@ float turn_at(const std::vector<float>& w, const std::vector<float>& open, int n
   const float a = 1.0F / static_cast<float>(before), b = 1.0F / static_cast<float>(after);
   const float turn = (at(n + 1 + after) - at(n + 1)) * b - (at(n) - at(n - before)) * a;
   const float sigma = std::max(0.00029F * at(n) * at(n), noise);
-  return turn > std::max(0.0003F, 5.0F * sigma * std::sqrt(2 * (a * a + b * b))) ? turn : 0.0F;
+  return turn > std::max(0.0003F, 5.0F * sigma * (a + b)) ? turn : 0.0F;
 }
 
 cv::Mat1f plainly_parted(const DepthEdges& edges, bool rows) {
