@@ -5,15 +5,19 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace mapscore {
 namespace {
 
 /// Depths at which a near object is tried, in least ranges.
 constexpr std::array kNearDepths{1.0, 0.85, 0.7, 0.6, 0.5};
+constexpr double kHeld = 0.8;          // of a run of a hole that is a whole object
 constexpr double kRunsOnFrom = 1.3;    // in least ranges: a farther surface does not run on,
 constexpr double kRunsOnUntil = 1.05;  // and one that does ends nearer than this
 constexpr int kHoleRim_px = 11;        // near holes leave out 4 pixels at their rims
@@ -24,23 +28,24 @@ class Shadows {
           const Calibration& believed)
       : edges_(edges), field_(field), offset_px_(alignment.offset_px), mended_(believed) {
     mended_.T_color_depth = alignment.corrected<double>(believed.T_color_depth);
+    const Eigen::Vector3d& t = mended_.T_color_depth.translation();
+    in_rows_ = std::abs(t.x()) >= std::abs(t.y());
   }
 
   /// 255 on what near objects cover in the colour image.
   [[nodiscard]] cv::Mat1b covered() const {
     const cv::Mat1b& hole = edges_.near_holes;
     cv::Mat1b hit(field_.owner.rows, field_.owner.cols, std::uint8_t{0});
-    for (int v = 0; v < hole.rows; ++v)
-      for (int u = 0; u < hole.cols; ++u) {
-        if (hole(v, u) == 0) continue;
-        const int far = cell_of(u, v, mended_.range_max_m);
-        if (far < 0 || !is_inside(far)) continue;
-        for (const double depth : kNearDepths) {
-          const int near = cell_of(u, v, depth * mended_.range_min_m);
-          if (near >= 0 && is_inside(near) && field_.owner[0][near] == field_.owner[0][far])
-            hit[0][near] = 255;
-        }
+    const int lines = in_rows_ ? hole.rows : hole.cols, length = in_rows_ ? hole.cols : hole.rows;
+    for (int line = 0; line < lines; ++line) {
+      const auto is_hole = [&](int n) { return hole(place(line, n)) != 0; };
+      for (int begin = 0, end = 0; begin < length; begin = end) {
+        end = begin + 1;
+        if (!is_hole(begin)) continue;
+        while (end < length && is_hole(end)) ++end;
+        cover(line, begin, end, hit);
       }
+    }
     cv::dilate(hit, hit, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
     return hit;
   }
@@ -55,40 +60,70 @@ class Shadows {
     const Eigen::Vector3d& t = mended_.T_color_depth.translation();
     const double nearness = (1 / kNearDepths.back() - 1 / kRunsOnFrom) / mended_.range_min_m;
     const int reach_px = static_cast<int>(std::ceil(mended_.depth.fx_px * t.norm() * nearness));
-    const bool in_rows = std::abs(t.x()) >= std::abs(t.y());
-    const cv::Mat1f& on = in_rows ? edges_.right : edges_.down;
-    const cv::Point next = in_rows ? cv::Point(1, 0) : cv::Point(0, 1);
+    const cv::Mat1f& on = in_rows_ ? edges_.right : edges_.down;
+    const cv::Point next = place(0, 1);
     for (int v = 0; v < w.rows; ++v)
       for (int u = 0; u < w.cols; ++u) {
         if (ends(v, u) == 0) continue;
         cv::Point at(u, v);
         for (int n = 0; n < reach_px && on(at) >= 1.0F; ++n) marked(at += next) = 255;
         at = {u, v};
-        for (int n = 0; n < reach_px && (in_rows ? at.x : at.y) > 0 && on(at - next) >= 1.0F; ++n)
+        for (int n = 0; n < reach_px && (in_rows_ ? at.x : at.y) > 0 && on(at - next) >= 1.0F; ++n)
           marked(at -= next) = 255;
       }
     return marked;
   }
 
  private:
+  /// The n-th pixel of a line along the baseline.
+  [[nodiscard]] cv::Point place(int line, int n) const {
+    return in_rows_ ? cv::Point(n, line) : cv::Point(line, n);
+  }
+
+  /// Marks what the run [begin, end) of a hole covers.
+  void cover(int line, int begin, int end, cv::Mat1b& hit) const {
+    const auto count = static_cast<std::size_t>(end - begin);
+    std::vector<int> cells(count), far_owners(count);
+    const auto find_cells = [&](double z_m) {
+      for (std::size_t n = 0; n < count; ++n)
+        cells[n] = cell_of(place(line, begin + static_cast<int>(n)), z_m);
+    };
+    find_cells(mended_.range_max_m);
+    std::transform(cells.begin(), cells.end(), far_owners.begin(),
+                   [&](int cell) { return owner_at(cell); });
+    for (const double depth : kNearDepths) {
+      find_cells(depth * mended_.range_min_m);
+      const int middle = owner_at(cells[count / 2]);
+      const auto held = static_cast<double>(std::count_if(
+          cells.begin(), cells.end(), [&](int cell) { return owner_at(cell) == middle; }));
+      const int whole = held >= kHeld * static_cast<double>(count) ? middle : 0;
+      for (std::size_t n = 0; n < count; ++n) {
+        const int owner = owner_at(cells[n]);
+        if (owner != 0 && (owner == far_owners[n] || owner == whole)) hit[0][cells[n]] = 255;
+      }
+    }
+  }
+
   /// The colour pixel of a depth pixel at a depth; -1 beyond the image.
-  [[nodiscard]] int cell_of(int u, int v, double z_m) const {
-    const Eigen::Vector2d at =
-        mended_.color.project(mended_.T_color_depth * mended_.depth.back_project(u, v, z_m));
+  [[nodiscard]] int cell_of(const cv::Point& pixel, double z_m) const {
+    const Eigen::Vector2d at = mended_.color.project(
+        mended_.T_color_depth * mended_.depth.back_project(pixel.x, pixel.y, z_m));
     const int c = static_cast<int>(std::floor(at.x() + 0.5)),
               r = static_cast<int>(std::floor(at.y() + 0.5));
     const bool within = c >= 0 && r >= 0 && c < field_.owner.cols && r < field_.owner.rows;
     return within ? r * field_.owner.cols + c : -1;
   }
 
-  [[nodiscard]] bool is_inside(int cell) const {
-    return field_.owner[0][cell] != 0 && field_.distance[0][cell] < offset_px_;
+  /// Whose mask holds a cell, as large as its object is; 0 for none.
+  [[nodiscard]] int owner_at(int cell) const {
+    return cell >= 0 && field_.distance[0][cell] < offset_px_ ? field_.owner[0][cell] : 0;
   }
 
   const DepthEdges& edges_;
   const OutlineField& field_;
   float offset_px_;
   Calibration mended_;
+  bool in_rows_ = true;  ///< the baseline
 };
 
 }  // namespace
