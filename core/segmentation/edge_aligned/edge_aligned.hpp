@@ -41,7 +41,10 @@ struct EdgeAligned {
                              "largest turn that the search tries; the fit after it may go farther",
                              {0, 200}});
     visit(s.reach_px,
-          Field{"reach_px", "how far votes spread over a depth surface", above(0, 100)});
+          Field{"reach_px",
+                "how far votes spread over a depth surface; two thirds of it where the masks' "
+                "outlines are sharp",
+                above(0, 100)});
     visit(s.fit, later({"fit",
                         "what each frame mends: its calibration and the masks' size, or, of a "
                         "calibration that is known (not one whose estimate was refused), the "
