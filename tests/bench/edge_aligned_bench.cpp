@@ -6,6 +6,7 @@
 #include "core/segmentation/edge_aligned/outline_alignment.hpp"
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 #include "core/segmentation/edge_aligned/settled_depth.hpp"
+#include "core/segmentation/edge_aligned/surface_creases.hpp"
 #include "core/segmentation/edge_aligned/surface_vote.hpp"
 #include "sim/faults/depth_noise.hpp"
 #include "sim/faults/label_noise.hpp"
@@ -129,6 +130,14 @@ void edge_aligned_shifts(benchmark::State& state) {
       });
 }
 BENCHMARK(edge_aligned_shifts)->Unit(benchmark::kMillisecond);
+
+void edge_aligned_creases(benchmark::State& state) {
+  const BenchSteps steps(false);
+  beside_plain(
+      state, [&] { return part_at_creases(steps.edges).down; },
+      [&] { return mapscore::testing::plain_creases(steps.edges).down; });
+}
+BENCHMARK(edge_aligned_creases)->Unit(benchmark::kMillisecond);
 
 void edge_aligned_votes(benchmark::State& state) {
   const BenchSteps steps(false);
