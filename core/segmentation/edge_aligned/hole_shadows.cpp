@@ -108,10 +108,10 @@ class Shadows {
   [[nodiscard]] int cell_of(const cv::Point& pixel, double z_m) const {
     const Eigen::Vector2d at = mended_.color.project(
         mended_.T_color_depth * mended_.depth.back_project(pixel.x, pixel.y, z_m));
-    const int c = static_cast<int>(std::floor(at.x() + 0.5)),
-              r = static_cast<int>(std::floor(at.y() + 0.5));
-    const bool within = c >= 0 && r >= 0 && c < field_.owner.cols && r < field_.owner.rows;
-    return within ? r * field_.owner.cols + c : -1;
+    const double c = std::floor(at.x() + 0.5), r = std::floor(at.y() + 0.5);
+    const cv::Size image = field_.owner.size();
+    const bool within = c >= 0 && r >= 0 && c < image.width && r < image.height;
+    return within ? static_cast<int>(r) * image.width + static_cast<int>(c) : -1;
   }
 
   /// Whose mask holds a cell, as large as its object is; 0 for none.

@@ -27,8 +27,9 @@ constexpr float kLeastScore = 0.15F;    // below, the edges show nothing of the 
 constexpr float kLeastLength_px = 100;  // unless they lie on so much of a long outline
 constexpr float kLabelOffset_px = 3.5F;
 constexpr float kPrior = 3.0F;
-constexpr float kToldOffset = 0.5F;  // share of the outlines that tells the offset by itself
-constexpr float kMostUnexplained = 10.0F;
+constexpr float kLeastPrior = 0.01F;       // of it, where exact edges say nothing of a correction
+constexpr float kToldOffset = 0.5F;        // share of the outlines that tells the offset by itself
+constexpr float kMostUnexplained = 10.0F;  // times the prior and the cost of an offset
 constexpr float kCost = 0.03F;       // share of the outline that 20 px, or an offset of 4 px, cost
 constexpr float kShort_px = 150.0F;  // and as much of an outline of this length again
 
@@ -252,7 +253,7 @@ class Aligner {
       prior[4] *= unexplained(scale * matched / static_cast<float>(field_.length_px));
       // Outlines that scatter about the edges, as ragged masks do, measure less than sharp ones.
       const float scatter = matched > 0 ? squares / (matched * square(sigma)) : 1.0F;
-      prior *= kPrior * (square(scatter) + 0.01F) * (scale * matched + kShort_px);
+      prior *= kPrior * (square(scatter) + kLeastPrior) * (scale * matched + kShort_px);
       H.diagonal() += prior;
       b -= prior.cwiseProduct(now);
       H = free.asDiagonal() * H * free.asDiagonal();
