@@ -7,7 +7,9 @@
 #include "core/wide_vectors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace mapscore {
@@ -16,6 +18,8 @@ namespace {
 constexpr float kLeastStep = 0.002F;  // 1/m: 8 mm at 2 m
 constexpr float kStepSigmas = 4.0F;
 constexpr int kWidestGap = 24;
+constexpr int kInner_px = 6;           // behind the outermost step of a surface
+constexpr float kSameDepth = 0.03F;    // of the inverse depth: one surface, not one before another
 constexpr double kShareOfRange = 0.9;  // surfaces farther than this may end because the range does
 
 cv::Mat1f inverse_of(const cv::Mat1w& depth, const Calibration& believed) {
@@ -88,6 +92,8 @@ class EdgeFinder {
     edges_.near_holes = near_holes(edges_.inverse_depth, believed.range_min_m);
     farthest_ = static_cast<float>(1.0 / (kShareOfRange * believed.range_max_m));
     tau_ = std::max(kLeastStep, kStepSigmas * edges_.noise);
+    last_[0] = last_[1] = std::vector<LastStep>(static_cast<std::size_t>(depth.rows));
+    last_[2] = last_[3] = std::vector<LastStep>(static_cast<std::size_t>(depth.cols));
     edges_.right = cv::Mat1f(depth.rows, depth.cols, 0.0F);
     edges_.down = cv::Mat1f(depth.rows, depth.cols, 0.0F);
   }
@@ -110,6 +116,7 @@ class EdgeFinder {
       const int last = last_in_column(u, w.rows);
       if (w.rows - last > kWidestGap) beside_hole_in_column(u, last, w.rows);
     }
+    std::erase_if(edges_.steps, [](const DepthEdge& edge) { return edge.strength <= 0; });
     return std::move(edges_);
   }
 
@@ -185,12 +192,31 @@ class EdgeFinder {
     return std::clamp((step - tau_) / (2 * tau_), 0.0F, 1.0F);
   }
 
+  /// A step; of two at one depth that face alike, the inner one gets strength 0.
   void add(double u, double v, float inverse, Outward outward, float strength) {
+    const bool in_row = outward == Outward::right || outward == Outward::left;
+    const int along = static_cast<int>(std::floor(in_row ? u : v));
+    LastStep& last =
+        last_.at(static_cast<std::size_t>(outward)).at(static_cast<std::size_t>(in_row ? v : u));
+    if (along - last.along <= kInner_px &&
+        std::abs(last.inverse - inverse) <= kSameDepth * std::max(last.inverse, inverse)) {
+      const bool last_is_inner = outward == Outward::right || outward == Outward::down;
+      (last_is_inner ? edges_.steps[last.number].strength : strength) = 0;
+    }
+    last = {along, inverse, edges_.steps.size()};
     const Eigen::Vector3d point = camera_.back_project(u, v, 1.0 / static_cast<double>(inverse));
     edges_.steps.push_back({point.cast<float>(), outward, strength});
   }
 
+  /// The step that was found last in a row or a column.
+  struct LastStep {
+    int along = -2 * kInner_px;
+    float inverse = 0;
+    std::size_t number = 0;
+  };
+
   CameraModel camera_;
+  std::array<std::vector<LastStep>, 4> last_;  ///< by Outward and row or column
   float tau_ = 0, farthest_ = 0;
   DepthEdges edges_;
 };

@@ -57,6 +57,8 @@ class PlainSteps {
       beside_hole({w, true, v}, w.cols);
     }
     for (int u = 0; u < w.cols; ++u) beside_hole({w, false, u}, w.rows);
+    for (const Found& one : found_)
+      if (!has_outer(one)) edges_.steps.push_back(one.step);
     return edges_;
   }
 
@@ -98,11 +100,34 @@ class PlainSteps {
                                 : believed_.depth.back_project(line.index, at, z);
     const Outward way =
         line.row ? (ends ? Outward::right : Outward::left) : (ends ? Outward::down : Outward::up);
-    edges_.steps.push_back({point.cast<float>(), way, strength});
+    found_.push_back({{point.cast<float>(), way, strength}, line.index, n, line.at(n)});
+  }
+
+  struct Found {
+    DepthEdge step;
+    int line, at;
+    float inverse;
+  };
+  /// Whether the next step outward of the same line belongs to the same surface.
+  [[nodiscard]] bool has_outer(const Found& one) const {
+    const bool up = one.step.outward == Outward::right || one.step.outward == Outward::down;
+    const Found* next = nullptr;
+    int least = 7;
+    for (const Found& other : found_) {
+      const int beyond = up ? other.at - one.at : one.at - other.at;
+      if (other.step.outward == one.step.outward && other.line == one.line && beyond > 0 &&
+          beyond < least) {
+        next = &other;
+        least = beyond;
+      }
+    }
+    return next != nullptr &&
+           std::abs(next->inverse - one.inverse) <= 0.03F * std::max(next->inverse, one.inverse);
   }
 
   const Calibration& believed_;
   DepthEdges edges_;
+  std::vector<Found> found_;
 };
 
 /// p_color = R p_depth + t with the alignment.
