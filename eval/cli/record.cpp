@@ -57,7 +57,10 @@ void add_record(CLI::App& program) {
   verb->add_flag("--bake", flags->bake,
                  "Write the study's faults of depth and labels (seed index 0) into depth/ and "
                  "label/, for other systems; truth stays exact");
-  verb->add_option("--set", flags->overrides, "Override a key of the study; may be repeated")
+  verb->add_option(
+          "--set", flags->overrides,
+          "Override a key of the study; a relative path counts from the folder of SOURCE; may "
+          "be repeated")
       ->allow_extra_args(false);
   flags->work.add_to(*verb);
   verb->footer(

@@ -292,7 +292,8 @@ void add_run(CLI::App& program, int& exit_code) {
   verb->footer(
       "The trial is the first cell of the sweep; --set changes doses. --trial ends with 1 when "
       "the\n"
-      "counts differ from those stored.\n"
+      "counts differ from those stored. Map and pictures go to RESULTS/runs; with --set\n"
+      "score.unit=frame also frames.csv, the figures of each frame by itself.\n"
       "Examples:\n"
       "  mapscore run configs/demo.yaml --method region_growing\n"
       "  mapscore run configs/demo.yaml --view 4 1 2.2 5.5 3 0.8\n"

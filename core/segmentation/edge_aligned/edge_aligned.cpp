@@ -9,6 +9,7 @@
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 #include "core/segmentation/edge_aligned/outline_shifts.hpp"
 #include "core/segmentation/edge_aligned/settled_depth.hpp"
+#include "core/segmentation/edge_aligned/surface_creases.hpp"
 #include "core/segmentation/edge_aligned/surface_vote.hpp"
 #include "core/segmentation/occupied_centres.hpp"
 
@@ -25,7 +26,13 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
   check_ranges(params);
   const Calibration& believed = sight.believed();
   const std::vector<Detection>& detections = sight.detections();
-  const DepthEdges edges = find_depth_edges(sight.depth(), believed);
+  DepthEdges edges = find_depth_edges(sight.depth(), believed);
+  Continuity on{edges.right, edges.down};
+  if (!is_noisy(edges)) {
+    on = part_at_creases(edges);
+    const std::vector<DepthEdge> contacts = contacts_of(edges, on, believed.depth);
+    edges.steps.insert(edges.steps.end(), contacts.begin(), contacts.end());
+  }
   const int reach_px = static_cast<int>(std::ceil(1.3 * params.search_px)) + 16;
   const OutlineField field =
       outline_field(detections, believed.color.width_px, believed.color.height_px, reach_px);
@@ -38,7 +45,7 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
   const double reach =
       labelled.alignment.is_sharp() ? kSharpReach * params.reach_px : params.reach_px;
   labelled.labels = vote_on_surfaces(edges, field, labelled.alignment, shifts, believed,
-                                     detections.size(), reach);
+                                     detections.size(), on, reach);
   if (is_noisy(edges)) labelled.inverse_depth = settle_on_surfaces(edges, labelled.labels);
   return labelled;
 }

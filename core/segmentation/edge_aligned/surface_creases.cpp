@@ -132,4 +132,18 @@ Continuity part_at_creases(const DepthEdges& edges) {
   return {parted_in_rows(edges), parted_in_columns(edges)};
 }
 
+std::vector<DepthEdge> contacts_of(const DepthEdges& edges, const Continuity& parted,
+                                   const CameraModel& camera) {
+  const cv::Mat1f& w = edges.inverse_depth;
+  std::vector<DepthEdge> contacts;
+  for (int v = 0; v + 1 < w.rows; ++v)
+    for (int u = 0; u < w.cols; ++u) {
+      if (parted.down(v, u) > 0 || !(edges.down(v, u) > 0)) continue;
+      const double z_m = 2.0 / static_cast<double>(w(v, u) + w(v + 1, u));
+      const Eigen::Vector3d point = camera.back_project(u, v + 0.5, z_m);
+      contacts.push_back({point.cast<float>(), Outward::down, 1.0F});
+    }
+  return contacts;
+}
+
 }  // namespace mapscore

@@ -7,6 +7,8 @@
 
 #include <opencv2/core.hpp>
 
+#include <vector>
+
 namespace mapscore {
 
 /// Continuity to the next pixel of the row, of the column: 0 to 1.
@@ -24,5 +26,11 @@ struct Continuity {
 /// or the image's where that is larger. A floor under a camera h above it turns by 1 / (f h) a
 /// pixel, 0.002 / m at 0.9 m, at any distance. Thread-safe.
 [[nodiscard]] Continuity part_at_creases(const DepthEdges& edges);
+
+/// The creases of columns as edges of strength 1: where something stands on a floor or a table, its
+/// outline ends without a step of depth, and what goes on below is what it stands on. `parted`:
+/// part_at_creases(edges); row-major. Thread-safe.
+[[nodiscard]] std::vector<DepthEdge> contacts_of(const DepthEdges& edges, const Continuity& parted,
+                                                 const CameraModel& camera);
 
 }  // namespace mapscore

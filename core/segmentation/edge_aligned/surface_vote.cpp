@@ -8,7 +8,6 @@
 #include "core/segmentation/edge_aligned/hole_shadows.hpp"
 #include "core/segmentation/edge_aligned/settled_depth.hpp"
 #include "core/segmentation/edge_aligned/surface_average.hpp"
-#include "core/segmentation/edge_aligned/surface_creases.hpp"
 #include "core/wide_vectors.hpp"
 
 #include <opencv2/imgproc.hpp>
@@ -214,13 +213,12 @@ class Voting {
 
 cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
                            const OutlineAlignment& alignment, const OutlineShifts& shifts,
-                           const Calibration& believed, std::size_t detections, double reach_px) {
+                           const Calibration& believed, std::size_t detections,
+                           const Continuity& on, double reach_px) {
   Voting voting(edges, field, alignment, believed, detections);
   voting.locate(shifts);
   voting.find_nearest();
   const Votes votes = voting.collect();
-  const Continuity on =
-      is_noisy(edges) ? Continuity{edges.right, edges.down} : part_at_creases(edges);
   const cv::Size size = votes.owner.size();
   cv::Mat1w labels(size, std::uint16_t{0});
   std::vector<cv::Rect> boxes(detections + 1);

@@ -8,15 +8,18 @@
 #include "core/segmentation/edge_aligned/outline_alignment.hpp"
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 #include "core/segmentation/edge_aligned/outline_shifts.hpp"
+#include "core/segmentation/edge_aligned/surface_creases.hpp"
 
 #include <opencv2/core.hpp>
 
 namespace mapscore {
 
-/// Labels the depth image: 1 + index of the detection that a pixel belongs to, 0 for none.
+/// Labels the depth image: 1 + index of the detection that a pixel belongs to, 0 for none. `on`:
+/// along what votes spread.
 [[nodiscard]] cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
                                          const OutlineAlignment& alignment,
                                          const OutlineShifts& shifts, const Calibration& believed,
-                                         std::size_t detections, double reach_px);
+                                         std::size_t detections, const Continuity& on,
+                                         double reach_px);
 
 }  // namespace mapscore

@@ -37,9 +37,11 @@ std::size_t terminal_width() {
 
 void StudyFlags::add_to(CLI::App& verb, const char* shown_as, const char* help) {
   verb.add_option("STUDY", file, help)->required()->option_text(shown_as);
-  verb.add_option("--set", overrides,
-                  "Override a key, by its path or the end of it where one alone ends so: --set "
-                  "faults.pose.sigma_xy_m=0.02; may be repeated")
+  verb.add_option(
+          "--set", overrides,
+          "Override a key, by its path or the end of it where one alone ends so: --set "
+          "faults.pose.sigma_xy_m=0.02; a relative path counts from the study's folder; may be "
+          "repeated")
       ->allow_extra_args(false);
   verb.add_option("-o,--output", results, "Folder of the results [results/NAME]");
 }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include <numbers>
 #include <vector>
 
 namespace mapscore {
@@ -61,6 +62,18 @@ TEST(EdgeAlignedContacts, AnObjectOnAFloorKeepsItsFoot) {
   const Agreement kept = found(scene, scene.truth());
   EXPECT_GE(kept.precision, 0.998);
   EXPECT_GE(kept.recall, 0.998);
+}
+
+/// A front that fills the picture but for the floor before it has no step of depth at all: its foot
+/// alone tells how the masks lie.
+TEST(EdgeAlignedContacts, AFootMendsTheCalibration) {
+  const PlateScene scene({{-5.0, 5.0, -5.0, 0.35, 1.8, 1}}, 0.35, 6.0);
+  for (const double turn_deg : {-1.5, 1.5}) {
+    const Agreement mended =
+        found(scene, scene.misregistered({0, 0, 0}, {turn_deg * std::numbers::pi / 180, 0, 0}));
+    EXPECT_GE(mended.precision, 0.998) << turn_deg;
+    EXPECT_GE(mended.recall, 0.998) << turn_deg;
+  }
 }
 
 /// Masks that are too large all around still meet where their objects do.

@@ -84,8 +84,10 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
           ++shifted;
         }
 
+        const Continuity on =
+            is_noisy(edges) ? Continuity{edges.right, edges.down} : part_at_creases(edges);
         cv::Mat1w labels = vote_on_surfaces(edges, field, alignment, shifts, scene.believed,
-                                            scene.detections.size(), 3.0);
+                                            scene.detections.size(), on, 3.0);
         EXPECT_EQ(cv::countNonZero(labels != plain_surface_votes(edges, field, alignment, shifts,
                                                                  scene.believed,
                                                                  scene.detections.size(), 3.0F)),

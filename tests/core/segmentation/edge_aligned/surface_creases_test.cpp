@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <functional>
+#include <vector>
 
 namespace mapscore {
 namespace {
@@ -62,6 +63,30 @@ TEST(SurfaceCreases, AreToldBesideAStep) {
   const Continuity on = part_at_creases(edges);
   EXPECT_EQ(cv::countNonZero(on.down != edges.down), 320);
   EXPECT_EQ(cv::countNonZero(on.down.rowRange(201, 204) == 0), 320);
+}
+
+/// The foot of a wall is an edge that faces the floor, half a pixel below the wall's last row.
+TEST(SurfaceCreases, OfColumnsAreEdgesThatFaceDown) {
+  const DepthEdges edges = surface(wall_on_floor, 0.0002);
+  const Calibration camera = PlateScene({}).truth();
+  const std::vector<DepthEdge> contacts = contacts_of(edges, part_at_creases(edges), camera.depth);
+  ASSERT_EQ(contacts.size(), 320U);
+  EXPECT_TRUE(edges.steps.empty());
+  for (const DepthEdge& contact : contacts) {
+    EXPECT_EQ(contact.outward, Outward::down);
+    EXPECT_EQ(contact.strength, 1.0F);
+    EXPECT_NEAR(contact.point.z(), 3.0, 0.02);
+    EXPECT_NEAR(camera.depth.project(contact.point.cast<double>()).y(), 202.5, 1.01);
+  }
+}
+
+/// A crease of a row, as where an object stands at a wall, may face either way: it is no edge.
+TEST(SurfaceCreases, OfRowsAreNoEdges) {
+  const auto valley = [](int u, int /*v*/) { return 0.3 + 0.002 * std::abs(u - 160); };
+  const DepthEdges edges = surface(valley, 0.0002);
+  const Continuity parted = part_at_creases(edges);
+  ASSERT_EQ(cv::countNonZero(parted.right != edges.right), 240);
+  EXPECT_TRUE(contacts_of(edges, parted, PlateScene({}).truth().depth).empty());
 }
 
 }  // namespace
