@@ -136,13 +136,16 @@ std::vector<DepthEdge> contacts_of(const DepthEdges& edges, const Continuity& pa
                                    const CameraModel& camera) {
   const cv::Mat1f& w = edges.inverse_depth;
   std::vector<DepthEdge> contacts;
-  for (int v = 0; v + 1 < w.rows; ++v)
-    for (int u = 0; u < w.cols; ++u) {
-      if (parted.down(v, u) > 0 || !(edges.down(v, u) > 0)) continue;
+  for (int v = 0; v + 1 < w.rows; ++v) {
+    const float *on = parted.down[v], *before = edges.down[v], *end = on + w.cols;
+    for (const float* at = std::find(on, end, 0.0F); at != end; at = std::find(at + 1, end, 0.0F)) {
+      const auto u = static_cast<int>(at - on);
+      if (!(before[u] > 0)) continue;
       const double z_m = 2.0 / static_cast<double>(w(v, u) + w(v + 1, u));
       const Eigen::Vector3d point = camera.back_project(u, v + 0.5, z_m);
       contacts.push_back({point.cast<float>(), Outward::down, 1.0F});
     }
+  }
   return contacts;
 }
 

@@ -135,24 +135,26 @@ class Voting {
                 cv::Mat1f(w.rows, w.cols, 0.0F)};
     const std::uint16_t* const owner_of = owners[0];
     const float *const distance = field_.distance[0], *const nearest = nearest_[0];
-    const cv::Mat1f to_free = distance_to_free();
+    const cv::Mat1f distances = distance_to_free();
+    const float* const to_free = distances.empty() ? nullptr : distances[0];
     for (int v = 0; v < w.rows; ++v) {
       const float* in = w[v];
       const int* cells = cells_[v];
       std::uint16_t* owner = votes.owner[v];
       float *depth_in = votes.depth_in[v], *weight = votes.weight[v];
+      const std::uint8_t* behind_hole = behind_hole_.empty() ? nullptr : behind_hole_[v];
       for (int u = 0; u < w.cols; ++u) {
         const int cell = cells[u];
         if (!(in[u] > 0) || cell < 0) continue;
         owner[u] = owner_of[cell];
         depth_in[u] = alignment_.offset_px - distance[cell];
         // A border of two masks stays where it is when both shrink.
-        if (!to_free.empty() && depth_in[u] <= 0 &&
-            to_free[0][cell] > kFree_px - alignment_.offset_px)
+        if (to_free != nullptr && depth_in[u] <= 0 &&
+            to_free[cell] > kFree_px - alignment_.offset_px)
           depth_in[u] = -distance[cell];
         const float behind = nearest[cell] * (1.0F - kHidden) - kNoise * edges_.noise - in[u];
         const bool hidden = behind > 0 && behind > kSlopes * slope_at(v, u);
-        if (hidden || (!behind_hole_.empty() && behind_hole_(v, u) != 0)) {
+        if (hidden || (behind_hole != nullptr && behind_hole[u] != 0)) {
           depth_in[u] = -1.0F, weight[u] = kHiddenVote;
           continue;
         }
@@ -235,22 +237,28 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
                                   boxes[n].width + 2 * margin, boxes[n].height + 2 * margin) &
                          cv::Rect({0, 0}, size);
     cv::Mat1f own(box.size()), all(box.size());
-    for (int v = 0; v < box.height; ++v)
+    for (int v = 0; v < box.height; ++v) {
+      const std::uint16_t* owner = votes.owner[v + box.y] + box.x;
+      const float* depth_in = votes.depth_in[v + box.y] + box.x;
+      const float* weight = votes.weight[v + box.y] + box.x;
+      float *own_vote = own[v], *all_votes = all[v];
       for (int u = 0; u < box.width; ++u) {
-        const int row = v + box.y, column = u + box.x;
-        const float weight = votes.weight(row, column);
-        const bool in_mask = votes.owner(row, column) != 0 && votes.depth_in(row, column) > 0;
-        const bool inside = in_mask && votes.owner(row, column) == n;
-        own(v, u) = inside ? weight : 0.0F;
-        all(v, u) = in_mask && !inside ? kOtherVote * weight : weight;
+        const bool in_mask = owner[u] != 0 && depth_in[u] > 0;
+        const bool inside = in_mask && owner[u] == n;
+        own_vote[u] = inside ? weight[u] : 0.0F;
+        all_votes[u] = in_mask && !inside ? kOtherVote * weight[u] : weight[u];
       }
+    }
     average_on_surfaces(own, on.right(box), on.down(box), static_cast<float>(reach_px));
     average_on_surfaces(all, on.right(box), on.down(box), static_cast<float>(reach_px));
-    for (int v = 0; v < box.height; ++v)
+    for (int v = 0; v < box.height; ++v) {
+      const float *own_share = own[v], *all_share = all[v];
+      const float* w = edges.inverse_depth[v + box.y] + box.x;
+      std::uint16_t* label = labels[v + box.y] + box.x;
       for (int u = 0; u < box.width; ++u)
-        if (own(v, u) > kShare * all(v, u) && all(v, u) > 1e-4F &&
-            edges.inverse_depth(v + box.y, u + box.x) > 0)
-          labels(v + box.y, u + box.x) = static_cast<std::uint16_t>(n);
+        if (own_share[u] > kShare * all_share[u] && all_share[u] > 1e-4F && w[u] > 0)
+          label[u] = static_cast<std::uint16_t>(n);
+    }
   }
   return labels;
 }
