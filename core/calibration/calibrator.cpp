@@ -26,8 +26,11 @@ constexpr double kLeastShare = 0.15;  // of the outlines, on which edges must li
 constexpr double kBehind = 0.002;  // of the outlines, by which an estimate may be behind the start
 constexpr double kMostWeak_px = 1.0;      // standard deviation of the weakest direction
 constexpr double kMostCondition = 250.0;  // one object has above 900, twenty frames below 100
-constexpr double kMostBeyond = 1.5;       // of what the search tries
-constexpr double kRadius_px = 150.0;      // of the edges about the image's middle, roughly
+/// Squared: an estimate can be worse than the start only if it is wrong by half of their
+/// difference.
+constexpr double kSurely = 4.0;
+constexpr double kMostBeyond = 1.5;   // of what the search tries
+constexpr double kRadius_px = 150.0;  // of the edges about the image's middle, roughly
 
 /// Pixels that a unit of each number moves outlines by, roughly.
 Numbers pixels_by(const Calibration& start, const std::deque<OutlineEvidence>& frames) {
@@ -202,14 +205,18 @@ CalibrationEstimate Calibrator::estimate() const {
   if (result.reason.empty() && result.explained + kBehind < result.explained_start) {
     result.verdict = CalibrationVerdict::not_better;
     result.reason = "the start explains the outlines better than what was found";
-  } else if (result.reason.empty() &&
-             distance_from_start(result, free) <
-                 largest_by_chance(free.head<CalibrationCorrection::kAxes>().sum())) {
-    result.verdict = CalibrationVerdict::confirmed;
-    result.reason = "what was found differs from the start by no more than chance";
   } else if (result.reason.empty()) {
-    result.verdict = CalibrationVerdict::calibrated;
-    result.calibration = best.applied(start_);
+    const double distance = distance_from_start(result, free),
+                 chance = largest_by_chance(free.head<CalibrationCorrection::kAxes>().sum());
+    const bool differs = distance >= chance;
+    result.verdict = differs ? CalibrationVerdict::calibrated : CalibrationVerdict::confirmed;
+    if (differs) result.calibration = best.applied(start_);
+    if (!differs)
+      result.reason = "what was found differs from the start by no more than chance";
+    else if (distance < kSurely * chance)
+      result.reason =
+          "what was found is likely better than the start, but lies so near to it that it may be "
+          "worse; more frames tell";
   }
   return result;
 }

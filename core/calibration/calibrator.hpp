@@ -42,7 +42,8 @@ struct FrameContribution {
 
 struct CalibrationEstimate {
   CalibrationVerdict verdict = CalibrationVerdict::undetermined;
-  std::string reason;                ///< empty where calibrated; else why not, and what helps
+  /// Empty where calibrated, and surely better than the start; else why not, and what helps.
+  std::string reason;
   CalibrationCorrection correction;  ///< what was found, to be used or not
   Calibration calibration;           ///< the start, corrected where the verdict is calibrated
   /// Of correction.vector() without the mask's size, order of Axis; 0 for what was not looked for.

@@ -162,10 +162,10 @@ void Sights::calibrate(const Recording& recording, const CalibratorSettings& set
   const CalibrationEstimate estimate = calibrator.estimate();
   believed_ = estimate.calibration;
   believed_.is_doubtful = !is_known(estimate.verdict);
-  calibration_note_ = fmt::format(
-      "calibration, estimated: {}{}", word_of(estimate.verdict),
-      is_known(estimate.verdict) ? ""
-                                 : ": " + estimate.reason + "; what was believed before is used");
+  calibration_note_ =
+      fmt::format("calibration, estimated: {}{}{}{}", word_of(estimate.verdict),
+                  estimate.reason.empty() ? "" : ": ", estimate.reason,
+                  is_known(estimate.verdict) ? "" : "; what was believed before is used");
   const Pose error = believed_.T_color_depth * recording.info().calibration.T_color_depth.inverse();
   const double turn_rad = Eigen::AngleAxisd(error.linear()).angle();
   calibrated_ =

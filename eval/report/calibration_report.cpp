@@ -66,11 +66,14 @@ std::string calibration_summary(const CalibrationEstimate& estimate) {
       "steps of depth lie on {:.1f} % of the outlines with it, on {:.1f} % with the "
       "start",
       100 * estimate.explained, 100 * estimate.explained_start);
-  const std::string kept = estimate.reason.empty() ? "" : estimate.reason + "; it is kept\nfound: ";
-  const std::string verdict = is_known(estimate.verdict)
-                                  ? fmt::format("{}: {}{}", word_of(estimate.verdict), kept, found)
-                                  : fmt::format("{}: {}\nfound, and not used: {}",
-                                                word_of(estimate.verdict), estimate.reason, found);
+  const std::string word(word_of(estimate.verdict));
+  const std::string verdict =
+      estimate.verdict == CalibrationVerdict::calibrated
+          ? fmt::format("{}: {}{}{}", word, found,
+                        estimate.reason.empty() ? "" : "\nnote: ", estimate.reason)
+      : estimate.verdict == CalibrationVerdict::confirmed
+          ? fmt::format("{}: {}; it is kept\nfound: {}", word, estimate.reason, found)
+          : fmt::format("{}: {}\nfound, and not used: {}", word, estimate.reason, found);
   return fmt::format(
       "{}\n{}\nknown least: {}, to {:.2g} px; condition number {:.0f}\n"
       "taken as exact: depth and its scale, stamps and lenses, but for what is listed\n",

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -138,6 +139,24 @@ TEST(Calibrator, FindsShiftAndTurnTogether) {
   EXPECT_LT(error.tail<3>().norm(), 0.002);
   EXPECT_LT(nees<6>(error, Covariance6(estimate.covariance.topLeftCorner<6, 6>())), 25.0);
   EXPECT_GT(estimate.explained, estimate.explained_start + 0.2);
+}
+
+/// Never worse than the start without saying so: of starts that are less and less wrong the first
+/// are surely improved, then perhaps, and the last are confirmed.
+TEST(Calibrator, SaysWhereTheStartMayBeBetter) {
+  const BoardScene scene;
+  std::vector<int> stages;
+  for (const double scale : {1.0, 0.3, 0.1, 0.05, 0.03, 0.02, 0.015, 0.01, 0.005, 0.002, 0.0}) {
+    const Eigen::Vector3d shift(0.03, -0.02, 0.005), turn(0.02, -0.03, 0.01);
+    const CalibrationEstimate estimate =
+        estimated(scene, scene.off_by(scale * shift, scale * turn), 12);
+    ASSERT_TRUE(is_known(estimate.verdict)) << estimate.reason;
+    stages.push_back(estimate.verdict == CalibrationVerdict::confirmed ? 2
+                     : estimate.reason.empty()                         ? 0
+                                                                       : 1);
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(stages));
+  for (const int stage : {0, 1, 2}) EXPECT_GT(std::ranges::count(stages, stage), 0) << stage;
 }
 
 TEST(Calibrator, ConfirmsARightStart) {
