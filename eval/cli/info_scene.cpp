@@ -155,6 +155,8 @@ void draw_classes(const fs::path& file, const SceneSurfaces& scene, const SceneI
 }
 
 void suggest(const fs::path& scene, const SceneInfoFlags& flags) {
+  if (!flags.picture.empty())
+    throw Error("--picture: a suggestion draws none; leave out one of the flags");
   const sim::SceneInventory inventory = sim::take_inventory(scene);
   if (inventory.unseen.no_light) std::cerr << "info: note: " << kNoLight << '\n';
   const std::string text =

@@ -94,10 +94,13 @@ void write_all(const std::vector<Segment>& segments, const ClassTable& table,
   std::cout << shown(folder / "segments.csv") << '\n';
 }
 
-/// What edge_aligned mended.
+/// What edge_aligned mended, of a frame with detections.
 std::string fit_text(const LabelledDepth& labelled) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   const OutlineAlignment& fit = labelled.alignment;
+  if (fit.score == 0)
+    return "fit: none, too few depth edges lie about outlines; masks lie as the calibration has "
+           "them\n";
   const Eigen::AngleAxisf turn(fit.rotation);
   const Eigen::Vector3d degrees = (turn.angle() * turn.axis()).cast<double>() / kDegree;
   std::string text = fmt::format(
@@ -130,7 +133,8 @@ void write_segments(const SegmentFlags& flags) {
                 ": is not an empty folder, and files of two frames would lie side by side; give "
                 "another, or remove it");
   fs::create_directories(folder);
-  if (const auto* edge_aligned = std::get_if<EdgeAligned>(&segmentation))
+  const auto* edge_aligned = std::get_if<EdgeAligned>(&segmentation);
+  if (edge_aligned != nullptr && !sight.detections().empty())
     std::cout << fit_text(label_surfaces(sight, *edge_aligned));
   try {
     write_all(segments, table, calibration.T_base_depth, folder);
