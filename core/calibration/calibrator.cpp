@@ -122,17 +122,18 @@ double largest_by_chance(double numbers) {
 }
 
 /// What may make a direction known.
-std::string advice_for(const std::string& direction) {
+std::string advice_for(const std::string& direction, const CalibratorSettings& settings) {
   const auto holds = [&](std::string_view name) {
     return direction.find(name) != std::string::npos;
   };
   if (holds("time")) return "add frames in which the robot turns, or do not look for time_offset";
   if (holds("principal"))
     return "do not look for principal_point, which a turn is hardly told from";
-  return "add frames with objects at other depths and at other places of the image; or the start "
-         "is "
-         "farther off than search_m and search_deg, or wrong in what is not looked for: "
-         "focal_length, time_offset";
+  return std::string(
+             "add frames with objects at other depths and at other places of the image; or the "
+             "start is farther off than search_m and search_deg, or wrong in what is not looked "
+             "for") +
+         (settings.focal_length ? "" : ", as focal_length");
 }
 
 /// Why an estimate must not be used; empty where it may.
@@ -141,7 +142,7 @@ std::string objection(const CalibrationEstimate& estimate, const CalibratorSetti
     return "hardly any outline lies on a step of depth; see that masks and depth images belong "
            "together, and that the start is not farther off than the search goes";
   if (!(estimate.weakest_px < kMostWeak_px) || !(estimate.condition < kMostCondition))
-    return estimate.weakest + " cannot be told; " + advice_for(estimate.weakest);
+    return estimate.weakest + " cannot be told; " + advice_for(estimate.weakest, settings);
   const Pose& rigid = estimate.correction.rigid;
   if (Eigen::AngleAxisd(rigid.linear()).angle() > kMostBeyond * settings.search_deg.rad() ||
       rigid.translation().norm() > kMostBeyond * settings.search_m)

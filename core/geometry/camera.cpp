@@ -11,6 +11,8 @@
 namespace mapscore {
 namespace {
 
+constexpr double kMostApart_m = 10.0;  // of two cameras of one robot
+
 void check(const CameraModel& camera, const std::string& name) {
   if (camera.width_px < 1 || camera.height_px < 1)
     throw Error(name + " camera: has " + std::to_string(camera.width_px) + " x " +
@@ -30,6 +32,10 @@ void check(const Calibration& calibration) {
   check(calibration.depth, "depth");
   if (!calibration.T_color_depth.matrix().allFinite())
     throw Error("T_color_depth: not finite; give the depth camera's pose in the colour camera");
+  if (calibration.T_color_depth.translation().norm() > kMostApart_m)
+    throw Error(
+        "T_color_depth: the two cameras are more than 10 m apart; give the depth camera's pose "
+        "in the colour camera, in metres");
 }
 
 CameraModel CameraModel::from_hfov(int width_px, int height_px, double hfov_rad) {

@@ -157,9 +157,9 @@ void calibrate(const CalibrateFlags& flags) {
         shown(flags.source.folder)));
   const CalibrationEstimate estimate = calibrator.estimate();
   std::cout << fmt::format("{} frames that show objects, of {}\n", chosen.size(), asked.size())
-            << calibration_summary(estimate) << '\n'
-            << calibration_numbers(estimate) << '\n'
-            << calibration_frames(estimate, chosen);
+            << calibration_summary(estimate) << '\n';
+  if (!estimate.weakest.empty())
+    std::cout << calibration_numbers(estimate) << '\n' << calibration_frames(estimate, chosen);
   const auto together = lock_outputs({flags.file, flags.picture});
   if (!flags.picture.empty()) write_outlines(flags, from, sights, estimate);
   if (!is_known(estimate.verdict)) {

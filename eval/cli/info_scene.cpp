@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/whole_file.hpp"
+#include "eval/cli/shared/options.hpp"
 #include "eval/render/study_recording.hpp"
 #include "eval/report/pictures/caption.hpp"
 #include "eval/report/pictures/scene.hpp"
@@ -169,6 +170,7 @@ void suggest(const fs::path& scene, const SceneInfoFlags& flags) {
 }  // namespace
 
 void info_of_scene(const fs::path& file, const SceneInfoFlags& flags) {
+  check_outputs({{"--picture", flags.picture, ".png"}});
   if (flags.suggest_classes) return suggest(file, flags);
   if (!flags.output.empty())
     throw Error("--output: only a suggestion is written; add --suggest_classes");

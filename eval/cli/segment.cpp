@@ -133,8 +133,9 @@ void write_segments(const SegmentFlags& flags) {
                 ": is not an empty folder, and files of two frames would lie side by side; give "
                 "another, or remove it");
   fs::create_directories(folder);
-  const auto* edge_aligned = std::get_if<EdgeAligned>(&segmentation);
-  if (edge_aligned != nullptr && !sight.detections().empty())
+  if (sight.detections().empty())
+    std::cout << "no object is detected in this frame\n";
+  else if (const auto* edge_aligned = std::get_if<EdgeAligned>(&segmentation))
     std::cout << fit_text(label_surfaces(sight, *edge_aligned));
   try {
     write_all(segments, table, calibration.T_base_depth, folder);

@@ -55,6 +55,8 @@ double sigma_of(const CalibrationEstimate& estimate, int first) {
 }  // namespace
 
 std::string calibration_summary(const CalibrationEstimate& estimate) {
+  if (estimate.weakest.empty())  // no frame told anything
+    return fmt::format("{}: {}\n", word_of(estimate.verdict), estimate.reason);
   const Pose& rigid = estimate.correction.rigid;
   const std::string found = fmt::format(
       "{:.1f} mm and {:.3f} degrees from the start (standard deviations {:.2g} mm and {:.2g} "
@@ -120,7 +122,7 @@ std::string estimate_yaml(const CalibrationEstimate& estimate, const Calibration
   }
   return fmt::format(
       "estimate:\n"
-      "  verdict: {}\n"
+      "  verdict: {}\n{}"
       "  start: {{fx_px: {}, fy_px: {}, cx_px: {}, cy_px: {}, T_color_depth: [{}]}}\n"
       "  frames: {}\n"
       "  objects: {:.1f}\n"
@@ -130,11 +132,14 @@ std::string estimate_yaml(const CalibrationEstimate& estimate, const Calibration
       "  numbers: [{}]\n"
       "  change: [{}]\n"
       "  covariance:\n{}",
-      word_of(estimate.verdict), start.color.fx_px, start.color.fy_px, start.color.cx_px,
-      start.color.cy_px, join_numbers(numbers_of(start.T_color_depth), ", "),
-      estimate.frames.size(), estimate.objects, estimate.explained_start, estimate.explained,
-      estimate.condition, yaml_quoted(estimate.weakest), estimate.weakest_px, keys, change,
-      covariance);
+      word_of(estimate.verdict),
+      estimate.verdict == CalibrationVerdict::calibrated && !estimate.reason.empty()
+          ? "  may_be_worse: true\n"
+          : "",
+      start.color.fx_px, start.color.fy_px, start.color.cx_px, start.color.cy_px,
+      join_numbers(numbers_of(start.T_color_depth), ", "), estimate.frames.size(), estimate.objects,
+      estimate.explained_start, estimate.explained, estimate.condition,
+      yaml_quoted(estimate.weakest), estimate.weakest_px, keys, change, covariance);
 }
 
 }  // namespace mapscore::eval

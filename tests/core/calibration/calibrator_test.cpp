@@ -234,5 +234,11 @@ TEST(Calibrator, FramesOfOtherCamerasAreRefused) {
   EXPECT_THROW(calibrator.add(scene.frame(0, scene.off_by({0.01, 0, 0}, {0, 0, 0}))), Error);
 }
 
+TEST(Calibrator, CamerasThatStandInDifferentRoomsAreRefused) {
+  const BoardScene scene;
+  EXPECT_THROW(Calibrator(scene.off_by({1e300, 0, 0}, {0, 0, 0})), Error);
+  EXPECT_THROW(Calibrator(scene.off_by({0, 11, 0}, {0, 0, 0})), Error);
+}
+
 }  // namespace
 }  // namespace mapscore

@@ -53,8 +53,11 @@ TEST_F(ForeignScene, ThePictureGoesWhereItIsWanted) {
   expect_done(mapscore({"info", scene(), "--picture", folder() / "my.png"}));
   EXPECT_FALSE(fs::exists(folder() / "room.classes.png"));
   EXPECT_FALSE(cv::imread(folder() / "my.png").empty());
+  const std::string before = bytes_of(scene());
+  expect_refused(mapscore({"info", scene(), "--picture", scene()}), {"--picture", ".png"});
+  EXPECT_EQ(bytes_of(scene()), before);
   expect_refused(mapscore({"info", scene(), "--picture", folder() / "no/where.png"}),
-                 {"no/where.png", "cannot"});
+                 {"no/where.png", "folder"});
 }
 
 TEST_F(ForeignScene, ASuggestedClassFileIsTakenAsItIs) {
@@ -125,6 +128,8 @@ TEST_F(ForeignScene, ABakedCopyHasNoiseInItsImagesAndExactTruth) {
 TEST_F(ForeignScene, FlagsOfScenesApplyToScenesAlone) {
   expect_refused(mapscore({"info", scene(), "-o", classes()}), {"--output", "--suggest_classes"});
   expect_refused(mapscore({"info", folder(), "--suggest_classes"}), {"not a scene"});
+  expect_refused(mapscore({"info", scene(), "--suggest_classes", "--picture", "a.png"}),
+                 {"--picture", "suggestion"});
 }
 
 TEST_F(ForeignScene, TruthNeedsNoRobot) {
