@@ -8,7 +8,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -100,6 +102,7 @@ class PlainSteps {
                                 : believed_.depth.back_project(line.index, at, z);
     const Outward way =
         line.row ? (ends ? Outward::right : Outward::left) : (ends ? Outward::down : Outward::up);
+    of_line_[{way, line.index}].push_back(found_.size());
     found_.push_back({{point.cast<float>(), way, strength}, line.index, n, line.at(n)});
   }
 
@@ -113,13 +116,10 @@ class PlainSteps {
     const bool up = one.step.outward == Outward::right || one.step.outward == Outward::down;
     const Found* next = nullptr;
     int least = 7;
-    for (const Found& other : found_) {
+    for (const std::size_t number : of_line_.at({one.step.outward, one.line})) {
+      const Found& other = found_[number];
       const int beyond = up ? other.at - one.at : one.at - other.at;
-      if (other.step.outward == one.step.outward && other.line == one.line && beyond > 0 &&
-          beyond < least) {
-        next = &other;
-        least = beyond;
-      }
+      if (beyond > 0 && beyond < least) next = &other, least = beyond;
     }
     return next != nullptr &&
            std::abs(next->inverse - one.inverse) <= 0.03F * std::max(next->inverse, one.inverse);
@@ -128,6 +128,7 @@ class PlainSteps {
   const Calibration& believed_;
   DepthEdges edges_;
   std::vector<Found> found_;
+  std::map<std::pair<Outward, int>, std::vector<std::size_t>> of_line_;  ///< numbers of found_
 };
 
 /// p_color = R p_depth + t with the alignment.
