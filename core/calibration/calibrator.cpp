@@ -209,15 +209,14 @@ CalibrationEstimate Calibrator::estimate() const {
   } else if (result.reason.empty()) {
     const double distance = distance_from_start(result, free),
                  chance = largest_by_chance(free.head<CalibrationCorrection::kAxes>().sum());
-    const bool differs = distance >= chance;
-    result.verdict = differs ? CalibrationVerdict::calibrated : CalibrationVerdict::confirmed;
-    if (differs) result.calibration = best.applied(start_);
-    if (!differs)
+    if (distance < chance) {
+      result.verdict = CalibrationVerdict::confirmed;
       result.reason = "what was found differs from the start by no more than chance";
-    else if (distance < kSurely * chance)
-      result.reason =
-          "what was found is likely better than the start, but lies so near to it that it may be "
-          "worse; more frames tell";
+    } else {
+      result.verdict = CalibrationVerdict::calibrated;
+      result.calibration = best.applied(start_);
+      result.may_be_worse = distance < kSurely * chance;
+    }
   }
   return result;
 }

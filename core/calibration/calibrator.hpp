@@ -42,8 +42,10 @@ struct FrameContribution {
 
 struct CalibrationEstimate {
   CalibrationVerdict verdict = CalibrationVerdict::undetermined;
-  /// Empty where calibrated, and surely better than the start; else why not, and what helps.
+  /// Empty where calibrated; else why not, and what helps.
   std::string reason;
+  /// Calibrated, but so near to the start that it may be worse than it.
+  bool may_be_worse = false;
   CalibrationCorrection correction;  ///< what was found, to be used or not
   Calibration calibration;           ///< the start, corrected where the verdict is calibrated
   /// Of correction.vector() without the mask's size, order of Axis; 0 for what was not looked for.

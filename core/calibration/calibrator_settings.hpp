@@ -26,8 +26,8 @@ struct CalibratorSettings {
     visit(s.principal_point, Field{"principal_point",
                                    "find the colour camera's principal point too, which a turn is "
                                    "hardly told from"});
-    visit(s.search_deg, Field{"search_deg", "largest turn that the search tries", {0, 10}});
-    visit(s.search_m, Field{"search_m", "largest shift that the search tries", {0, 0.2}});
+    visit(s.search_deg, Field{"search_deg", "largest turn that the search tries", {0.1, 10}});
+    visit(s.search_m, Field{"search_m", "largest shift that the search tries", {0.002, 0.2}});
     visit(s.frames, Field{"frames",
                           "frames that are used at most: of a recording spread evenly over those "
                           "with objects, of a stream the latest",

@@ -11,7 +11,7 @@
 namespace mapscore {
 namespace {
 
-constexpr double kMostApart_m = 10.0;  // of two cameras of one robot
+constexpr double kMostApart_m = 10.0;  // of what one robot carries
 
 void check(const CameraModel& camera, const std::string& name) {
   if (camera.width_px < 1 || camera.height_px < 1)
@@ -25,17 +25,20 @@ void check(const CameraModel& camera, const std::string& name) {
     throw Error(name + " camera: its principal point is not finite; give it in pixels");
 }
 
+/// A pose of the depth camera in something that the same robot carries.
+void check(const Pose& T_other_depth, const std::string& name, const std::string& other) {
+  if (!T_other_depth.matrix().allFinite() || T_other_depth.translation().norm() > kMostApart_m)
+    throw Error(name + ": not finite, or more than 10 m; give the depth camera's pose in " + other +
+                ", in metres");
+}
+
 }  // namespace
 
 void check(const Calibration& calibration) {
   check(calibration.color, "colour");
   check(calibration.depth, "depth");
-  if (!calibration.T_color_depth.matrix().allFinite())
-    throw Error("T_color_depth: not finite; give the depth camera's pose in the colour camera");
-  if (calibration.T_color_depth.translation().norm() > kMostApart_m)
-    throw Error(
-        "T_color_depth: the two cameras are more than 10 m apart; give the depth camera's pose "
-        "in the colour camera, in metres");
+  check(calibration.T_color_depth, "T_color_depth", "the colour camera");
+  check(calibration.T_base_depth, "T_base_depth", "the robot's base");
 }
 
 CameraModel CameraModel::from_hfov(int width_px, int height_px, double hfov_rad) {

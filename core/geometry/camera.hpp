@@ -44,7 +44,7 @@ struct Calibration {
 };
 
 /// Throws Error naming the camera unless both have pixels, positive focal lengths and a finite
-/// centre, and the pose between them is finite and at most 10 m long. Thread-safe.
+/// centre, and the depth camera's poses are finite and at most 10 m long. Thread-safe.
 void check(const Calibration& calibration);
 
 /// Depth images hold planar z in units of 1/5000 m (TUM RGB-D); 0 where there is none.

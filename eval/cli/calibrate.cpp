@@ -122,6 +122,8 @@ void keep_inputs(const CalibrateFlags& flags) {
   if (!flags.picture.empty() && fs::exists(picture) &&
       std::ranges::mismatch(folder, picture).in1 == folder.end())
     refuse("--picture", flags.picture, "may be an image of the recording");
+  if (!flags.picture.empty() && fs::equivalent(picture, flags.source.reading.cameras, none))
+    refuse("--picture", flags.picture, "is what --start names");
 }
 
 void calibrate(const CalibrateFlags& flags) {
@@ -164,7 +166,9 @@ void calibrate(const CalibrateFlags& flags) {
   if (!flags.picture.empty()) write_outlines(flags, from, sights, estimate);
   if (!is_known(estimate.verdict)) {
     std::cerr << fmt::format(
-        "mapscore: {} is not written: the frames do not tell the calibration\n", shown(flags.file));
+        "mapscore: {} is not written: the frames do not tell the calibration{}\n",
+        shown(flags.file),
+        std::filesystem::exists(flags.file) ? "; the one that is there is of an earlier run" : "");
     *flags.exit_code = 1;
     return;
   }

@@ -95,20 +95,24 @@ void write_all(const std::vector<Segment>& segments, const ClassTable& table,
 }
 
 /// What edge_aligned mended, of a frame with detections.
-std::string fit_text(const LabelledDepth& labelled) {
+std::string fit_text(const LabelledDepth& labelled, OutlineFit fitted) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   const OutlineAlignment& fit = labelled.alignment;
   if (fit.score == 0)
     return "fit: none, too few depth edges lie about outlines; masks lie as the calibration has "
            "them\n";
-  const Eigen::AngleAxisf turn(fit.rotation);
-  const Eigen::Vector3d degrees = (turn.angle() * turn.axis()).cast<double>() / kDegree;
-  std::string text = fmt::format(
-      "fit: turned by {:.2f} and {:.2f} degrees about x and y of color_optical, shifted by {:.1f} "
-      "and {:.1f} mm along them; objects end {:.1f} px {} their masks; depth edges lie on {:.2f} "
-      "of the outlines",
-      degrees.x(), degrees.y(), 1e3 * fit.translation.x(), 1e3 * fit.translation.y(),
-      std::abs(fit.offset_px), fit.offset_px < 0 ? "within" : "beyond", fit.score);
+  std::string text = "fit: ";
+  if (fitted == OutlineFit::calibration) {
+    const Eigen::AngleAxisf turn(fit.rotation);
+    const Eigen::Vector3d degrees = (turn.angle() * turn.axis()).cast<double>() / kDegree;
+    text += fmt::format(
+        "turned by {:.2f} and {:.2f} degrees about x and y of color_optical, shifted by {:.1f} and "
+        "{:.1f} mm along them; ",
+        degrees.x(), degrees.y(), 1e3 * fit.translation.x(), 1e3 * fit.translation.y());
+  }
+  text +=
+      fmt::format("objects end {:.1f} px {} their masks; depth edges lie on {:.2f} of the outlines",
+                  std::abs(fit.offset_px), fit.offset_px < 0 ? "within" : "beyond", fit.score);
   if (labelled.confidence)
     text += fmt::format("; right within 2 px with a probability of {:.2f}", *labelled.confidence);
   return text + '\n';
@@ -136,7 +140,7 @@ void write_segments(const SegmentFlags& flags) {
   if (sight.detections().empty())
     std::cout << "no object is detected in this frame\n";
   else if (const auto* edge_aligned = std::get_if<EdgeAligned>(&segmentation))
-    std::cout << fit_text(label_surfaces(sight, *edge_aligned));
+    std::cout << fit_text(label_surfaces(sight, *edge_aligned), edge_aligned->fit);
   try {
     write_all(segments, table, calibration.T_base_depth, folder);
   } catch (...) {  // a part of the files would keep the next run out

@@ -18,14 +18,14 @@ namespace mapscore::eval {
 namespace {
 
 /// Least and most depth that counts where nothing says otherwise, metres.
-constexpr double kRangeMin_m = 0.1, kRangeMax_m = 10.0;
+constexpr double kRangeMin_m = 0.1, kRangeMax_m = 10.0, kFarthest_m = 100.0;
 constexpr double kMostOffset_s = 10.0;
 
 CameraModel pinhole_of(const std::vector<double>& numbers, const std::string& text) {
   if (numbers.size() != 4 || numbers[0] <= 0.0 || numbers[1] <= 0.0)
     throw Error(
-        fmt::format("--intrinsics: '{}' is not fx,fy,cx,cy in pixels, fx and fy above 0; "
-                    "undistort images of a camera with more",
+        fmt::format("cameras: '{}' is not fx,fy,cx,cy in pixels, fx and fy above 0; undistort "
+                    "images of a camera with more",
                     text));
   return {0, 0, numbers[0], numbers[1], numbers[2], numbers[3]};
 }
@@ -41,27 +41,34 @@ std::string pinhole_text(const CameraModel& camera) {
                      camera.cx_px, camera.cy_px);
 }
 
-BelievedCameras read_camera_file(const std::filesystem::path& file) {
+/// Of a folder that says nothing of its cameras: depth is registered to colour, and poses are
+/// those of that camera.
+Calibration registered(const CameraModel& color) {
+  Calibration calibration{color, color, Pose::Identity(), Pose::Identity()};
+  calibration.range_min_m = kRangeMin_m;
+  calibration.range_max_m = kRangeMax_m;
+  return calibration;
+}
+
+BelievedCameras read_camera_file(const std::filesystem::path& file,
+                                 const std::optional<Calibration>& otherwise) {
   const YamlValue root = load_yaml(file);
   root.only({"color", "depth", "T_color_depth", "T_base_depth", "range_min_m", "range_max_m",
              "time_offset_s", "estimate"});
-  const auto pose_at = [&](const char* key) {
-    return root.has(key) ? pose_of(root.at(key)) : Pose::Identity();
-  };
-  const auto number_at = [&](const char* key, double otherwise) {
-    return root.has(key) ? root.at(key).number() : otherwise;
-  };
-  BelievedCameras cameras;
+  const CameraModel color = pinhole_of(root.at("color"));
+  BelievedCameras cameras{otherwise.value_or(registered(color)), 0};
   Calibration& calibration = cameras.calibration;
-  calibration.color = calibration.depth = pinhole_of(root.at("color"));
+  calibration.color = color;
   if (root.has("depth")) calibration.depth = pinhole_of(root.at("depth"));
-  calibration.T_color_depth = pose_at("T_color_depth");
-  calibration.T_base_depth = pose_at("T_base_depth");
-  calibration.range_min_m = number_at("range_min_m", kRangeMin_m);
-  calibration.range_max_m = number_at("range_max_m", kRangeMax_m);
-  if (calibration.range_min_m < 0.0 || calibration.range_max_m <= calibration.range_min_m)
-    root.fail("expected 0 <= range_min_m < range_max_m");
-  cameras.time_offset_s = number_at("time_offset_s", 0.0);
+  if (root.has("T_color_depth")) calibration.T_color_depth = pose_of(root.at("T_color_depth"));
+  if (root.has("T_base_depth")) calibration.T_base_depth = pose_of(root.at("T_base_depth"));
+  if (root.has("range_min_m")) calibration.range_min_m = root.at("range_min_m").number();
+  if (root.has("range_max_m")) calibration.range_max_m = root.at("range_max_m").number();
+  const bool in_order = calibration.range_min_m >= 0.0 &&
+                        calibration.range_max_m > calibration.range_min_m &&
+                        calibration.range_max_m <= kFarthest_m;
+  if (!in_order) root.fail("expected 0 <= range_min_m < range_max_m <= 100");
+  if (root.has("time_offset_s")) cameras.time_offset_s = root.at("time_offset_s").number();
   if (!(std::abs(cameras.time_offset_s) <= kMostOffset_s))
     root.at("time_offset_s").fail("expected seconds from -10 to 10");
   return cameras;
@@ -69,13 +76,12 @@ BelievedCameras read_camera_file(const std::filesystem::path& file) {
 
 }  // namespace
 
-BelievedCameras read_cameras(const std::string& text) {
+BelievedCameras read_cameras(const std::string& text, const std::optional<Calibration>& otherwise) {
   const auto numbers = parse_numbers(text, text.size());
-  if (!numbers) return read_camera_file(text);
-  BelievedCameras cameras;
-  cameras.calibration.color = cameras.calibration.depth = pinhole_of(*numbers, text);
-  cameras.calibration.range_min_m = kRangeMin_m;
-  cameras.calibration.range_max_m = kRangeMax_m;
+  if (!numbers) return read_camera_file(text, otherwise);
+  const CameraModel color = pinhole_of(*numbers, text);
+  BelievedCameras cameras{otherwise.value_or(registered(color)), 0};
+  cameras.calibration.color = color;
   return cameras;
 }
 

@@ -84,7 +84,8 @@ void LabelledFolder::read_meaning() {
     classes_ = {info.table, true, {}};
   }
   if (!options_.cameras.empty()) {
-    const BelievedCameras cameras = read_cameras(options_.cameras);
+    const BelievedCameras cameras =
+        read_cameras(options_.cameras, is_ours ? std::optional(calibration_) : std::nullopt);
     calibration_ = cameras.calibration;
     time_offset_s_ = cameras.time_offset_s;
   }
@@ -214,7 +215,7 @@ void LabelledFolder::check_cameras() const {
     for (const double focal_px : {camera.fx_px, camera.fy_px})
       if (!(focal_px > camera.width_px / kWidest && focal_px < camera.width_px * kNarrowest))
         throw Error(
-            fmt::format("--intrinsics: a focal length of {} px is none of {} images that are {} px "
+            fmt::format("cameras: a focal length of {} px is none of {} images that are {} px "
                         "wide; give pixels, from {} to {} times the width",
                         focal_px, name, camera.width_px, 1 / kWidest, kNarrowest));
     const bool inside = camera.cx_px >= 0.0 && camera.cy_px >= 0.0 &&
@@ -222,7 +223,7 @@ void LabelledFolder::check_cameras() const {
                         camera.cy_px <= camera.height_px - 1.0;
     if (!inside)
       throw Error(
-          fmt::format("--intrinsics: the principal point ({}, {}) lies outside the {} images, {} x "
+          fmt::format("cameras: the principal point ({}, {}) lies outside the {} images, {} x "
                       "{}; give the intrinsics of images of this size",
                       camera.cx_px, camera.cy_px, name, camera.width_px, camera.height_px));
   };

@@ -39,6 +39,10 @@ constexpr std::array<CorrectionNumber, CalibrationCorrection::kAxes> kCorrection
     {"time offset", "ms", 1e3, "time_offset_s"},
 }};
 
+constexpr std::string_view kMayBeWorse =
+    "\nnote: it is likely better than the start, but lies so near to it that it may be worse; more "
+    "frames tell";
+
 /// Those that were looked for.
 std::vector<int> looked_for(const CalibrationEstimate& estimate) {
   std::vector<int> axes;
@@ -71,8 +75,7 @@ std::string calibration_summary(const CalibrationEstimate& estimate) {
   const std::string word(word_of(estimate.verdict));
   const std::string verdict =
       estimate.verdict == CalibrationVerdict::calibrated
-          ? fmt::format("{}: {}{}{}", word, found,
-                        estimate.reason.empty() ? "" : "\nnote: ", estimate.reason)
+          ? fmt::format("{}: {}{}", word, found, estimate.may_be_worse ? kMayBeWorse : "")
       : estimate.verdict == CalibrationVerdict::confirmed
           ? fmt::format("{}: {}; it is kept\nfound: {}", word, estimate.reason, found)
           : fmt::format("{}: {}\nfound, and not used: {}", word, estimate.reason, found);
@@ -132,10 +135,7 @@ std::string estimate_yaml(const CalibrationEstimate& estimate, const Calibration
       "  numbers: [{}]\n"
       "  change: [{}]\n"
       "  covariance:\n{}",
-      word_of(estimate.verdict),
-      estimate.verdict == CalibrationVerdict::calibrated && !estimate.reason.empty()
-          ? "  may_be_worse: true\n"
-          : "",
+      word_of(estimate.verdict), estimate.may_be_worse ? "  may_be_worse: true\n" : "",
       start.color.fx_px, start.color.fy_px, start.color.cx_px, start.color.cy_px,
       join_numbers(numbers_of(start.T_color_depth), ", "), estimate.frames.size(), estimate.objects,
       estimate.explained_start, estimate.explained, estimate.condition,

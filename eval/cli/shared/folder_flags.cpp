@@ -33,8 +33,8 @@ void FolderFlags::add_to(CLI::App& to, const std::string& cameras, const std::st
     return to.add_option(name, value, text)->group(kGroup);
   };
   add("--intrinsics," + cameras, reading.cameras,
-      "fx,fy,cx,cy in pixels, or a YAML file, as `calibrate` writes it; needed without "
-      "recording.yaml");
+      "fx,fy,cx,cy in pixels, or a YAML file, as `calibrate` writes it; what it leaves out is "
+      "recording.yaml's; needed without that file");
   add("--classes", reading.classes,
       "YAML file: what the pixels of label images mean; needed without recording.yaml");
   add("--masks", masks,
@@ -80,7 +80,7 @@ TrialFolder FolderFlags::trial(const std::vector<std::string>& groups,
           option->get_name(), shown(folder)));
   TrialFolder read(folder);
   if (reading.cameras.empty()) return read;
-  const BelievedCameras cameras = read_cameras(reading.cameras);
+  const BelievedCameras cameras = read_cameras(reading.cameras, read.sheet().believed);
   if (cameras.time_offset_s != 0.0)
     throw Error(fmt::format(
         "{}: time_offset_s has no effect on {}, a trial's folder, whose images are paired already; "

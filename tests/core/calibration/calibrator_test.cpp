@@ -152,8 +152,8 @@ TEST(Calibrator, SaysWhereTheStartMayBeBetter) {
         estimated(scene, scene.off_by(scale * shift, scale * turn), 12);
     ASSERT_TRUE(is_known(estimate.verdict)) << estimate.reason;
     stages.push_back(estimate.verdict == CalibrationVerdict::confirmed ? 2
-                     : estimate.reason.empty()                         ? 0
-                                                                       : 1);
+                     : estimate.may_be_worse                           ? 1
+                                                                       : 0);
   }
   EXPECT_TRUE(std::ranges::is_sorted(stages));
   for (const int stage : {0, 1, 2}) EXPECT_GT(std::ranges::count(stages, stage), 0) << stage;
@@ -238,6 +238,9 @@ TEST(Calibrator, CamerasThatStandInDifferentRoomsAreRefused) {
   const BoardScene scene;
   EXPECT_THROW(Calibrator(scene.off_by({1e300, 0, 0}, {0, 0, 0})), Error);
   EXPECT_THROW(Calibrator(scene.off_by({0, 11, 0}, {0, 0, 0})), Error);
+  Calibration far_base = scene.truth();
+  far_base.T_base_depth.translation().z() = 1e300;
+  EXPECT_THROW(Calibrator{far_base}, Error);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "tests/end_to_end/program.hpp"
 #include "tests/support/tiny_recording.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -148,6 +149,12 @@ TEST_F(CalibrateVerb, TooLittleInViewIsRefusedAndNothingWritten) {
   EXPECT_THAT(outcome.out, HasSubstr("undetermined: "));
   EXPECT_THAT(outcome.err, HasSubstr("is not written"));
   EXPECT_FALSE(fs::exists(path("none.yaml")));
+
+  const std::string earlier = "color: {}\nestimate: {}\n";
+  write_text(path("earlier.yaml"), earlier);
+  EXPECT_THAT(calibrate("recording", "earlier.yaml", {"--frames", "0", "--detect", "fridge"}).err,
+              HasSubstr("of an earlier run"));
+  EXPECT_EQ(bytes_of(path("earlier.yaml")), earlier);
 }
 
 TEST_F(CalibrateVerb, PixelsThatAllHaveAClassTellItToo) {
@@ -167,6 +174,20 @@ TEST_F(CalibrateVerb, WhatIsReadIsNotWrittenOver) {
   expect_refused(
       calibrate("recording/", "x.yaml", {"--picture", path("recording/label/000000.png")}),
       {"--picture", "may be an image of the recording"});
+  fs::copy_file(start, path("start.png"));
+  expect_refused(calibrate("recording", "x.yaml",
+                           {"--start", path("start.png"), "--picture", path("start.png")}),
+                 {"--picture", "is what --start names"});
+}
+
+TEST_F(CalibrateVerb, AStartMayNameTheColourCameraAlone) {
+  const auto& [width, height, fx, fy, cx, cy] = truth().color;
+  write_text(
+      path("colour.yaml"),
+      fmt::format("color: {{fx_px: {}, fy_px: {}, cx_px: {}, cy_px: {}}}\n", fx, fy, cx, cy));
+  expect_done(calibrate("recording", "own.yaml"));
+  expect_done(calibrate("recording", "colour_alone.yaml", {"--start", path("colour.yaml")}));
+  EXPECT_EQ(bytes_of(path("own.yaml")), bytes_of(path("colour_alone.yaml")));
 }
 
 TEST_F(CalibrateVerb, BadInputIsRefused) {

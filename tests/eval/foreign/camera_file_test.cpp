@@ -35,7 +35,6 @@ TEST_F(CameraFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read.calibration.color.fx_px, written.calibration.color.fx_px);
   EXPECT_EQ(read.calibration.depth.cy_px, written.calibration.depth.cy_px);
   EXPECT_EQ(read.calibration.range_max_m, written.calibration.range_max_m);
-  EXPECT_EQ(read.calibration.color.width_px, 0) << "the images say it";
 }
 
 TEST_F(CameraFile, FourNumbersAreDepthThatIsRegisteredToColour) {
@@ -43,8 +42,33 @@ TEST_F(CameraFile, FourNumbersAreDepthThatIsRegisteredToColour) {
   EXPECT_EQ(cameras.calibration.color, cameras.calibration.depth);
   EXPECT_EQ(cameras.calibration.depth.fy_px, 510);
   EXPECT_EQ(cameras.time_offset_s, 0);
-  testing::expect_error("--intrinsics: '500,510,320' is not fx,fy,cx,cy",
+  testing::expect_error("cameras: '500,510,320' is not fx,fy,cx,cy",
                         [] { (void)read_cameras("500,510,320"); });
+}
+
+TEST_F(CameraFile, WhatIsLeftOutIsAsTheFolderSays) {
+  const Calibration own = testing::tiny_info().calibration;
+  for (const std::string& text :
+       {file("color: {fx_px: 500, fy_px: 510, cx_px: 320, cy_px: 240}\nrange_max_m: 5\n"),
+        std::string("500,510,320,240")}) {
+    const Calibration read = read_cameras(text, own).calibration;
+    EXPECT_EQ(read.color.fy_px, 510) << text;
+    EXPECT_EQ(read.depth, own.depth) << text;
+    EXPECT_TRUE(read.T_color_depth.isApprox(own.T_color_depth)) << text;
+    EXPECT_TRUE(read.T_base_depth.isApprox(own.T_base_depth)) << text;
+    EXPECT_EQ(read.range_min_m, own.range_min_m) << text;
+  }
+  EXPECT_EQ(read_cameras(file("color: {fx_px: 500, fy_px: 510, cx_px: 320, cy_px: 240}\n"
+                              "range_max_m: 5\n"),
+                         own)
+                .calibration.range_max_m,
+            5);
+}
+
+TEST_F(CameraFile, ARangeBeyondAnyDepthImageIsRefused) {
+  const std::string color = "color: {fx_px: 500, fy_px: 500, cx_px: 320, cy_px: 240}\n";
+  testing::expect_error("range_max_m <= 100",
+                        [&] { (void)read_cameras(file(color + "range_max_m: 1e300\n")); });
 }
 
 TEST_F(CameraFile, WhatAnEstimateSaysOfItselfIsLetThrough) {
