@@ -135,52 +135,6 @@ double OutlineEvidence::coarse_match(const CalibrationCorrection& correction,
   return static_cast<double>(sum) * static_cast<double>(stride) / 255.0;
 }
 
-std::uint16_t OutlineEvidence::owner_at(const Eigen::Vector2f& at) const {
-  const int u = static_cast<int>(std::lround(at.x())), v = static_cast<int>(std::lround(at.y()));
-  const bool inside = u >= 0 && v >= 0 && u < field_.owner.cols && v < field_.owner.rows;
-  return inside ? field_.owner(v, u) : std::uint16_t{0};
-}
-
-EdgeMatch OutlineEvidence::match_of(const Edge& edge, const Eigen::Vector2f& at, float offset_px,
-                                    float sigma_px) const {
-  EdgeMatch match = match_edge(field_, at, edge.outward, edge.strength, offset_px, sigma_px);
-  const int u = static_cast<int>(at.x()), v = static_cast<int>(at.y());
-  if (!(at.x() >= 0 && at.y() >= 0) || u + 1 >= field_.owner.cols || v + 1 >= field_.owner.rows)
-    return match;
-  const std::array<std::uint16_t, 4> owners{field_.owner(v, u), field_.owner(v, u + 1),
-                                            field_.owner(v + 1, u), field_.owner(v + 1, u + 1)};
-  const std::uint16_t here = owner_at(at);
-  const bool at_contact = std::ranges::any_of(
-      owners, [&](std::uint16_t owner) { return owner != 0 && here != 0 && owner != here; });
-  std::uint16_t nearer = 0;  // that ends at the edge
-  if (at_contact) {
-    nearer = owner_at(at - 0.75F * edge.outward);
-  } else if (match.facing < 0 && here != 0) {
-    const float value = match.residual + offset_px;
-    nearer = owner_at(at + (std::abs(value) + 1.0F) * match.gradient.normalized());
-    if (nearer == here) nearer = 0;
-  }
-  if (nearer == 0) {
-    if (match.facing < 0) match.weight = 0;
-    return match;
-  }
-  const auto distance = [&](int du, int dv) {
-    const float d = field_.distance(v + dv, u + du);
-    const std::uint16_t owner = field_.owner(v + dv, u + du);
-    return owner == nearer || owner == 0 ? d : -d;
-  };
-  const float a = at.x() - static_cast<float>(u), b = at.y() - static_cast<float>(v);
-  const BetweenPixels beyond(distance(0, 0), distance(1, 0), distance(0, 1), distance(1, 1), a, b);
-  match.residual = beyond.value - offset_px;
-  match.gradient = beyond.gradient;
-  match.facing = match.gradient.dot(edge.outward);
-  const float spreads = match.residual / sigma_px;
-  match.weight = match.facing > 0 && std::abs(spreads) <= 3
-                     ? edge.strength * match.facing * std::exp(-0.5F * spreads * spreads)
-                     : 0.0F;
-  return match;
-}
-
 double OutlineEvidence::explained(const CalibrationCorrection& correction, float sigma_px) const {
   const Seen seen(*this, correction);
   std::array<cv::Mat1f, 4> votes;
@@ -190,9 +144,10 @@ double OutlineEvidence::explained(const CalibrationCorrection& correction, float
     const Eigen::Vector3f p = seen.R * edge.p + seen.t;
     if (!(p.z() > kNearest_m)) continue;
     const Eigen::Vector2f at = seen.project(p);
-    const EdgeMatch match = match_of(edge, at, seen.offset_px, sigma_px);
+    const EdgeMatch match =
+        match_edge(field_, at, edge.outward, edge.strength, seen.offset_px, sigma_px, 0);
     if (match.weight <= 0) continue;
-    const Eigen::Vector2f foot = at - (match.residual + seen.offset_px) * match.gradient;
+    const Eigen::Vector2f foot = at - match.distance * match.gradient;
     const int u = static_cast<int>(foot.x() / OutlineField::kCell_px),
               v = static_cast<int>(foot.y() / OutlineField::kCell_px);
     if (foot.x() < 0 || foot.y() < 0 || u >= votes[0].cols || v >= votes[0].rows) continue;
@@ -210,11 +165,12 @@ OutlineEquation OutlineEvidence::equation_of(const Edge& edge, const Seen& seen,
   const Eigen::Vector3f p = seen.R * edge.p + seen.t;
   if (!(p.z() > kNearest_m)) return equation;
   const Eigen::Vector2f at = seen.project(p);
-  const EdgeMatch match = match_of(edge, at, seen.offset_px, sigma_px);
+  const EdgeMatch match =
+      match_edge(field_, at, edge.outward, edge.strength, seen.offset_px, sigma_px, 0);
   if (match.weight <= 0) return equation;
   equation.weight = static_cast<double>(match.weight);
   equation.residual = static_cast<double>(match.residual);
-  const Eigen::Vector2f inside = at - (match.residual + seen.offset_px + 1.0F) * match.gradient;
+  const Eigen::Vector2f inside = at - (match.distance + 1.0F) * match.gradient;
   const int u = std::clamp(static_cast<int>(inside.x() + 0.5F), 0, field_.owner.cols - 1),
             v = std::clamp(static_cast<int>(inside.y() + 0.5F), 0, field_.owner.rows - 1);
   equation.object = field_.owner(v, u);
@@ -234,7 +190,7 @@ OutlineEquation OutlineEvidence::equation_of(const Edge& edge, const Seen& seen,
   equation.slope[Axis::centre_u] = static_cast<double>(match.gradient.x());
   equation.slope[Axis::centre_v] = static_cast<double>(match.gradient.y());
   equation.slope[Axis::time] = g.dot(moving);
-  equation.slope[CalibrationCorrection::kMaskSize] = -1.0;
+  equation.slope[CalibrationCorrection::kMaskSize] = match.at_border ? 0.0 : -1.0;
   return equation;
 }
 

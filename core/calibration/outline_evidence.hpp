@@ -93,14 +93,6 @@ class OutlineEvidence {
       return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy};
     }
   };
-  /// As match_edge, but where two masks touch the outline is that of the nearer object, which ends
-  /// at the edge: on the other mask the distance counts as beyond it. Weight 0 where the edge faces
-  /// against the outline of a mask that has none beside it: that stands before the mask, or is
-  /// clutter beside it, on one side alone.
-  [[nodiscard]] EdgeMatch match_of(const Edge& edge, const Eigen::Vector2f& at, float offset_px,
-                                   float sigma_px) const;
-  /// 0 beyond the image.
-  [[nodiscard]] std::uint16_t owner_at(const Eigen::Vector2f& at) const;
   [[nodiscard]] OutlineEquation equation_of(const Edge& edge, const Seen& seen,
                                             float sigma_px) const;
 

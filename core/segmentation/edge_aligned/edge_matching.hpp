@@ -8,8 +8,6 @@
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 namespace mapscore {
@@ -67,31 +65,25 @@ struct BetweenPixels {
 struct EdgeMatch {
   float weight = 0;                ///< 0 where it meets no outline
   float residual = 0;              ///< distance beyond where the object should end, px
+  float distance = 0;              ///< the same from its mask's outline
   float facing = 0;                ///< cosine between edge and outline
   Eigen::Vector2f gradient{0, 0};  ///< of the residual
+  bool at_border = false;          ///< of two masks, which does not move with the masks' size
 };
 
-/// weight = strength * (facing, or kOtherWay * -facing) * exp(-residual^2 / (2 sigma^2)), 0 beyond
-/// 3 sigma; residual = distance - offset, interpolated between pixels.
-[[nodiscard]] inline EdgeMatch match_edge(const OutlineField& field, const Eigen::Vector2f& at,
-                                          const Eigen::Vector2f& outward, float strength,
-                                          float offset_px, float sigma_px) {
-  EdgeMatch match;
-  if (!(at.x() >= 0 && at.y() >= 0)) return match;
-  const int u = static_cast<int>(at.x()), v = static_cast<int>(at.y());
-  if (u + 1 >= field.distance.cols || v + 1 >= field.distance.rows) return match;
-  const float* top = field.distance[v] + u;
-  const float* low = field.distance[v + 1] + u;
-  const float a = at.x() - static_cast<float>(u), b = at.y() - static_cast<float>(v);
-  const BetweenPixels distance(top[0], top[1], low[0], low[1], a, b);
-  match.residual = distance.value - offset_px;
-  if (std::abs(match.residual) > 3 * sigma_px) return match;
-  match.gradient = distance.gradient;
-  match.facing = match.gradient.dot(outward);
-  constexpr auto kOtherWay = static_cast<float>(OutlineField::kOtherWay);
-  match.weight = strength * (match.facing > 0 ? match.facing : -kOtherWay * match.facing) *
-                 std::exp(-0.5F * match.residual * match.residual / (sigma_px * sigma_px));
-  return match;
-}
+/// Matches an edge with the nearest outline: weight = strength * (facing, or against * -facing) *
+/// exp(-residual^2 / (2 sigma^2)), 0 beyond 3 sigma; residual = distance - offset, interpolated
+/// between pixels.
+///
+/// Where two masks touch, their border is the outline of the nearer object alone, which ends at the
+/// edge: on the other mask the distance counts as beyond it, so it is 0 on the border and goes on
+/// evenly, whereas OutlineField::distance is negative on both sides, with a ridge between. Objects
+/// that touch have no room for an offset there.
+///
+/// `against`: what faces against its outline weighs, since something may stand in front there.
+[[nodiscard]] EdgeMatch match_edge(const OutlineField& field, const Eigen::Vector2f& at,
+                                   const Eigen::Vector2f& outward, float strength, float offset_px,
+                                   float sigma_px,
+                                   float against = static_cast<float>(OutlineField::kOtherWay));
 
 }  // namespace mapscore

@@ -208,7 +208,7 @@ class Aligner {
     for (std::size_t n = 0; n < edges_.size(); n += stride) {
       const Match m = match(edges_[n], a, sigma);
       if (m.weight <= 0) continue;
-      const Eigen::Vector2f foot = project_(m.p) - (m.residual + a.offset_px) * m.gradient;
+      const Eigen::Vector2f foot = project_(m.p) - m.distance * m.gradient;
       const int u = static_cast<int>(foot.x() / OutlineField::kCell_px),
                 v = static_cast<int>(foot.y() / OutlineField::kCell_px);
       if (foot.x() < 0 || foot.y() < 0 || u >= votes_[0].cols || v >= votes_[0].rows) continue;
@@ -236,7 +236,8 @@ class Aligner {
         const float gu = m.gradient.x() * project_.fx, gv = m.gradient.y() * project_.fy;
         Parameters J;
         J << (-gu * x * y - gv * (1 + y * y)) / project_.fx,
-            (gu * (1 + x * x) + gv * x * y) / project_.fx, gu / m.p.z(), gv / m.p.z(), -1.0F;
+            (gu * (1 + x * x) + gv * x * y) / project_.fx, gu / m.p.z(), gv / m.p.z(),
+            m.at_border ? 0.0F : -1.0F;
         matched += m.weight, squares += m.weight * m.residual * m.residual;
         H.noalias() += m.weight * J * J.transpose();
         b.noalias() -= m.weight * m.residual * J;

@@ -46,18 +46,17 @@ const std::uint16_t* next_of(const std::uint16_t* from, const std::uint16_t* end
   return std::find_if(from, end, [](std::uint16_t x) { return x != 0; });
 }
 
-/// Outline elements by the way they face, counted in cells.
-std::array<cv::Mat1f, 4> counted(const cv::Mat1w& masks, int& length_px) {
-  std::array<cv::Mat1f, 4> cells;
-  for (cv::Mat1f& map : cells)
+/// Counts the outline elements by the way they face, in cells.
+void count_elements(const cv::Mat1w& masks, OutlineField& field) {
+  for (cv::Mat1f& map : field.elements)
     map = cv::Mat1f(masks.rows / OutlineField::kCell_px + 1,
                     masks.cols / OutlineField::kCell_px + 1, 0.0F);
   const auto count = [&](Outward way, int v, int u) {
-    ++length_px;
-    cells[static_cast<std::size_t>(way)](v / OutlineField::kCell_px, u / OutlineField::kCell_px) +=
-        1.0F;
+    ++field.length_px;
+    field.elements[static_cast<std::size_t>(way)](v / OutlineField::kCell_px,
+                                                  u / OutlineField::kCell_px) += 1.0F;
   };
-  if (masks.empty()) return cells;
+  if (masks.empty()) return;
   const int last = masks.cols - 1;
   std::vector<std::uint16_t> changes(static_cast<std::size_t>(masks.cols));
   std::uint16_t* const change = changes.data();
@@ -74,14 +73,15 @@ std::array<cv::Mat1f, 4> counted(const cv::Mat1w& masks, int& length_px) {
       if (next != own) {
         if (own != 0) count(Outward::right, v, u);
         if (next != 0) count(Outward::left, v, u + 1);
+        field.has_borders = field.has_borders || (own != 0 && next != 0);
       }
       if (below[u] != own) {
         if (own != 0) count(Outward::down, v, u);
         if (below[u] != 0) count(Outward::up, v + 1, u);
+        field.has_borders = field.has_borders || (own != 0 && below[u] != 0);
       }
     }
   }
-  return cells;
 }
 
 void fill_far(const cv::Mat1w& owner, cv::Mat1f& distance) {
@@ -165,7 +165,7 @@ OutlineField outline_field(const std::vector<Detection>& detections, int width_p
   OutlineField field;
   field.owner = painted(detections, width_px, height_px);
   field.distance = cv::Mat1f(height_px, width_px);
-  field.elements = counted(field.owner, field.length_px);
+  count_elements(field.owner, field);
   field.coarse = coarse_maps(field.elements);
   const cv::Rect window = window_of(detections, {width_px, height_px}, reach_px);
   const bool outlined = field.length_px > 0 && !window.empty();

@@ -26,7 +26,8 @@ struct OutlineField {
   /// Number of outline elements that face each way, by cell. An element is a pair of neighbouring
   /// pixels on either side of an outline, counted for each owner.
   std::array<cv::Mat1f, 4> elements;
-  int length_px = 0;  ///< number of all outline elements
+  int length_px = 0;         ///< number of all outline elements
+  bool has_borders = false;  ///< some masks touch
 
   static constexpr float kFar = 1e4F;
   /// Weight of what faces against the outline it lies on: something stands in front there.

@@ -5,9 +5,9 @@
 
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
 #include "core/segmentation/edge_aligned/filled_slits.hpp"
-#include "core/segmentation/edge_aligned/hole_shadows.hpp"
 #include "core/segmentation/edge_aligned/settled_depth.hpp"
 #include "core/segmentation/edge_aligned/surface_average.hpp"
+#include "core/segmentation/edge_aligned/unseen_occluders.hpp"
 #include "core/wide_vectors.hpp"
 
 #include <opencv2/imgproc.hpp>
@@ -123,7 +123,7 @@ class Voting {
         if (cells[u] >= 0 && in[u] > hits[cells[u]]) hits[cells[u]] = in[u];
     }
     cv::dilate(hit, nearest_, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
-    behind_hole_ = hole_shadows(edges_, cells_, field_, alignment_, believed_);
+    behind_unseen_ = unseen_occluders(edges_, cells_, field_, alignment_, believed_);
   }
 
   Votes collect() {
@@ -142,7 +142,7 @@ class Voting {
       const int* cells = cells_[v];
       std::uint16_t* owner = votes.owner[v];
       float *depth_in = votes.depth_in[v], *weight = votes.weight[v];
-      const std::uint8_t* behind_hole = behind_hole_.empty() ? nullptr : behind_hole_[v];
+      const std::uint8_t* behind_unseen = behind_unseen_[v];
       for (int u = 0; u < w.cols; ++u) {
         const int cell = cells[u];
         if (!(in[u] > 0) || cell < 0) continue;
@@ -154,7 +154,7 @@ class Voting {
           depth_in[u] = -distance[cell];
         const float behind = nearest[cell] * (1.0F - kHidden) - kNoise * edges_.noise - in[u];
         const bool hidden = behind > 0 && behind > kSlopes * slope_at(v, u);
-        if (hidden || (behind_hole != nullptr && behind_hole[u] != 0)) {
+        if (hidden || behind_unseen[u] != 0) {
           depth_in[u] = -1.0F, weight[u] = kHiddenVote;
           continue;
         }
@@ -208,7 +208,7 @@ class Voting {
   std::size_t detections_;
   cv::Mat1i cells_;  ///< by depth pixel: place in a colour image, row-major; -1 beyond it
   cv::Mat1f nearest_;
-  cv::Mat1b behind_hole_;  ///< by depth pixel; empty where nothing is
+  cv::Mat1b behind_unseen_;  ///< by depth pixel, 255 or 0
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/segmentation/edge_aligned/hole_shadows.hpp"
+#include "core/segmentation/edge_aligned/unseen_occluders.hpp"
 
 #include "plate_scene.hpp"
 
@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace mapscore {
 namespace {
@@ -21,14 +22,30 @@ cv::Mat1w labels_of(const PlateScene& scene) {
 
 /// What is nearer than the range is a hole, and what the colour camera has behind it is not its
 /// own.
-TEST(HoleShadows, HideWhatLiesBehindANearObject) {
+TEST(UnseenOccluders, HideWhatLiesBehindANearObject) {
   const PlateScene scene({{-0.1, 0.1, -0.1, 5.0, 0.45, 1}});
   ASSERT_GT(cv::countNonZero(scene.label()), 2000);
   EXPECT_EQ(cv::countNonZero(labels_of(scene)), 0);
 }
 
+/// A plate that only the colour camera sees: what it hides is the wall's. Where the depth camera
+/// sees it, and where it stands so far away that nothing hides it, it is whole.
+TEST(UnseenOccluders, HideWhatLiesBehindAnObjectBesideTheView) {
+  const PlateScene beside({{0.35, 0.6, -0.3, 0.3, 0.62, 1}});
+  ASSERT_GT(cv::countNonZero(beside.label()), 500);
+  ASSERT_EQ(cv::countNonZero(beside.depth_label()), 0);
+  EXPECT_EQ(cv::countNonZero(labels_of(beside)), 0);
+  for (const double z_m : {0.7, 2.9}) {
+    const double border_m = z_m * std::tan(0.5 * 58.4 * std::numbers::pi / 180);
+    const PlateScene seen({{border_m - 0.03 * z_m, border_m + 1, -0.3 * z_m, 0.3 * z_m, z_m, 1}});
+    const Agreement kept = agreement(labels_of(seen), seen.detections(), seen.depth_label());
+    EXPECT_GE(kept.precision, 0.99) << z_m;
+    EXPECT_GE(kept.recall, 0.97) << z_m;
+  }
+}
+
 /// A hole that reaches the lower border may be a near object, but no mask holds it.
-TEST(HoleShadows, HideNothingWhereAFloorEnds) {
+TEST(UnseenOccluders, HideNothingWhereAFloorEnds) {
   const PlateScene scene({{-0.4, 0.3, -0.3, 0.5, 1.5, 1}}, 1e9, 50.0);
   const Agreement kept = agreement(labels_of(scene), scene.detections(), scene.depth_label());
   EXPECT_GE(kept.precision, 0.99);
@@ -36,7 +53,7 @@ TEST(HoleShadows, HideNothingWhereAFloorEnds) {
 }
 
 /// A panel that comes nearer from left to right, and so ends at the least depth; its mask goes on.
-TEST(HoleShadows, DoNotHideTheSurfaceThatRunsOn) {
+TEST(UnseenOccluders, DoNotHideTheSurfaceThatRunsOn) {
   const Calibration camera = PlateScene({}).truth();
   DepthEdges edges;
   edges.inverse_depth = cv::Mat1f(240, 320);
@@ -55,9 +72,9 @@ TEST(HoleShadows, DoNotHideTheSurfaceThatRunsOn) {
           camera.color.project(camera.T_color_depth * camera.depth.back_project(u, v, z_m));
       cells(v, u) = u <= 200 && at.x() >= 0 ? v * 320 + static_cast<int>(at.x() + 0.5) : -1;
     }
-  EXPECT_EQ(cv::countNonZero(hole_shadows(edges, cells, field, {}, camera)), 0);
+  EXPECT_EQ(cv::countNonZero(unseen_occluders(edges, cells, field, {}, camera)), 0);
   edges.right.col(195).setTo(0.0F);  // a step: what lies left of it is something else
-  const cv::Mat1b hidden = hole_shadows(edges, cells, field, {}, camera);
+  const cv::Mat1b hidden = unseen_occluders(edges, cells, field, {}, camera);
   EXPECT_GT(cv::countNonZero(hidden), 0);
   EXPECT_EQ(cv::countNonZero(hidden.colRange(196, 201)), 0);
 }

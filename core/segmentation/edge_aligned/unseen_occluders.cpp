@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
-#include "core/segmentation/edge_aligned/hole_shadows.hpp"
+#include "core/segmentation/edge_aligned/unseen_occluders.hpp"
 
 #include <opencv2/imgproc.hpp>
 
@@ -22,10 +22,10 @@ constexpr double kRunsOnFrom = 1.3;    // in least ranges: a farther surface doe
 constexpr double kRunsOnUntil = 1.05;  // and one that does ends nearer than this
 constexpr int kHoleRim_px = 11;        // near holes leave out 4 pixels at their rims
 
-class Shadows {
+class Occluders {
  public:
-  Shadows(const DepthEdges& edges, const OutlineField& field, const OutlineAlignment& alignment,
-          const Calibration& believed)
+  Occluders(const DepthEdges& edges, const OutlineField& field, const OutlineAlignment& alignment,
+            const Calibration& believed)
       : edges_(edges), field_(field), offset_px_(alignment.offset_px), mended_(believed) {
     mended_.T_color_depth = alignment.corrected<double>(believed.T_color_depth);
     const Eigen::Vector3d& t = mended_.T_color_depth.translation();
@@ -72,6 +72,32 @@ class Shadows {
           marked(at -= next) = 255;
       }
     return marked;
+  }
+
+  /// Marks what objects beside the view may hide: `from_border` pixels from where they may stand.
+  void mark_beside_view(const cv::Mat1i& cells, cv::Mat1b& hidden) const {
+    const cv::Mat1f &w = edges_.inverse_depth, &on = in_rows_ ? edges_.right : edges_.down;
+    const Eigen::Vector3d color = mended_.T_color_depth.inverse().translation();
+    const double parallax_px =  // of a point at 1 m; what is nearer lies farther this way
+        in_rows_ ? mended_.depth.fx_px * color.x() : mended_.depth.fy_px * color.y();
+    const double nearest = 1 / mended_.range_min_m;
+    const int lines = in_rows_ ? w.rows : w.cols, length = in_rows_ ? w.cols : w.rows;
+    const int widest = std::min(length - 1, static_cast<int>(std::abs(parallax_px) * nearest) + 1);
+    for (int line = 0; line < lines; ++line) {
+      bool is_free = false;  // the surface has no mask where nothing beside the view may hide it
+      for (int from_border = widest; from_border >= 0; --from_border) {
+        const int n = parallax_px > 0 ? length - 1 - from_border : from_border;
+        const cv::Point at = place(line, n);
+        const cv::Point link = parallax_px > 0 ? place(line, n - 1) : at;  // to the pixel before
+        if (from_border == widest || !(on(link) >= 1.0F)) is_free = false;
+        if (!(w(at) > 0)) continue;
+        const bool has_mask = owner_at(cells(at)) != 0;
+        if (std::abs(parallax_px) * (nearest - static_cast<double>(w(at))) <= from_border)
+          is_free = !has_mask;
+        else if (is_free && has_mask)
+          hidden(at) = 255;
+      }
+    }
   }
 
  private:
@@ -128,14 +154,16 @@ class Shadows {
 
 }  // namespace
 
-cv::Mat1b hole_shadows(const DepthEdges& edges, const cv::Mat1i& cells, const OutlineField& field,
-                       const OutlineAlignment& alignment, const Calibration& believed) {
-  if (cv::countNonZero(edges.near_holes) == 0) return {};
-  const Shadows shadows(edges, field, alignment, believed);
-  const cv::Mat1b covered = shadows.covered();
-  if (cv::countNonZero(covered) == 0) return {};
-  const cv::Mat1b running_on = shadows.running_on();
+cv::Mat1b unseen_occluders(const DepthEdges& edges, const cv::Mat1i& cells,
+                           const OutlineField& field, const OutlineAlignment& alignment,
+                           const Calibration& believed) {
+  const Occluders occluders(edges, field, alignment, believed);
   cv::Mat1b hidden(cells.size(), std::uint8_t{0});
+  occluders.mark_beside_view(cells, hidden);
+  if (cv::countNonZero(edges.near_holes) == 0) return hidden;
+  const cv::Mat1b covered = occluders.covered();
+  if (cv::countNonZero(covered) == 0) return hidden;
+  const cv::Mat1b running_on = occluders.running_on();
   for (int v = 0; v < cells.rows; ++v)
     for (int u = 0; u < cells.cols; ++u)
       if (cells(v, u) >= 0 && covered[0][cells(v, u)] != 0 && running_on(v, u) == 0)
