@@ -176,14 +176,14 @@ class EdgeFinder {
   /// A hole of a row that begins after column p and ends before q, either perhaps the border.
   void beside_hole_in_row(int v, int p, int q) {
     const cv::Mat1f& w = edges_.inverse_depth;
-    if (edges_.near_holes(v, (p + q) / 2) != 0) return;
+    if (edges_.near_holes(v, (p + q) / 2) == kNearHole) return;
     if (p >= 0 && w(v, p) > farthest_) add(p + 0.5, v, w(v, p), Outward::right, 1.0F);
     if (q < w.cols && w(v, q) > farthest_) add(q - 0.5, v, w(v, q), Outward::left, 1.0F);
   }
 
   void beside_hole_in_column(int u, int p, int q) {
     const cv::Mat1f& w = edges_.inverse_depth;
-    if (edges_.near_holes((p + q) / 2, u) != 0) return;
+    if (edges_.near_holes((p + q) / 2, u) == kNearHole) return;
     if (p >= 0 && w(p, u) > farthest_) add(u, p + 0.5, w(p, u), Outward::down, 1.0F);
     if (q < w.rows && w(q, u) > farthest_) add(u, q - 0.5, w(q, u), Outward::up, 1.0F);
   }

@@ -30,14 +30,27 @@ cv::Mat1b near_holes(const cv::Mat1f& inverse_depth, double range_min_m) {
   const int count = cv::connectedComponents(hole, components);
   cv::Mat1b beside_near;
   cv::dilate(inverse_depth > 1.0 / (kNearRange * range_min_m), beside_near, square_px(3));
-  std::vector<char> is_near(static_cast<std::size_t>(count), 0);
+  struct Hole {
+    bool above = false, below = false,
+         beside_near = false;  ///< reaches a border, or something near
+  };
+  std::vector<Hole> holes(static_cast<std::size_t>(count));
   for (int v = 0; v < hole.rows; ++v)
-    for (int u = 0; u < hole.cols; ++u)
-      if (v + 1 == hole.rows || beside_near(v, u))
-        is_near[static_cast<std::size_t>(components(v, u))] = 1;
+    for (int u = 0; u < hole.cols; ++u) {
+      Hole& here = holes[static_cast<std::size_t>(components(v, u))];
+      here.above = here.above || v == 0;
+      here.below = here.below || v + 1 == hole.rows;
+      here.beside_near = here.beside_near || beside_near(v, u) != 0;
+    }
   for (int v = 0; v < hole.rows; ++v)
-    for (int u = 0; u < hole.cols; ++u)
-      if (!is_near[static_cast<std::size_t>(components(v, u))]) wide(v, u) = 0;
+    for (int u = 0; u < hole.cols; ++u) {
+      const Hole& here = holes[static_cast<std::size_t>(components(v, u))];
+      const std::uint8_t what = here.beside_near ? kNearHole
+                                : !here.below    ? std::uint8_t{0}
+                                : here.above     ? kOpenHole
+                                                 : kNearHole;
+      wide(v, u) = wide(v, u) != 0 ? what : std::uint8_t{0};
+    }
   return wide;
 }
 

@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <set>
+#include <vector>
 
 namespace mapscore {
 namespace {
@@ -37,6 +39,20 @@ TEST(DepthEdges, AreWhereASurfaceEnds) {
   EXPECT_EQ(steps_with_ledge(2.0, 0), (std::set{99.5, 149.5}));
   EXPECT_EQ(steps_with_ledge(2.05, 4), (std::set{95.5, 153.5}))
       << "a crease of 5 cm beside the plate's end is none";
+}
+
+/// A plate 2 m away whose right side ends before nothing, from the upper border to a row.
+TEST(DepthEdges, EndBeforeNothingButNotBeforeANearHole) {
+  const Calibration camera = testing::PlateScene({}).truth();
+  const auto ends = [&](const cv::Rect& hole) {
+    cv::Mat1w depth(240, 320, static_cast<std::uint16_t>(2.0 * kDepthUnitsPerMetre));
+    depth(hole).setTo(0);
+    const std::vector<DepthEdge> steps = find_depth_edges(depth, camera).steps;
+    return std::ranges::count(steps, Outward::right, &DepthEdge::outward);
+  };
+  EXPECT_EQ(ends({200, 0, 120, 200}), 200) << "nothing";
+  EXPECT_EQ(ends({200, 0, 120, 240}), 240) << "open: from the upper to the lower border";
+  EXPECT_LT(ends({200, 40, 120, 200}), 40) << "near: on the lower border alone";
 }
 
 TEST(DepthEdges, OfAnObjectBeforeAnotherStay) {

@@ -24,7 +24,16 @@ TEST(NearHoles, StandOnTheLowerBorder) {
   const cv::Mat1b near = near_holes(wall_with(before_the_robot), 0.6);
   const cv::Rect middle(34, 24, 12, 36);  // without 4 pixels inside of the hole's edges
   EXPECT_EQ(cv::countNonZero(near), middle.area());
-  EXPECT_EQ(cv::countNonZero(near(middle)), middle.area());
+  EXPECT_EQ(cv::countNonZero(near(middle) == kNearHole), middle.area());
+}
+
+TEST(NearHoles, AreOpenWhereNothingMayLieBeyondAFloor) {
+  cv::Mat1f inverse = wall_with({40, 0, 40, 60});
+  const cv::Mat1b open = near_holes(inverse, 0.6);
+  EXPECT_EQ(cv::countNonZero(open == kOpenHole), cv::countNonZero(open));
+  EXPECT_GT(cv::countNonZero(open), 0);
+  inverse.col(39).setTo(1.0F / 0.7F);
+  EXPECT_GT(cv::countNonZero(near_holes(inverse, 0.6) == kNearHole), 0) << "beside something near";
 }
 
 TEST(NearHoles, NothingInRangeBesideTheEndOfAWall) {

@@ -4,6 +4,7 @@
 #include "plain_edge_aligned.hpp"
 
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
+#include "core/segmentation/edge_aligned/near_holes.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -89,7 +90,8 @@ class PlainSteps {
     const int p = line.last_before(q), middle = (p + q) / 2;
     const float farthest = static_cast<float>(1.0 / (0.9 * believed_.range_max_m));
     if (q - p <= kGap) return;
-    if ((line.row ? edges_.near_holes(line.index, middle) : edges_.near_holes(middle, line.index)))
+    if ((line.row ? edges_.near_holes(line.index, middle)
+                  : edges_.near_holes(middle, line.index)) == kNearHole)
       return;
     if (p >= 0 && line.at(p) > farthest) add(line, p, true, 1.0F);
     if (q < line.size() && line.at(q) > farthest) add(line, q, false, 1.0F);
