@@ -8,7 +8,9 @@
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace mapscore {
 
@@ -71,19 +73,47 @@ struct EdgeMatch {
   bool at_border = false;          ///< of two masks, which does not move with the masks' size
 };
 
+/// Where two masks touch, their border is the outline of the nearer object alone, which ends at the
+/// edge: the distance beyond it. It is 0 on the border and goes on evenly, whereas
+/// OutlineField::distance is negative on both sides, with a ridge between. None where the nearest
+/// outline is no border of two masks. `distance`: the field's at `at`, between the pixels whose
+/// first is (u, v).
+[[nodiscard]] std::optional<BetweenPixels> beyond_border(const OutlineField& field,
+                                                         const Eigen::Vector2f& at, int u, int v,
+                                                         const Eigen::Vector2f& outward,
+                                                         const BetweenPixels& distance);
+
 /// Matches an edge with the nearest outline: weight = strength * (facing, or against * -facing) *
 /// exp(-residual^2 / (2 sigma^2)), 0 beyond 3 sigma; residual = distance - offset, interpolated
-/// between pixels.
-///
-/// Where two masks touch, their border is the outline of the nearer object alone, which ends at the
-/// edge: on the other mask the distance counts as beyond it, so it is 0 on the border and goes on
-/// evenly, whereas OutlineField::distance is negative on both sides, with a ridge between. Objects
-/// that touch have no room for an offset there.
-///
-/// `against`: what faces against its outline weighs, since something may stand in front there.
-[[nodiscard]] EdgeMatch match_edge(const OutlineField& field, const Eigen::Vector2f& at,
-                                   const Eigen::Vector2f& outward, float strength, float offset_px,
-                                   float sigma_px,
-                                   float against = static_cast<float>(OutlineField::kOtherWay));
+/// between pixels. A border of two masks (beyond_border) has no offset, since objects that touch
+/// have no room for one. `against`: what faces against its outline weighs, since something may
+/// stand in front there.
+[[nodiscard]] inline EdgeMatch match_edge(
+    const OutlineField& field, const Eigen::Vector2f& at, const Eigen::Vector2f& outward,
+    float strength, float offset_px, float sigma_px,
+    float against = static_cast<float>(OutlineField::kOtherWay)) {
+  EdgeMatch match;
+  if (!(at.x() >= 0 && at.y() >= 0)) return match;
+  const int u = static_cast<int>(at.x()), v = static_cast<int>(at.y());
+  if (u + 1 >= field.distance.cols || v + 1 >= field.distance.rows) return match;
+  const float* top = field.distance[v] + u;
+  const float* low = field.distance[v + 1] + u;
+  const float a = at.x() - static_cast<float>(u), b = at.y() - static_cast<float>(v);
+  BetweenPixels distance(top[0], top[1], low[0], low[1], a, b);
+  if (std::abs(distance.value) > 3 * sigma_px + std::abs(offset_px)) return match;
+  if (distance.value < 0 && field.is_near_border(v, u))
+    if (const auto beyond = beyond_border(field, at, u, v, outward, distance)) {
+      distance = *beyond;
+      match.at_border = true;
+    }
+  match.distance = distance.value;
+  match.residual = match.at_border ? distance.value : distance.value - offset_px;
+  if (std::abs(match.residual) > 3 * sigma_px) return match;
+  match.gradient = distance.gradient;
+  match.facing = match.gradient.dot(outward);
+  match.weight = strength * (match.facing > 0 ? match.facing : -against * match.facing) *
+                 std::exp(-0.5F * match.residual * match.residual / (sigma_px * sigma_px));
+  return match;
+}
 
 }  // namespace mapscore

@@ -20,6 +20,7 @@ constexpr std::size_t kCoarseEdges = 800, kFineEdges = 4000;
 constexpr float kStepPx = 4.0F;   // between turns that are tried
 constexpr float kStepM = 0.005F;  // between shifts that are tried
 constexpr float kReachM = 0.06F;
+constexpr float kSame_px = 0.1F, kSame_m = 0.0004F;  // between starts that are one
 constexpr float kApartPx = 8.0F;  // between the turns that are kept for the fine fit
 
 constexpr float kNearest_m = 0.05F;     // from the colour camera
@@ -74,11 +75,16 @@ class Aligner {
   OutlineAlignment fit(const std::vector<Candidate>& candidates, const Parameters& free) {
     OutlineAlignment best;
     float most = -1e9F;
+    std::vector<Parameters> tried;
     for (Candidate candidate : candidates) {
       if (candidate.family != Family::none) {
         refine(candidate, 5.0F, 4, kCoarseEdges, free_of(candidate.family, 0));
         refine(candidate, 3.0F, 3, kCoarseEdges, free_of(candidate.family, 1));
       }
+      const Parameters at = parameters_of(candidate);
+      if (std::ranges::any_of(tried, [&](const auto& other) { return are_same(at, other); }))
+        continue;
+      tried.push_back(at);
       refine(candidate, 2.0F, 4, kCoarseEdges, free);
       candidate.score = fine_score(candidate, 1.5F);
       const float value = candidate.score - penalty(candidate);
@@ -244,10 +250,7 @@ class Aligner {
       }
       const float scale = static_cast<float>(stride);
       H *= scale, b *= scale;
-      const Eigen::Vector3f turn = rotation_vector(a.rotation);
-      const Parameters now((Parameters() << project_.fx * turn.x(), project_.fx * turn.y(),
-                            a.translation.x(), a.translation.y(), a.offset_px)
-                               .finished());
+      const Parameters now = parameters_of(a);
       Parameters prior;
       prior << 1 / square(20.0F), 1 / square(20.0F), 1 / square(0.03F), 1 / square(0.03F),
           1 / square(4.0F);
@@ -268,6 +271,21 @@ class Aligner {
       a.translation = R * a.translation + Eigen::Vector3f(change[2], change[3], 0);
       a.offset_px = std::clamp(a.offset_px + change[4], -6.0F, 6.0F);
     }
+  }
+
+  [[nodiscard]] Parameters parameters_of(const OutlineAlignment& a) const {
+    const Eigen::Vector3f turn = rotation_vector(a.rotation);
+    Parameters all;
+    all << project_.fx * turn.x(), project_.fx * turn.y(), a.translation.x(), a.translation.y(),
+        a.offset_px;
+    return all;
+  }
+
+  /// Two starts from which the same fit is found.
+  [[nodiscard]] static bool are_same(const Parameters& a, const Parameters& b) {
+    Parameters least;
+    least << kSame_px, kSame_px, kSame_m, kSame_m, kSame_px;
+    return ((a - b).cwiseAbs().array() < least.array()).all();
   }
 
   static float square(float x) { return x * x; }

@@ -56,6 +56,11 @@ void count_elements(const cv::Mat1w& masks, OutlineField& field) {
     field.elements[static_cast<std::size_t>(way)](v / OutlineField::kCell_px,
                                                   u / OutlineField::kCell_px) += 1.0F;
   };
+  cv::Mat1b& borders = field.near_borders;
+  const auto mark = [&](int v, int u) {
+    if (borders.empty()) borders = cv::Mat1b(field.elements[0].size(), std::uint8_t{0});
+    borders(v / OutlineField::kCell_px, u / OutlineField::kCell_px) = 1;
+  };
   if (masks.empty()) return;
   const int last = masks.cols - 1;
   std::vector<std::uint16_t> changes(static_cast<std::size_t>(masks.cols));
@@ -73,15 +78,17 @@ void count_elements(const cv::Mat1w& masks, OutlineField& field) {
       if (next != own) {
         if (own != 0) count(Outward::right, v, u);
         if (next != 0) count(Outward::left, v, u + 1);
-        field.has_borders = field.has_borders || (own != 0 && next != 0);
+        if (own != 0 && next != 0) mark(v, u);
       }
       if (below[u] != own) {
         if (own != 0) count(Outward::down, v, u);
         if (below[u] != 0) count(Outward::up, v + 1, u);
-        field.has_borders = field.has_borders || (own != 0 && below[u] != 0);
+        if (own != 0 && below[u] != 0) mark(v, u);
       }
     }
   }
+  constexpr int kCells = 2 * 16 / OutlineField::kCell_px + 3;
+  if (!borders.empty()) cv::dilate(borders, borders, cv::Mat1b(kCells, kCells, std::uint8_t{1}));
 }
 
 void fill_far(const cv::Mat1w& owner, cv::Mat1f& distance) {

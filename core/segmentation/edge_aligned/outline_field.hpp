@@ -26,8 +26,12 @@ struct OutlineField {
   /// Number of outline elements that face each way, by cell. An element is a pair of neighbouring
   /// pixels on either side of an outline, counted for each owner.
   std::array<cv::Mat1f, 4> elements;
-  int length_px = 0;         ///< number of all outline elements
-  bool has_borders = false;  ///< some masks touch
+  int length_px = 0;       ///< number of all outline elements
+  cv::Mat1b near_borders;  ///< by cell, 1 within 16 px of where two masks touch; empty without such
+
+  [[nodiscard]] bool is_near_border(int v, int u) const {
+    return !near_borders.empty() && near_borders(v / kCell_px, u / kCell_px) != 0;
+  }
 
   static constexpr float kFar = 1e4F;
   /// Weight of what faces against the outline it lies on: something stands in front there.

@@ -164,10 +164,14 @@ cv::Mat1b unseen_occluders(const DepthEdges& edges, const cv::Mat1i& cells,
   const cv::Mat1b covered = occluders.covered();
   if (cv::countNonZero(covered) == 0) return hidden;
   const cv::Mat1b running_on = occluders.running_on();
-  for (int v = 0; v < cells.rows; ++v)
+  const std::uint8_t* const cover = covered[0];
+  for (int v = 0; v < cells.rows; ++v) {
+    const int* const cell = cells[v];
+    const std::uint8_t* const on = running_on[v];
+    std::uint8_t* const to = hidden[v];
     for (int u = 0; u < cells.cols; ++u)
-      if (cells(v, u) >= 0 && covered[0][cells(v, u)] != 0 && running_on(v, u) == 0)
-        hidden(v, u) = 255;
+      if (on[u] == 0 && cell[u] >= 0 && cover[cell[u]] != 0) to[u] = 255;
+  }
   return hidden;
 }
 

@@ -31,7 +31,7 @@ EdgeMatch match(const OutlineField& field, float u, float outward, float offset_
 /// An edge on the border of two masks ends one of them: it counts fully, whichever way it faces.
 TEST(EdgeMatching, AnEdgeOnABorderOfTwoMasksCountsFully) {
   const OutlineField field = two_masks(0);
-  ASSERT_TRUE(field.has_borders);
+  ASSERT_TRUE(field.is_near_border(20, 29));
   for (const float outward : {1.0F, -1.0F}) {
     const EdgeMatch on = match(field, 29.5F, outward);
     EXPECT_NEAR(on.weight, 1, 1e-4);
@@ -68,7 +68,7 @@ TEST(EdgeMatching, ABorderOfTwoMasksDoesNotMoveWithTheirSize) {
 /// Beside an outline that is no border, what faces against it counts as the caller has it.
 TEST(EdgeMatching, AgainstAnOutlineCountsLess) {
   const OutlineField field = two_masks(4);
-  ASSERT_FALSE(field.has_borders);
+  ASSERT_FALSE(field.is_near_border(20, 29));
   EXPECT_NEAR(match(field, 29.5F, 1).weight, 1, kCoarse);
   EXPECT_NEAR(match(field, 29.5F, -1).weight, 0.7, kCoarse);
   EXPECT_EQ(match(field, 29.5F, -1, 0, 0).weight, 0);
