@@ -65,10 +65,15 @@ TEST_F(CameraFile, WhatIsLeftOutIsAsTheFolderSays) {
             5);
 }
 
-TEST_F(CameraFile, ARangeBeyondAnyDepthImageIsRefused) {
+/// A recording may have any range, and what `calibrate` writes of it is read again.
+TEST_F(CameraFile, RangesOfTheFolderAreTakenAsTheyAre) {
+  Calibration own = testing::tiny_info().calibration;
+  own.range_max_m = 200;
   const std::string color = "color: {fx_px: 500, fy_px: 500, cx_px: 320, cy_px: 240}\n";
-  testing::expect_error("range_max_m <= 100",
-                        [&] { (void)read_cameras(file(color + "range_max_m: 1e300\n")); });
+  EXPECT_EQ(read_cameras(file(color), own).calibration.range_max_m, 200);
+  EXPECT_EQ(read_cameras(file(cameras_file_text({own, 0}))).calibration.range_max_m, 200);
+  testing::expect_error("range_min_m < range_max_m",
+                        [&] { (void)read_cameras(file(color + "range_min_m: 201\n"), own); });
 }
 
 TEST_F(CameraFile, WhatAnEstimateSaysOfItselfIsLetThrough) {
