@@ -162,7 +162,12 @@ YamlValue YamlValue::at(const std::string& key) const {
   if (!node.IsMap()) ask_for("a section, key: value");
   const YAML::Node child = node[key];
   if (!child) fail(fmt::format("'{0}' is missing; write {0}: ...", key));
-  return {child, source, line_below(*this, child), join_path(path, key)};
+  // Where there is no value, the parser's mark is of what comes next.
+  YAML::Node placed = child;
+  if (child.IsNull())
+    for (const auto& member : node)
+      if (member.first.Scalar() == key) placed.reset(member.first);
+  return {child, source, line_below(*this, placed), join_path(path, key)};
 }
 
 bool YamlValue::has(const std::string& key) const {

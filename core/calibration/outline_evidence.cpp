@@ -14,6 +14,7 @@ namespace {
 
 constexpr float kNearest_m = 0.05F;   // from the colour camera
 constexpr float kSame_px = 2.0F;      // between two outlines that are the same
+constexpr float kAgainst = 0;         // weight of edges that face against their outline
 constexpr std::size_t kSamples = 64;  // of an object's outline, roughly
 
 /// By owner, pixels of its mask that touch another owner's or none's, evenly thinned.
@@ -145,7 +146,7 @@ double OutlineEvidence::explained(const CalibrationCorrection& correction, float
     if (!(p.z() > kNearest_m)) continue;
     const Eigen::Vector2f at = seen.project(p);
     const EdgeMatch match =
-        match_edge(field_, at, edge.outward, edge.strength, seen.offset_px, sigma_px, 0);
+        match_edge(field_, at, edge.outward, edge.strength, seen.offset_px, sigma_px, kAgainst);
     if (match.weight <= 0) continue;
     const Eigen::Vector2f foot = at - match.distance * match.gradient;
     const int u = static_cast<int>(foot.x() / OutlineField::kCell_px),
@@ -166,7 +167,7 @@ OutlineEquation OutlineEvidence::equation_of(const Edge& edge, const Seen& seen,
   if (!(p.z() > kNearest_m)) return equation;
   const Eigen::Vector2f at = seen.project(p);
   const EdgeMatch match =
-      match_edge(field_, at, edge.outward, edge.strength, seen.offset_px, sigma_px, 0);
+      match_edge(field_, at, edge.outward, edge.strength, seen.offset_px, sigma_px, kAgainst);
   if (match.weight <= 0) return equation;
   equation.weight = static_cast<double>(match.weight);
   equation.residual = static_cast<double>(match.residual);

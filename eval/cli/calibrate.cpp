@@ -122,12 +122,11 @@ void keep_inputs(const CalibrateFlags& flags) {
   if (!flags.picture.empty() && fs::exists(picture) &&
       std::ranges::mismatch(folder, picture).in1 == folder.end())
     refuse("--picture", flags.picture, "may be an image of the recording");
-  if (!flags.picture.empty() && fs::equivalent(picture, flags.source.reading.cameras, none))
-    refuse("--picture", flags.picture, "is what --start names");
 }
 
 void calibrate(const CalibrateFlags& flags) {
-  check_outputs({{"-o", flags.file, ".yaml"}, {"--picture", flags.picture, ".png"}});
+  check_outputs({{"-o", flags.file, ".yaml"}, {"--picture", flags.picture, ".png"}},
+                flags.source.inputs());
   keep_inputs(flags);
   const CalibrationFrames from =
       is_trial_folder(flags.source.folder) ? frames_of_trial(flags) : frames_of_folder(flags);

@@ -65,7 +65,8 @@ BelievedCameras read_camera_file(const std::filesystem::path& file,
   if (root.has("range_min_m")) calibration.range_min_m = root.at("range_min_m").number();
   if (root.has("range_max_m")) calibration.range_max_m = root.at("range_max_m").number();
   if (calibration.range_min_m < 0.0 || calibration.range_max_m <= calibration.range_min_m)
-    root.fail("expected 0 <= range_min_m < range_max_m");
+    root.at(root.has("range_max_m") ? "range_max_m" : "range_min_m")
+        .fail("expected 0 <= range_min_m < range_max_m");
   if (root.has("time_offset_s")) cameras.time_offset_s = root.at("time_offset_s").number();
   if (!(std::abs(cameras.time_offset_s) <= kMostOffset_s))
     root.at("time_offset_s").fail("expected seconds from -10 to 10");
@@ -76,8 +77,9 @@ BelievedCameras read_camera_file(const std::filesystem::path& file,
 
 BelievedCameras read_cameras(const std::string& text, const std::optional<Calibration>& otherwise) {
   const auto numbers = parse_numbers(text, text.size());
-  if (!numbers) return read_camera_file(text, otherwise);
-  const CameraModel color = pinhole_of(*numbers, text);
+  const bool is_list = text.find(',') != std::string::npos && !std::filesystem::exists(text);
+  if (!numbers && !is_list) return read_camera_file(text, otherwise);
+  const CameraModel color = pinhole_of(numbers.value_or(std::vector<double>{}), text);
   BelievedCameras cameras{otherwise.value_or(registered(color)), 0};
   cameras.calibration.color = color;
   return cameras;

@@ -11,6 +11,7 @@
 #include "files/png.hpp"
 #include "files/refusal.hpp"
 #include "files/suggestion.hpp"
+#include "files/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -211,24 +212,29 @@ void LabelledFolder::size_cameras() {
 }
 
 void LabelledFolder::check_cameras() const {
-  const auto check = [&](const char* name, const CameraModel& camera) {
+  const auto check_pinhole = [&](const char* name, const CameraModel& camera) {
     for (const double focal_px : {camera.fx_px, camera.fy_px})
       if (!(focal_px > camera.width_px / kWidest && focal_px < camera.width_px * kNarrowest))
-        throw Error(
-            fmt::format("cameras: a focal length of {} px is none of {} images that are {} px "
-                        "wide; give pixels, from {} to {} times the width",
-                        focal_px, name, camera.width_px, 1 / kWidest, kNarrowest));
+        throw Error(fmt::format(
+            "a focal length of {} px is none of {} images that are {} px wide; give pixels, from "
+            "{} to {} times the width",
+            focal_px, name, camera.width_px, 1 / kWidest, kNarrowest));
     const bool inside = camera.cx_px >= 0.0 && camera.cy_px >= 0.0 &&
                         camera.cx_px <= camera.width_px - 1.0 &&
                         camera.cy_px <= camera.height_px - 1.0;
     if (!inside)
-      throw Error(
-          fmt::format("cameras: the principal point ({}, {}) lies outside the {} images, {} x "
-                      "{}; give the intrinsics of images of this size",
-                      camera.cx_px, camera.cy_px, name, camera.width_px, camera.height_px));
+      throw Error(fmt::format(
+          "the principal point ({}, {}) lies outside the {} images, {} x {}; give the intrinsics "
+          "of images of this size",
+          camera.cx_px, camera.cy_px, name, camera.width_px, camera.height_px));
   };
-  check("label", calibration_.color);
-  check("depth", calibration_.depth);
+  try {
+    check_pinhole("label", calibration_.color);
+    check_pinhole("depth", calibration_.depth);
+    check(calibration_);
+  } catch (const Error& error) {
+    throw Error(fmt::format("cameras {}: {}", shown(options_.cameras), error.what()));
+  }
 }
 
 Frame LabelledFolder::read(int index, ClassTable& table) const {

@@ -222,6 +222,9 @@ TEST_F(MapFolder, OutputsAreCheckedBeforeTheWork) {
   expect_refused(map("ours", "map.png"), {"-o", "map.png", ".ot"});
   expect_refused(map("ours", "map.ot", {"--color", path("map.ot")}), {"--color", "each its own"});
   expect_refused(map("ours", "map.ot", {"--color", path("no/colour.ot")}), {"--color", "folder"});
+  write_text(path("cameras.ot"), "color: {fx_px: 280, fy_px: 280, cx_px: 160, cy_px: 120}\n");
+  expect_refused(map("ours", "cameras.ot", {"--calibration", path("cameras.ot")}),
+                 {"-o", "--calibration reads this file"});
   expect_refused(map("ours", "map.ot", {"--ply", path("folder.ply")}), {"--ply", "is a folder"});
   expect_refused(map("ours", "ours/recording.yaml"), {"recording.yaml", ".ot"});
   EXPECT_FALSE(fs::exists(path("map.ot")));

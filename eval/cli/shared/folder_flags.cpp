@@ -4,7 +4,6 @@
 #include "eval/cli/shared/folder_flags.hpp"
 
 #include "core/error.hpp"
-#include "eval/cli/shared/options.hpp"
 #include "eval/foreign/camera_file.hpp"
 #include "eval/recording/frame_selection.hpp"
 #include "eval/results/study_store.hpp"
@@ -25,6 +24,7 @@ constexpr auto kMasks = names_of(ClassMasks{});
 
 void FolderFlags::add_to(CLI::App& to, const std::string& cameras, const std::string& use) {
   verb = &to;
+  cameras_flag = cameras;
   to.add_option("FOLDER", folder,
                 "Folder with depth.txt, groundtruth.txt, color.txt or rgb.txt, and label/ or "
                 "label.txt; or one of `mapscore trial`")
@@ -56,6 +56,10 @@ void FolderFlags::add_to(CLI::App& to, const std::string& cameras, const std::st
   to.add_flag("--follow", reading.follow,
               "Images may lie outside of FOLDER: links and paths in its lists are followed")
       ->group(kGroup);
+}
+
+std::vector<InputFile> FolderFlags::inputs() const {
+  return {{cameras_flag, reading.cameras}, {"--classes", reading.classes}};
 }
 
 LabelledFolder FolderFlags::labelled(bool poses) const {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "eval/cli/shared/options.hpp"
 #include "eval/foreign/labelled_folder.hpp"
 #include "eval/foreign/trial_folder.hpp"
 
@@ -23,10 +24,13 @@ struct FolderFlags {
   std::vector<std::string> detect;
   std::vector<double> range_m;
   const CLI::App* verb = nullptr;
+  std::string cameras_flag;  ///< the verb's own name of --intrinsics
 
   /// Adds FOLDER and the flags. `cameras`: a further name of --intrinsics, and `use` what the
   /// labels are taken for.
   void add_to(CLI::App& to, const std::string& cameras, const std::string& use);
+  /// Files that the flags name, beside the folder.
+  [[nodiscard]] std::vector<InputFile> inputs() const;
   /// Reads the folder, with poses or without. Throws Error as LabelledFolder.
   [[nodiscard]] LabelledFolder labelled(bool poses) const;
   /// Reads a trial's folder; --intrinsics replaces the cameras that its method believes in. Throws

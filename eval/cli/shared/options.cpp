@@ -136,7 +136,7 @@ std::string formatted(const Table& table, const std::string& format) {
   return format == "json" ? to_json(table) : to_text(table, terminal_width());
 }
 
-void check_outputs(const std::vector<OutputFile>& outputs) {
+void check_outputs(const std::vector<OutputFile>& outputs, const std::vector<InputFile>& inputs) {
   namespace fs = std::filesystem;
   std::set<fs::path> named;
   for (const auto& [flag, file, ending] : outputs) {
@@ -152,6 +152,9 @@ void check_outputs(const std::vector<OutputFile>& outputs) {
     if (!fs::is_directory(whole.parent_path(), none))
       refuse("its folder is not there; make it, or give another");
     if (!named.insert(whole).second) refuse("two flags name this file; give each its own");
+    for (const auto& [read_by, input] : inputs)
+      if (fs::equivalent(file, input, none))
+        refuse(fmt::format("{} reads this file; give another name", read_by));
   }
 }
 

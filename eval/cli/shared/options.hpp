@@ -85,9 +85,17 @@ struct OutputFile {
   std::string ending;          ///< that it must have, as ".ot"; empty: any
 };
 
-/// Refuses before the work what could not be written after it: throws Error unless each file has
-/// its ending, lies in a folder that is there and is no folder itself, and no two are the same.
-void check_outputs(const std::vector<OutputFile>& outputs);
+/// A file that a flag names, to be read.
+struct InputFile {
+  std::string flag;
+  std::filesystem::path file;  ///< empty or not there: none
+};
+
+/// Refuses before the work what could not be written after it, or would take the place of what is
+/// read: throws Error unless each file has its ending, lies in a folder that is there, is no folder
+/// itself and none of `inputs`, and no two are the same.
+void check_outputs(const std::vector<OutputFile>& outputs,
+                   const std::vector<InputFile>& inputs = {});
 
 /// Locks on the folders of files that belong together, so that two runs into one place leave the
 /// files of one of them and never a mixture; waits for a run that holds one. Empty names and

@@ -165,7 +165,7 @@ TEST_F(CalibrateVerb, PixelsThatAllHaveAClassTellItToo) {
 
 TEST_F(CalibrateVerb, WhatIsReadIsNotWrittenOver) {
   const std::string start = wrong_cameras(0.01, 0.005);
-  expect_refused(mapscore({"calibrate", path("recording"), "-o", start, "--start", start}),
+  expect_refused(mapscore({"calibrate", path("recording"), "-o", start}),
                  {"-o", "is no calibration of an earlier run"});
   expect_refused(calibrate("recording", "recording/recording.yaml"), {"is no calibration"});
   expect_refused(
@@ -177,7 +177,10 @@ TEST_F(CalibrateVerb, WhatIsReadIsNotWrittenOver) {
   fs::copy_file(start, path("start.png"));
   expect_refused(calibrate("recording", "x.yaml",
                            {"--start", path("start.png"), "--picture", path("start.png")}),
-                 {"--picture", "is what --start names"});
+                 {"--picture", "--start reads this file"});
+  expect_done(calibrate("recording", "first.yaml"));
+  expect_refused(calibrate("recording", "first.yaml", {"--start", path("first.yaml")}),
+                 {"-o", "--start reads this file"});
 }
 
 TEST_F(CalibrateVerb, AStartMayNameTheColourCameraAlone) {
@@ -198,6 +201,11 @@ TEST_F(CalibrateVerb, BadInputIsRefused) {
   write_text(path("far.yaml"), "color: {fx_px: 1e308, fy_px: 280, cx_px: 160, cy_px: 120}\n");
   expect_refused(calibrate("recording", "x.yaml", {"--start", path("far.yaml")}),
                  {"a focal length of 1e+308 px"});
+  write_text(path("apart.yaml"),
+             "color: {fx_px: 280, fy_px: 280, cx_px: 160, cy_px: 120}\n"
+             "T_color_depth: [20, 0, 0, 0, 0, 0, 1]\n");
+  expect_refused(calibrate("recording", "x.yaml", {"--start", path("apart.yaml")}),
+                 {"apart.yaml", "T_color_depth", "more than 10 m"});
   write_text(path("bad.yaml"), "color: {fx_px: 0}\n");
   expect_refused(calibrate("recording", "x.yaml", {"--start", path("bad.yaml")}), {"fx_px"});
 }

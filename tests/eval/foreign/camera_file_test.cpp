@@ -44,6 +44,8 @@ TEST_F(CameraFile, FourNumbersAreDepthThatIsRegisteredToColour) {
   EXPECT_EQ(cameras.time_offset_s, 0);
   testing::expect_error("cameras: '500,510,320' is not fx,fy,cx,cy",
                         [] { (void)read_cameras("500,510,320"); });
+  testing::expect_error("cameras: '500,510,nan,240' is not fx,fy,cx,cy",
+                        [] { (void)read_cameras("500,510,nan,240"); });
 }
 
 TEST_F(CameraFile, WhatIsLeftOutIsAsTheFolderSays) {
@@ -72,7 +74,7 @@ TEST_F(CameraFile, RangesOfTheFolderAreTakenAsTheyAre) {
   const std::string color = "color: {fx_px: 500, fy_px: 500, cx_px: 320, cy_px: 240}\n";
   EXPECT_EQ(read_cameras(file(color), own).calibration.range_max_m, 200);
   EXPECT_EQ(read_cameras(file(cameras_file_text({own, 0}))).calibration.range_max_m, 200);
-  testing::expect_error("range_min_m < range_max_m",
+  testing::expect_error(":2: range_min_m: expected 0 <= range_min_m < range_max_m",
                         [&] { (void)read_cameras(file(color + "range_min_m: 201\n"), own); });
 }
 
