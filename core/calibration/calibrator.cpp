@@ -21,7 +21,7 @@ constexpr std::size_t kCoarseFit = 12000, kFineFit = 200000;  // edges
 constexpr std::size_t kStarts = 6;
 const std::vector<double> kTimes_s{-0.15, -0.11, -0.07, -0.035, 0, 0.035, 0.07, 0.11, 0.15};
 constexpr float kShare_px = 1.5F;
-constexpr double kFinestSpreads = 1.3, kFinest_px = 0.5, kCoarsest_px = 2.0;
+constexpr double kFinestSpreads = 1.15, kFinest_px = 0.5, kCoarsest_px = 2.0;
 constexpr double kLeastShare = 0.15;  // of the outlines, on which edges must lie
 constexpr double kBehind = 0.002;  // of the outlines, by which an estimate may be behind the start
 constexpr double kMostWeak_px = 1.0;      // standard deviation of the weakest direction
