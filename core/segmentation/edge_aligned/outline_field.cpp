@@ -14,6 +14,8 @@
 namespace mapscore {
 namespace {
 
+constexpr int kVotes_px = 16;  // above what votes tell apart: the largest offset, 6 px, and 2
+
 cv::Mat1w painted(const std::vector<Detection>& detections, int width_px, int height_px) {
   cv::Mat1w owner(height_px, width_px, std::uint16_t{0});
   for (std::size_t n = 0; n < detections.size(); ++n) {
@@ -46,11 +48,74 @@ const std::uint16_t* next_of(const std::uint16_t* from, const std::uint16_t* end
   return std::find_if(from, end, [](std::uint16_t x) { return x != 0; });
 }
 
+/// A pixel whose right or lower neighbour has another owner; the image's border repeats its own.
+struct Change {
+  int u, v;
+  std::uint16_t own, right, below;
+};
+
+/// Row by row.
+std::vector<Change> changes_of(const cv::Mat1w& masks) {
+  std::vector<Change> changes;
+  if (masks.empty()) return changes;
+  const int last = masks.cols - 1;
+  std::vector<std::uint16_t> differ(static_cast<std::size_t>(masks.cols));
+  std::uint16_t* const differs = differ.data();
+  for (int v = 0; v < masks.rows; ++v) {
+    const std::uint16_t* row = masks[v];
+    const std::uint16_t* below = v + 1 < masks.rows ? masks[v + 1] : row;
+    for (int u = 0; u < last; ++u)
+      differs[u] = static_cast<std::uint16_t>((row[u] ^ row[u + 1]) | (row[u] ^ below[u]));
+    differs[last] = row[last] ^ below[last];
+    const std::uint16_t* const end = differs + masks.cols;
+    for (auto found = next_of(differs, end); found != end; found = next_of(found + 1, end)) {
+      const int u = static_cast<int>(found - differs);
+      changes.push_back({u, v, row[u], row[std::min(u + 1, last)], below[u]});
+    }
+  }
+  return changes;
+}
+
+/// The masks with their grooves closed, half by each mask, rows first; the same image where there
+/// are none.
+cv::Mat1w without_grooves(const cv::Mat1w& masks, const std::vector<Change>& changes) {
+  /// The last pixel of a mask in a row or column.
+  struct Rim {
+    int at = -OutlineField::kGroove_px - 2;
+    std::uint16_t owner = 0;
+  };
+  cv::Mat1w closed = masks;
+  const auto close = [&](const Rim& rim, int end, std::uint16_t owner, auto&& pixel_at) {
+    const int gap = end - rim.at - 1;
+    if (gap > OutlineField::kGroove_px || rim.owner == owner) return;
+    if (closed.data == masks.data) closed = masks.clone();
+    for (int n = 0; n < gap; ++n)
+      if (std::uint16_t& pixel = closed(pixel_at(rim.at + 1 + n)); pixel == 0)
+        pixel = 2 * n < gap ? rim.owner : owner;
+  };
+  std::vector<Rim> columns(static_cast<std::size_t>(masks.cols));
+  Rim rim;
+  int row = -1;
+  for (const auto& [u, v, own, right, below] : changes) {
+    if (row != v) rim = {};
+    row = v;
+    Rim& column = columns[static_cast<std::size_t>(u)];
+    if (own != 0 && right == 0) rim = {u, own};
+    if (own != 0 && below == 0) column = {v, own};
+    if (own == 0 && right != 0)
+      close(rim, u + 1, right, [y = v](int at) { return cv::Point(at, y); });
+    if (own == 0 && below != 0)
+      close(column, v + 1, below, [x = u](int at) { return cv::Point(x, at); });
+  }
+  return closed;
+}
+
 /// Counts the outline elements by the way they face, in cells.
-void count_elements(const cv::Mat1w& masks, OutlineField& field) {
+void count_elements(const std::vector<Change>& changes, const cv::Size& image,
+                    OutlineField& field) {
   for (cv::Mat1f& map : field.elements)
-    map = cv::Mat1f(masks.rows / OutlineField::kCell_px + 1,
-                    masks.cols / OutlineField::kCell_px + 1, 0.0F);
+    map = cv::Mat1f(image.height / OutlineField::kCell_px + 1,
+                    image.width / OutlineField::kCell_px + 1, 0.0F);
   const auto count = [&](Outward way, int v, int u) {
     ++field.length_px;
     field.elements[static_cast<std::size_t>(way)](v / OutlineField::kCell_px,
@@ -61,30 +126,16 @@ void count_elements(const cv::Mat1w& masks, OutlineField& field) {
     if (borders.empty()) borders = cv::Mat1b(field.elements[0].size(), std::uint8_t{0});
     borders(v / OutlineField::kCell_px, u / OutlineField::kCell_px) = 1;
   };
-  if (masks.empty()) return;
-  const int last = masks.cols - 1;
-  std::vector<std::uint16_t> changes(static_cast<std::size_t>(masks.cols));
-  std::uint16_t* const change = changes.data();
-  for (int v = 0; v < masks.rows; ++v) {
-    const std::uint16_t* row = masks[v];
-    const std::uint16_t* below = v + 1 < masks.rows ? masks[v + 1] : row;
-    for (int u = 0; u < last; ++u)
-      change[u] = static_cast<std::uint16_t>((row[u] ^ row[u + 1]) | (row[u] ^ below[u]));
-    change[last] = row[last] ^ below[last];
-    const std::uint16_t* const end = change + masks.cols;
-    for (auto found = next_of(change, end); found != end; found = next_of(found + 1, end)) {
-      const int u = static_cast<int>(found - change);
-      const std::uint16_t own = row[u], next = u < last ? row[u + 1] : own;
-      if (next != own) {
-        if (own != 0) count(Outward::right, v, u);
-        if (next != 0) count(Outward::left, v, u + 1);
-        if (own != 0 && next != 0) mark(v, u);
-      }
-      if (below[u] != own) {
-        if (own != 0) count(Outward::down, v, u);
-        if (below[u] != 0) count(Outward::up, v + 1, u);
-        if (own != 0 && below[u] != 0) mark(v, u);
-      }
+  for (const auto& [u, v, own, right, below] : changes) {
+    if (right != own) {
+      if (own != 0) count(Outward::right, v, u);
+      if (right != 0) count(Outward::left, v, u + 1);
+      if (own != 0 && right != 0) mark(v, u);
+    }
+    if (below != own) {
+      if (own != 0) count(Outward::down, v, u);
+      if (below != 0) count(Outward::up, v + 1, u);
+      if (own != 0 && below != 0) mark(v, u);
     }
   }
   constexpr int kCells = 2 * 16 / OutlineField::kCell_px + 3;
@@ -170,14 +221,24 @@ cv::Mat1w spread_owners(const cv::Mat1w& masks, int reach_px) {
 OutlineField outline_field(const std::vector<Detection>& detections, int width_px, int height_px,
                            int reach_px) {
   OutlineField field;
-  field.owner = painted(detections, width_px, height_px);
-  field.distance = cv::Mat1f(height_px, width_px);
-  count_elements(field.owner, field);
+  field.masks = painted(detections, width_px, height_px);
+  std::vector<Change> changes = changes_of(field.masks);
+  field.owner = without_grooves(field.masks, changes);
+  const bool has_grooves = field.owner.data != field.masks.data;
+  if (has_grooves) changes = changes_of(field.owner);
+  count_elements(changes, field.owner.size(), field);
   field.coarse = coarse_maps(field.elements);
-  const cv::Rect window = window_of(detections, {width_px, height_px}, reach_px);
-  const bool outlined = field.length_px > 0 && !window.empty();
-  if (!outlined || window.area() < height_px * width_px) fill_far(field.owner, field.distance);
-  if (outlined) measure_outline_distance(field.owner(window), field.distance(window));
+  const auto distance_of = [&](const cv::Mat1w& owner, int within_px) {
+    const cv::Rect window = window_of(detections, {width_px, height_px}, within_px);
+    cv::Mat1f distance(height_px, width_px);
+    const bool outlined = field.length_px > 0 && !window.empty();
+    if (!outlined || window.area() < height_px * width_px) fill_far(owner, distance);
+    if (outlined) measure_outline_distance(owner(window), distance(window));
+    return distance;
+  };
+  field.distance = distance_of(field.owner, reach_px);
+  field.mask_distance =
+      has_grooves ? distance_of(field.masks, std::min(reach_px, kVotes_px)) : field.distance;
   return field;
 }
 

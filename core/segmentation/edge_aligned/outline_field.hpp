@@ -14,12 +14,19 @@
 namespace mapscore {
 
 /// The masks of a frame as one field over the colour image. An outline runs half-way between a
-/// mask's pixels and the others; the image's own edge is none.
+/// mask's pixels and the others; the image's own edge is none. A groove is a gap of up to
+/// kGroove_px in a row or column between two masks, as of objects that touch where masks are too
+/// small. In its middle the distance to the nearest outline has a ridge, so an edge that lies there
+/// would say nothing: to fit outlines, grooves are closed, half by each mask.
 struct OutlineField {
-  /// 1 + index of the detection whose mask holds the pixel, 0 for none.
+  /// 1 + index of the detection whose mask holds the pixel, 0 for none; grooves closed.
   cv::Mat1w owner;
-  /// Pixels to the nearest outline, negative inside a mask; +-kFar far from all masks.
+  /// Pixels to the nearest outline of `owner`, negative inside a mask; +-kFar far from all masks.
   cv::Mat1f distance;
+  /// The same of the masks as they are, the distance within 16 px of them; the same images where
+  /// there is no groove.
+  cv::Mat1w masks;
+  cv::Mat1f mask_distance;
   /// How well an edge that faces Outward d fits at quarter size, 0 to 255: 255 on outlines that
   /// face the same way, less within 8 pixels and for those that face the other way.
   std::array<cv::Mat1b, 4> coarse;
@@ -34,6 +41,7 @@ struct OutlineField {
   }
 
   static constexpr float kFar = 1e4F;
+  static constexpr int kGroove_px = 5;
   /// Weight of what faces against the outline it lies on: something stands in front there.
   static constexpr double kOtherWay = 0.7;
   static constexpr int kCell_px = 4;  ///< edge of a cell of `coarse` and `elements`

@@ -107,14 +107,14 @@ class Voting {
           const cv::Vec2f by = shifts.at(us[u], vs[u]);
           us[u] += by[0], vs[u] += by[1];
         }
-      find_pixels(us.data(), vs.data(), w.cols, field_.owner.size(), cells_[v]);
+      find_pixels(us.data(), vs.data(), w.cols, field_.masks.size(), cells_[v]);
     }
   }
 
   /// Nearest surface by colour pixel, as inverse depth, spread over the neighbouring pixels.
   void find_nearest() {
     const cv::Mat1f& w = edges_.inverse_depth;
-    cv::Mat1f hit(field_.owner.rows, field_.owner.cols, 0.0F);
+    cv::Mat1f hit(field_.masks.rows, field_.masks.cols, 0.0F);
     float* const hits = hit[0];
     for (int v = 0; v < w.rows; ++v) {
       const float* in = w[v];
@@ -130,11 +130,11 @@ class Voting {
     const cv::Mat1f& w = edges_.inverse_depth;
     const int beyond_px = static_cast<int>(std::ceil(1.5F * alignment_.offset_px));
     const cv::Mat1w owners =
-        alignment_.offset_px > 0.5F ? spread_owners(field_.owner, beyond_px) : field_.owner;
+        alignment_.offset_px > 0.5F ? spread_owners(field_.masks, beyond_px) : field_.masks;
     Votes votes{cv::Mat1w(w.rows, w.cols, std::uint16_t{0}), cv::Mat1f(w.rows, w.cols, -1e4F),
                 cv::Mat1f(w.rows, w.cols, 0.0F)};
     const std::uint16_t* const owner_of = owners[0];
-    const float *const distance = field_.distance[0], *const nearest = nearest_[0];
+    const float *const distance = field_.mask_distance[0], *const nearest = nearest_[0];
     const cv::Mat1f distances = distance_to_free();
     const float* const to_free = distances.empty() ? nullptr : distances[0];
     for (int v = 0; v < w.rows; ++v) {
@@ -171,7 +171,7 @@ class Voting {
   [[nodiscard]] cv::Mat1f distance_to_free() const {
     cv::Mat1f distance;
     if (detections_ > 1 && alignment_.offset_px < -kGrown_px)
-      cv::distanceTransform(field_.owner != 0, distance, cv::DIST_L2, cv::DIST_MASK_3);
+      cv::distanceTransform(field_.masks != 0, distance, cv::DIST_L2, cv::DIST_MASK_3);
     return distance;
   }
 

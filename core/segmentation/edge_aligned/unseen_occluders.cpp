@@ -35,7 +35,7 @@ class Occluders {
   /// 255 on what near objects cover in the colour image.
   [[nodiscard]] cv::Mat1b covered() const {
     const cv::Mat1b& hole = edges_.near_holes;
-    cv::Mat1b hit(field_.owner.rows, field_.owner.cols, std::uint8_t{0});
+    cv::Mat1b hit(field_.masks.rows, field_.masks.cols, std::uint8_t{0});
     const int lines = in_rows_ ? hole.rows : hole.cols, length = in_rows_ ? hole.cols : hole.rows;
     for (int line = 0; line < lines; ++line) {
       const auto is_hole = [&](int n) { return hole(place(line, n)) != 0; };
@@ -135,14 +135,14 @@ class Occluders {
     const Eigen::Vector2d at = mended_.color.project(
         mended_.T_color_depth * mended_.depth.back_project(pixel.x, pixel.y, z_m));
     const double c = std::floor(at.x() + 0.5), r = std::floor(at.y() + 0.5);
-    const cv::Size image = field_.owner.size();
+    const cv::Size image = field_.masks.size();
     const bool within = c >= 0 && r >= 0 && c < image.width && r < image.height;
     return within ? static_cast<int>(r) * image.width + static_cast<int>(c) : -1;
   }
 
   /// Whose mask holds a cell, as large as its object is; 0 for none.
   [[nodiscard]] int owner_at(int cell) const {
-    return cell >= 0 && field_.distance[0][cell] < offset_px_ ? field_.owner[0][cell] : 0;
+    return cell >= 0 && field_.mask_distance[0][cell] < offset_px_ ? field_.masks[0][cell] : 0;
   }
 
   const DepthEdges& edges_;

@@ -65,9 +65,21 @@ TEST(EdgeMatching, ABorderOfTwoMasksDoesNotMoveWithTheirSize) {
   }
 }
 
+/// Objects that touch have masks with a groove between where both are too small.
+TEST(EdgeMatching, TheMiddleOfAGrooveIsABorder) {
+  const OutlineField field = two_masks(4);
+  for (const float outward : {1.0F, -1.0F}) {
+    const EdgeMatch on = match(field, 31.5F, outward);
+    EXPECT_NEAR(on.weight, 1, 1e-4);
+    EXPECT_NEAR(on.residual, 0, 1e-4);
+    EXPECT_TRUE(on.at_border);
+  }
+  EXPECT_FALSE(match(two_masks(6), 32.5F, 1).at_border);
+}
+
 /// Beside an outline that is no border, what faces against it counts as the caller has it.
 TEST(EdgeMatching, AgainstAnOutlineCountsLess) {
-  const OutlineField field = two_masks(4);
+  const OutlineField field = two_masks(6);
   ASSERT_FALSE(field.is_near_border(20, 29));
   EXPECT_NEAR(match(field, 29.5F, 1).weight, 1, kCoarse);
   EXPECT_NEAR(match(field, 29.5F, -1).weight, 0.7, kCoarse);

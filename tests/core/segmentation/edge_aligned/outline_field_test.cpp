@@ -117,17 +117,64 @@ TEST(OutlineField, OwnersSpreadStepByStepTiesToTheLowerIndex) {
   }
 }
 
+/// A detection for each of the owners 1 to 3.
+std::vector<Detection> detections_of_owners(const cv::Mat1w& owner) {
+  std::vector<Detection> detections(3);
+  for (std::size_t n = 0; n < 3; ++n) {
+    detections[n].box = {0, 0, owner.cols - 1, owner.rows - 1};
+    detections[n].mask = owner == static_cast<double>(n + 1);
+  }
+  return detections;
+}
+
+/// The pixel's nearest masks before and behind it in a row or column, if they are two and it lies
+/// in a groove between them: that on whose half it lies, else 0.
+std::uint16_t plain_groove(const cv::Mat1w& masks, int v, int u, int dv, int du) {
+  const auto walk = [&](int way) {
+    int steps = 0, y = v, x = u;
+    while (y >= 0 && x >= 0 && y < masks.rows && x < masks.cols && masks(y, x) == 0)
+      ++steps, y += way * dv, x += way * du;
+    const bool inside = y >= 0 && x >= 0 && y < masks.rows && x < masks.cols;
+    return std::pair(steps, inside ? masks(y, x) : std::uint16_t{0});
+  };
+  const auto [before, first] = walk(-1);
+  const auto [behind, second] = walk(1);
+  if (first == 0 || second == 0 || first == second || before + behind - 1 > 5) return 0;
+  return before <= behind ? first : second;
+}
+
+TEST(OutlineField, GroovesAreClosedHalfByEachMaskRowsFirst) {
+  RandomStream stream(25, "owners");
+  int closed = 0;
+  for (int round = 0; round < 400; ++round) {
+    const cv::Mat1w masks = random_owners(stream);
+    const OutlineField field =
+        outline_field(detections_of_owners(masks), masks.cols, masks.rows, 5);
+    ASSERT_EQ(cv::countNonZero(field.masks != masks), 0);
+    for (int v = 0; v < masks.rows; ++v)
+      for (int u = 0; u < masks.cols; ++u) {
+        std::uint16_t expected = masks(v, u);
+        if (expected == 0) expected = plain_groove(masks, v, u, 0, 1);
+        if (expected == 0) expected = plain_groove(masks, v, u, 1, 0);
+        ASSERT_EQ(field.owner(v, u), expected) << "round " << round << ' ' << u << ' ' << v;
+        closed += expected != masks(v, u);
+      }
+    cv::Mat1f distance(masks.size());
+    measure_outline_distance(masks, distance);
+    if (field.length_px > 0) {
+      ASSERT_EQ(cv::countNonZero(field.mask_distance != distance), 0) << "round " << round;
+    }
+  }
+  EXPECT_GT(closed, 100);
+}
+
 TEST(OutlineField, CountsTheElementsThatFaceEachWay) {
   RandomStream stream(24, "owners");
   for (int round = 0; round < 40; ++round) {
-    const cv::Mat1w owner = random_owners(stream);
-    std::vector<Detection> detections(3);
-    for (std::size_t n = 0; n < 3; ++n) {
-      detections[n].box = {0, 0, owner.cols - 1, owner.rows - 1};
-      detections[n].mask = owner == static_cast<double>(n + 1);
-    }
-    const OutlineField field = outline_field(detections, owner.cols, owner.rows, 5);
-    ASSERT_EQ(cv::countNonZero(field.owner != owner), 0);
+    const cv::Mat1w masks = random_owners(stream);
+    const OutlineField field =
+        outline_field(detections_of_owners(masks), masks.cols, masks.rows, 5);
+    const cv::Mat1w& owner = field.owner;
     std::array<cv::Mat1f, 4> elements;
     for (cv::Mat1f& cells : elements)
       cells = cv::Mat1f(owner.rows / 4 + 1, owner.cols / 4 + 1, 0.0F);

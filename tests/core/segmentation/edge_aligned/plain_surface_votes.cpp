@@ -113,8 +113,8 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field
   const Eigen::Vector3f t = mended.translation();
   const Projection color(believed.color), depth(believed.depth);
   cv::Mat2i pixels(w.size());
-  cv::Mat1f nearest(field.owner.size(), 0.0F);
-  const cv::Rect image({0, 0}, field.owner.size());
+  cv::Mat1f nearest(field.masks.size(), 0.0F);
+  const cv::Rect image({0, 0}, field.masks.size());
   for (int v = 0; v < w.rows; ++v)
     for (int u = 0; u < w.cols; ++u) {
       const float x = (static_cast<float>(u) - depth.cx) * (1.0F / depth.fx);
@@ -134,9 +134,9 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field
     }
   const float k = alignment.offset_px;
   const cv::Mat1w owners =
-      k > 0.5F ? spread_owners(field.owner, static_cast<int>(std::ceil(1.5F * k))) : field.owner;
+      k > 0.5F ? spread_owners(field.masks, static_cast<int>(std::ceil(1.5F * k))) : field.masks;
   cv::Mat1f to_free;
-  cv::distanceTransform(field.owner != 0, to_free, cv::DIST_L2, cv::DIST_MASK_3);
+  cv::distanceTransform(field.masks != 0, to_free, cv::DIST_L2, cv::DIST_MASK_3);
   cv::Mat1w owner(w.size(), std::uint16_t{0});
   cv::Mat1f inside(w.size(), -1e4F), weight(w.size(), 0.0F);
   for (int v = 0; v < w.rows; ++v)
@@ -144,7 +144,7 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field
       const cv::Point pixel(pixels(v, u));
       if (!(w(v, u) > 0) || !image.contains(pixel)) continue;
       owner(v, u) = owners(pixel);
-      const float distance = field.distance(pixel);
+      const float distance = field.mask_distance(pixel);
       inside(v, u) = k - distance;
       if (k < -0.5F && inside(v, u) <= 0 && to_free(pixel) > 0.5F - k) inside(v, u) = -distance;
       const float behind = nearest(pixel) * (1.0F - 0.015F) - 4.0F * edges.noise - w(v, u);

@@ -60,8 +60,8 @@ TEST(UnseenOccluders, DoNotHideTheSurfaceThatRunsOn) {
   edges.right = edges.down = cv::Mat1f(240, 320, 1.0F);
   edges.near_holes = cv::Mat1b(240, 320, std::uint8_t{0});
   OutlineField field;
-  field.owner = cv::Mat1w(240, 320, std::uint16_t{1});
-  field.distance = cv::Mat1f(240, 320, -OutlineField::kFar);
+  field.masks = cv::Mat1w(240, 320, std::uint16_t{1});
+  field.mask_distance = cv::Mat1f(240, 320, -OutlineField::kFar);
   cv::Mat1i cells(240, 320);
   for (int v = 0; v < 240; ++v)
     for (int u = 0; u < 320; ++u) {
