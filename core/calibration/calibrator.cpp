@@ -24,8 +24,6 @@ constexpr float kShare_px = 1.5F;
 constexpr double kFinestSpreads = 1.15, kFinest_px = 0.5, kCoarsest_px = 2.0;
 constexpr double kLeastShare = 0.15;  // of the outlines, on which edges must lie
 constexpr double kBehind = 0.002;  // of the outlines, by which an estimate may be behind the start
-constexpr double kMostWeak_px = 1.0;      // standard deviation of the weakest direction
-constexpr double kMostCondition = 250.0;  // one object has above 900, twenty frames below 100
 /// Squared: an estimate can be worse than the start only if it is wrong by half of their
 /// difference.
 constexpr double kSurely = 4.0;
@@ -140,8 +138,10 @@ std::string advice_for(const std::string& direction, const CalibratorSettings& s
 std::string objection(const CalibrationEstimate& estimate, const CalibratorSettings& settings) {
   if (estimate.explained < kLeastShare)
     return "hardly any outline lies on a step of depth; see that masks and depth images belong "
-           "together, and that the start is not farther off than the search goes";
-  if (!(estimate.weakest_px < kMostWeak_px) || !(estimate.condition < kMostCondition))
+           "together, that focal lengths and principal points are those of these images, and that "
+           "the start is not farther off than search_m and search_deg";
+  if (!(estimate.weakest_px < CalibrationEstimate::kMostWeak_px) ||
+      !(estimate.condition < CalibrationEstimate::kMostCondition))
     return estimate.weakest + " cannot be told; " + advice_for(estimate.weakest, settings);
   const Pose& rigid = estimate.correction.rigid;
   if (Eigen::AngleAxisd(rigid.linear()).angle() > kMostBeyond * settings.search_deg.rad() ||

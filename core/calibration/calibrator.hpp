@@ -41,6 +41,10 @@ struct FrameContribution {
 };
 
 struct CalibrationEstimate {
+  /// Limits beyond which an estimate is undetermined.
+  static constexpr double kMostWeak_px = 1.0;
+  static constexpr double kMostCondition = 250.0;  ///< one object has 900, twenty frames below 100
+
   CalibrationVerdict verdict = CalibrationVerdict::undetermined;
   /// Empty where calibrated; else why not, and what helps.
   std::string reason;

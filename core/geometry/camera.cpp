@@ -28,7 +28,8 @@ void check(const CameraModel& camera, const std::string& name) {
 /// A pose of the depth camera in something that the same robot carries.
 void check(const Pose& T_other_depth, const std::string& name, const std::string& other) {
   if (!T_other_depth.matrix().allFinite() || T_other_depth.translation().norm() > kMostApart_m)
-    throw Error(name + ": not finite, or more than 10 m; give the depth camera's pose in " + other +
+    throw Error(name + ": " + std::to_string(T_other_depth.translation().norm()) +
+                " m away, where 10 is the most; give the depth camera's pose in " + other +
                 ", in metres");
 }
 

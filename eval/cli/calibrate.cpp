@@ -48,6 +48,7 @@ struct CalibrationFrames {
   double time_offset_s = 0;  ///< that the start believes in
   std::vector<SemanticClass> classes;
   int count = 0;
+  std::vector<std::filesystem::path> images;  ///< that are read, and may lie outside of the folder
   std::function<Sight(int)> sight;
   std::function<std::optional<FrameMotion>(int)> motion;
 };
@@ -59,11 +60,8 @@ CalibrationFrames frames_of_trial(const CalibrateFlags& flags) {
         "folder has poses of its frames alone; give a recording");
   const auto folder =
       std::make_shared<const TrialFolder>(flags.source.trial({FolderFlags::kGroup}, {}));
-  return {folder->sheet().believed,
-          0.0,
-          folder->sheet().classes,
-          folder->frame_count(),
-          [folder](int n) { return folder->sight(n); },
+  return {folder->sheet().believed,        0.0, folder->sheet().classes,
+          folder->frame_count(),           {},  [folder](int n) { return folder->sight(n); },
           [](int) { return std::nullopt; }};
 }
 
@@ -84,6 +82,7 @@ CalibrationFrames frames_of_folder(const CalibrateFlags& flags) {
           folder->time_offset_s(),
           folder->table().classes,
           folder->frame_count(),
+          folder->image_files(),
           [folder](int n) { return sight_of(*folder, n); },
           motion};
 }
@@ -106,15 +105,21 @@ void write_outlines(const CalibrateFlags& flags, const CalibrationFrames& from,
   std::cout << shown(write_picture(flags.picture, picture)) << '\n';
 }
 
-/// Throws Error where an output would take the place of a file that is read, or of another file
-/// than an earlier output.
+bool is_calibration(const std::filesystem::path& file) try {
+  return load_yaml(file).has("estimate");
+} catch (const Error&) {
+  return false;
+}
+
+/// Throws Error where an output would take the place of an image of the recording, or of a file
+/// that is no earlier output.
 void keep_inputs(const CalibrateFlags& flags) {
   namespace fs = std::filesystem;
   std::error_code none;
   const auto refuse = [](const char* flag, const std::string& file, const char* what) {
     throw Error(fmt::format("{}: {} is there and {}; give another name", flag, shown(file), what));
   };
-  if (fs::is_regular_file(flags.file) && !load_yaml(flags.file).has("estimate"))
+  if (fs::is_regular_file(flags.file) && !is_calibration(flags.file))
     refuse("-o", flags.file, "is no calibration of an earlier run");
   fs::path folder = fs::weakly_canonical(flags.source.folder, none);
   if (!folder.has_filename()) folder = folder.parent_path();  // it was written with a slash
@@ -130,6 +135,9 @@ void calibrate(const CalibrateFlags& flags) {
   keep_inputs(flags);
   const CalibrationFrames from =
       is_trial_folder(flags.source.folder) ? frames_of_trial(flags) : frames_of_folder(flags);
+  std::vector<InputFile> images;
+  for (const std::filesystem::path& image : from.images) images.push_back({"FOLDER", image});
+  check_outputs({{"--picture", flags.picture, ".png"}}, images);
   const std::vector<int> asked = flags.source.chosen_frames(from.count);
   Progress progress("calibrate", "frames", flags.quiet);
   const std::map<int, Sight> sights =
@@ -218,9 +226,14 @@ void add_calibrate(CLI::App& program, int& exit_code) {
   verb->add_flag("-q,--quiet", flags->quiet, "No progress on standard error");
   verb->footer(
       "Reads neither truth nor colours. Prints how far the estimate lies from the start, how well\n"
-      "it is known, and what each frame contributed. A start that is right within chance is\n"
+      "it is known, and of each frame: its outlines, the steps of depth near them, the share of "
+      "the\n"
+      "outlines that steps explain, its share of what is known in the direction that is known\n"
+      "least, and how far steps lie from outlines, with the frame and by an estimate without it. A "
+      "start that is right within chance is\n"
       "confirmed and written as it is. Where the frames do not tell, or the start explains them\n"
-      "better, nothing is written and the exit code is 1 (docs/methods.md, Calibration from a\n"
+      "better, no calibration is written and the exit code is 1 (docs/methods.md, Calibration from "
+      "a\n"
       "recording).\n"
       "Examples:\n"
       "  mapscore calibrate /data/robot --start cameras.yaml --classes ade.yaml -o "

@@ -186,9 +186,11 @@ Mapped mapped_folder(const MapVerbFlags& flags, const FramesDone& shown_done) {
 void map_recording(const MapVerbFlags& flags) {
   std::vector<InputFile> inputs = flags.source.inputs();
   inputs.push_back({"--study", flags.study});
+  const bool finds_poses = flags.poses != kPosesOfFile;
   check_outputs({{"-o", flags.file, ".ot"},
                  {"--color", flags.color_file, ".ot"},
-                 {"--ply", flags.ply_file, ".ply"}},
+                 {"--ply", flags.ply_file, ".ply"},
+                 {"--poses", finds_poses ? poses_file(flags) : std::filesystem::path(), ""}},
                 inputs);
   Progress progress("map", "frames", flags.quiet);
   const auto shown_done = [&](int done, int all) { progress.show(done, all); };

@@ -55,10 +55,11 @@ BelievedCameras read_camera_file(const std::filesystem::path& file,
   const YamlValue root = load_yaml(file);
   root.only({"color", "depth", "T_color_depth", "T_base_depth", "range_min_m", "range_max_m",
              "time_offset_s", "estimate"});
-  const CameraModel color = pinhole_of(root.at("color"));
-  BelievedCameras cameras{otherwise.value_or(registered(color)), 0};
+  BelievedCameras cameras;
   Calibration& calibration = cameras.calibration;
-  calibration.color = color;
+  if (otherwise) calibration = *otherwise;
+  if (!otherwise || root.has("color")) calibration.color = pinhole_of(root.at("color"));
+  if (!otherwise) calibration = registered(calibration.color);
   if (root.has("depth")) calibration.depth = pinhole_of(root.at("depth"));
   if (root.has("T_color_depth")) calibration.T_color_depth = pose_of(root.at("T_color_depth"));
   if (root.has("T_base_depth")) calibration.T_base_depth = pose_of(root.at("T_base_depth"));

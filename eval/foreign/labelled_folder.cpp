@@ -237,6 +237,13 @@ void LabelledFolder::check_cameras() const {
   }
 }
 
+std::vector<fs::path> LabelledFolder::image_files() const {
+  std::vector<fs::path> files;
+  for (const LabelledDepth& frame : frames_)
+    files.insert(files.end(), {folder_ / frame.label, folder_ / frame.depth.path});
+  return files;
+}
+
 Frame LabelledFolder::read(int index, ClassTable& table) const {
   const LabelledDepth& source = at(index);
   const CameraModel& color = calibration_.color;

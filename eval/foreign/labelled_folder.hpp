@@ -44,6 +44,8 @@ class LabelledFolder {
   LabelledFolder(const std::filesystem::path& folder, const LabelledFolderOptions& options);
 
   [[nodiscard]] int frame_count() const { return static_cast<int>(frames_.size()); }
+  /// Label and depth images, wherever they lie.
+  [[nodiscard]] std::vector<std::filesystem::path> image_files() const;
   [[nodiscard]] const LabelledFolderCounts& counts() const { return counts_; }
   [[nodiscard]] const Calibration& calibration() const { return calibration_; }
   /// Classes; the instances of a frame come with it.

@@ -63,7 +63,7 @@ std::string calibration_summary(const CalibrationEstimate& estimate) {
     return fmt::format("{}: {}\n", word_of(estimate.verdict), estimate.reason);
   const Pose& rigid = estimate.correction.rigid;
   const std::string found = fmt::format(
-      "{:.1f} mm and {:.3f} degrees from the start (standard deviations {:.2g} mm and {:.2g} "
+      "{:.1f} mm and {:.3f} degrees from the start (standard deviations {:.2f} mm and {:.3f} "
       "degrees)",
       1e3 * rigid.translation().norm(), kInDegrees * Eigen::AngleAxisd(rigid.linear()).angle(),
       1e3 * sigma_of(estimate, CalibrationCorrection::shift_x),
@@ -80,9 +80,12 @@ std::string calibration_summary(const CalibrationEstimate& estimate) {
           ? fmt::format("{}: {}; it is kept\nfound: {}", word, estimate.reason, found)
           : fmt::format("{}: {}\nfound, and not used: {}", word, estimate.reason, found);
   return fmt::format(
-      "{}\n{}\nknown least: {}, to {:.2g} px; condition number {:.0f}\n"
-      "taken as exact: depth and its scale, stamps and lenses, but for what is listed\n",
-      verdict, shares, estimate.weakest, estimate.weakest_px, estimate.condition);
+      "{}\n{}\nknown least: {}, to {:.2f} px (refused from {} on); condition number {:.0f} "
+      "(refused "
+      "from {} on)\nobjects end {:.2f} px beyond their masks; what the next table does not list is "
+      "taken as exact, as lenses and the scale of depth\n",
+      verdict, shares, estimate.weakest, estimate.weakest_px, CalibrationEstimate::kMostWeak_px,
+      estimate.condition, CalibrationEstimate::kMostCondition, estimate.correction.offset_px);
 }
 
 std::string calibration_numbers(const CalibrationEstimate& estimate) {
@@ -98,11 +101,11 @@ std::string calibration_numbers(const CalibrationEstimate& estimate) {
 
 std::string calibration_frames(const CalibrationEstimate& estimate, const std::vector<int>& names) {
   std::string text =
-      fmt::format("{:>6} {:>11} {:>8} {:>10} {:>13} {:>12} {:>12}\n", "frame", "outlines px",
-                  "steps", "on steps %", "information %", "residual px", "left out px");
+      fmt::format("{:>6} {:>11} {:>8} {:>11} {:>13} {:>11} {:>16}\n", "frame", "outlines px",
+                  "steps", "explained %", "information %", "residual px", "without frame px");
   for (std::size_t n = 0; n < estimate.frames.size(); ++n) {
     const FrameContribution& frame = estimate.frames[n];
-    text += fmt::format("{:>6} {:>11.0f} {:>8} {:>10.1f} {:>13.1f} {:>12.3f} {:>12}\n", names.at(n),
+    text += fmt::format("{:>6} {:>11.0f} {:>8} {:>11.1f} {:>13.1f} {:>11.3f} {:>16}\n", names.at(n),
                         frame.length_px, frame.edges, 100 * frame.explained,
                         100 * frame.information, frame.residual_px,
                         frame.left_out_px > 0 ? fmt::format("{:.3f}", frame.left_out_px) : "-");

@@ -225,6 +225,13 @@ TEST_F(MapFolder, OutputsAreCheckedBeforeTheWork) {
   write_text(path("cameras.ot"), "color: {fx_px: 280, fy_px: 280, cx_px: 160, cy_px: 120}\n");
   expect_refused(map("ours", "cameras.ot", {"--calibration", path("cameras.ot")}),
                  {"-o", "--calibration reads this file"});
+  fs::create_directory_symlink(path("."), path("here"));
+  expect_refused(map("ours", "map.ot", {"--color", path("here/map.ot")}),
+                 {"--color", "each its own"});
+  write_text(path("map_poses.txt"), "classes: {}\n");
+  expect_refused(
+      map("ours", "map.ot", {"--classes", path("map_poses.txt"), "--poses", "visual_odometry"}),
+      {"--poses", "--classes reads this file"});
   expect_refused(map("ours", "map.ot", {"--ply", path("folder.ply")}), {"--ply", "is a folder"});
   expect_refused(map("ours", "ours/recording.yaml"), {"recording.yaml", ".ot"});
   EXPECT_FALSE(fs::exists(path("map.ot")));

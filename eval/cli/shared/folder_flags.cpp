@@ -59,7 +59,11 @@ void FolderFlags::add_to(CLI::App& to, const std::string& cameras, const std::st
 }
 
 std::vector<InputFile> FolderFlags::inputs() const {
-  return {{cameras_flag, reading.cameras}, {"--classes", reading.classes}};
+  std::vector<InputFile> files{{cameras_flag, reading.cameras}, {"--classes", reading.classes}};
+  for (const char* name : {"recording.yaml", "groundtruth.txt", "depth.txt", "label.txt",
+                           "color.txt", "rgb.txt", "trial.yaml", "method.yaml"})
+    files.push_back({"FOLDER", std::filesystem::path(folder) / name});
+  return files;
 }
 
 LabelledFolder FolderFlags::labelled(bool poses) const {

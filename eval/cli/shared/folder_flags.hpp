@@ -29,7 +29,7 @@ struct FolderFlags {
   /// Adds FOLDER and the flags. `cameras`: a further name of --intrinsics, and `use` what the
   /// labels are taken for.
   void add_to(CLI::App& to, const std::string& cameras, const std::string& use);
-  /// Files that the flags name, beside the folder.
+  /// Files that the flags name, and those that say what the folder's images are.
   [[nodiscard]] std::vector<InputFile> inputs() const;
   /// Reads the folder, with poses or without. Throws Error as LabelledFolder.
   [[nodiscard]] LabelledFolder labelled(bool poses) const;

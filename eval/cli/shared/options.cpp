@@ -146,8 +146,9 @@ void check_outputs(const std::vector<OutputFile>& outputs, const std::vector<Inp
     };
     if (!ending.empty() && file.extension() != ending)
       refuse(fmt::format("is written as {}; give the file this ending", ending));
-    const fs::path whole = fs::absolute(file).lexically_normal();
     std::error_code none;
+    fs::path whole = fs::absolute(file).lexically_normal();
+    whole = fs::weakly_canonical(whole.parent_path(), none) / whole.filename();
     if (fs::is_directory(whole, none)) refuse("is a folder; give the name of a file");
     if (!fs::is_directory(whole.parent_path(), none))
       refuse("its folder is not there; make it, or give another");

@@ -167,7 +167,7 @@ TEST_F(CalibrateVerb, WhatIsReadIsNotWrittenOver) {
   const std::string start = wrong_cameras(0.01, 0.005);
   expect_refused(mapscore({"calibrate", path("recording"), "-o", start}),
                  {"-o", "is no calibration of an earlier run"});
-  expect_refused(calibrate("recording", "recording/recording.yaml"), {"is no calibration"});
+  expect_refused(calibrate("recording", "recording/recording.yaml"), {"FOLDER reads this file"});
   expect_refused(
       calibrate("recording", "x.yaml", {"--picture", path("recording/label/000000.png")}),
       {"--picture", "may be an image of the recording"});
@@ -178,6 +178,15 @@ TEST_F(CalibrateVerb, WhatIsReadIsNotWrittenOver) {
   expect_refused(calibrate("recording", "x.yaml",
                            {"--start", path("start.png"), "--picture", path("start.png")}),
                  {"--picture", "--start reads this file"});
+  write_text(path("empty.yaml"), "");
+  expect_refused(calibrate("recording", "empty.yaml"), {"-o", "is no calibration"});
+  fs::create_directory(path("elsewhere"));
+  fs::copy(path("recording"), path("linked"), fs::copy_options::recursive);
+  fs::rename(path("linked/label"), path("elsewhere/label"));
+  fs::create_directory_symlink(path("elsewhere/label"), path("linked/label"));
+  expect_refused(
+      calibrate("linked", "x.yaml", {"--follow", "--picture", path("elsewhere/label/000000.png")}),
+      {"--picture", "FOLDER reads this file"});
   expect_done(calibrate("recording", "first.yaml"));
   expect_refused(calibrate("recording", "first.yaml", {"--start", path("first.yaml")}),
                  {"-o", "--start reads this file"});
@@ -205,7 +214,7 @@ TEST_F(CalibrateVerb, BadInputIsRefused) {
              "color: {fx_px: 280, fy_px: 280, cx_px: 160, cy_px: 120}\n"
              "T_color_depth: [20, 0, 0, 0, 0, 0, 1]\n");
   expect_refused(calibrate("recording", "x.yaml", {"--start", path("apart.yaml")}),
-                 {"apart.yaml", "T_color_depth", "more than 10 m"});
+                 {"apart.yaml", "T_color_depth", "20.000000 m away"});
   write_text(path("bad.yaml"), "color: {fx_px: 0}\n");
   expect_refused(calibrate("recording", "x.yaml", {"--start", path("bad.yaml")}), {"fx_px"});
 }

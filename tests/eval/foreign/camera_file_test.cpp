@@ -60,6 +60,9 @@ TEST_F(CameraFile, WhatIsLeftOutIsAsTheFolderSays) {
     EXPECT_TRUE(read.T_base_depth.isApprox(own.T_base_depth)) << text;
     EXPECT_EQ(read.range_min_m, own.range_min_m) << text;
   }
+  EXPECT_EQ(read_cameras(file("range_max_m: 5\n"), own).calibration.color, own.color);
+  testing::expect_error("'color' is missing",
+                        [&] { (void)read_cameras(file("range_max_m: 5\n")); });
   EXPECT_EQ(read_cameras(file("color: {fx_px: 500, fy_px: 510, cx_px: 320, cy_px: 240}\n"
                               "range_max_m: 5\n"),
                          own)
