@@ -48,13 +48,20 @@ const std::uint16_t* next_of(const std::uint16_t* from, const std::uint16_t* end
   return std::find_if(from, end, [](std::uint16_t x) { return x != 0; });
 }
 
+/// Calls use(n) with each place n whose mark is not 0.
+void for_each_marked(const std::vector<std::uint16_t>& marks, auto&& use) {
+  const std::uint16_t *const begin = marks.data(), *const end = begin + marks.size();
+  for (auto found = next_of(begin, end); found != end; found = next_of(found + 1, end))
+    use(static_cast<int>(found - begin));
+}
+
 /// A pixel whose right or lower neighbour has another owner; the image's border repeats its own.
 struct Change {
   int u, v;
   std::uint16_t own, right, below;
 };
 
-/// Row by row.
+/// All of them, row by row.
 std::vector<Change> changes_of(const cv::Mat1w& masks) {
   std::vector<Change> changes;
   if (masks.empty()) return changes;
@@ -67,11 +74,9 @@ std::vector<Change> changes_of(const cv::Mat1w& masks) {
     for (int u = 0; u < last; ++u)
       differs[u] = static_cast<std::uint16_t>((row[u] ^ row[u + 1]) | (row[u] ^ below[u]));
     differs[last] = row[last] ^ below[last];
-    const std::uint16_t* const end = differs + masks.cols;
-    for (auto found = next_of(differs, end); found != end; found = next_of(found + 1, end)) {
-      const int u = static_cast<int>(found - differs);
+    for_each_marked(differ, [&](int u) {
       changes.push_back({u, v, row[u], row[std::min(u + 1, last)], below[u]});
-    }
+    });
   }
   return changes;
 }
@@ -182,9 +187,7 @@ std::vector<cv::Point> rim_of(const cv::Mat1w& owner) {
     for (int u = 1; u < last; ++u) mark(u, row[u - 1], row[u + 1]);
     mark(0, row[0], row[std::min(1, last)]);
     mark(last, row[std::max(last - 1, 0)], row[last]);
-    const std::uint16_t* const end = flag + owner.cols;
-    for (auto found = next_of(flag, end); found != end; found = next_of(found + 1, end))
-      rim.emplace_back(static_cast<int>(found - flag), v);
+    for_each_marked(flags, [&](int u) { rim.emplace_back(u, v); });
   }
   return rim;
 }
