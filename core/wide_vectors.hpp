@@ -3,6 +3,10 @@
 
 #pragma once
 
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
 /// Before a function whose loop is to become wide vectors: it is compiled for several widths, of
 /// which the processor's is chosen when the program starts. No result depends on the width as long
 /// as the loop neither sums over elements nor fuses products. The compiler makes vectors only of
@@ -14,3 +18,21 @@
 #else
 #define MAPSCORE_WIDE_VECTORS
 #endif
+
+namespace mapscore {
+
+/// The pixels of a row that a wide loop has marked with 1, the others with 0.
+using Marks = std::vector<std::uint8_t>;
+
+/// Calls use(n) with each place n that is marked, in order; quick where few are.
+void for_each_marked(const Marks& marks, auto&& use) {
+  const std::uint8_t *const begin = marks.data(), *const end = begin + marks.size();
+  for (const std::uint8_t* from = begin; from != end; ++from) {
+    from = static_cast<const std::uint8_t*>(
+        std::memchr(from, 1, static_cast<std::size_t>(end - from)));
+    if (from == nullptr) return;
+    use(static_cast<int>(from - begin));
+  }
+}
+
+}  // namespace mapscore

@@ -47,7 +47,7 @@ void find_cells(const EdgeColumns& edges, const Eigen::Matrix3f& R, const Eigen:
 CoarseOutlines::CoarseOutlines(const std::vector<ProjectedEdge>& edges, const OutlineField& field,
                                const Projection& project)
     : field_(field), project_(project), stride_(1 + edges.size() / kCoarseSearchEdges) {
-  for (const cv::Mat1b& map : field.coarse) maps_.insert(maps_.end(), map.begin(), map.end());
+  for (const cv::Mat1b& map : field.coarse) maps_.insert(maps_.end(), map[0], map[0] + map.total());
   maps_.push_back(0);
   for (std::size_t n = 0; n < edges.size(); n += stride_) {
     const ProjectedEdge& edge = edges[n];

@@ -22,19 +22,22 @@ constexpr int kInner_px = 6;           // behind the outermost step of a surface
 constexpr float kSameDepth = 0.03F;    // of the inverse depth: one surface, not one before another
 constexpr double kShareOfRange = 0.9;  // surfaces farther than this may end because the range does
 
+/// Inverse depths, 1/m, of a row; 0 where the depth is not from `least` to `most`.
+MAPSCORE_WIDE_VECTORS
+void invert_row(const std::uint16_t* depth, float least, float most, int columns, float* inverse) {
+  for (int u = 0; u < columns; ++u) {
+    const float value = static_cast<float>(depth[u]);
+    const float quotient = static_cast<float>(kDepthUnitsPerMetre) / (value < 1.0F ? 1.0F : value);
+    const bool is_valid = (value >= least) & (value <= most);
+    inverse[u] = is_valid ? quotient : 0.0F;
+  }
+}
+
 cv::Mat1f inverse_of(const cv::Mat1w& depth, const Calibration& believed) {
   cv::Mat1f inverse(depth.rows, depth.cols);
   const float least = static_cast<float>(believed.range_min_m * kDepthUnitsPerMetre - 1e-3);
   const float most = static_cast<float>(believed.range_max_m * kDepthUnitsPerMetre + 1e-3);
-  for (int v = 0; v < depth.rows; ++v) {
-    const std::uint16_t* in = depth[v];
-    float* out = inverse[v];
-    for (int u = 0; u < depth.cols; ++u) {
-      const float value = static_cast<float>(in[u]);
-      const float quotient = static_cast<float>(kDepthUnitsPerMetre) / std::max(value, 1.0F);
-      out[u] = value >= least && value <= most ? quotient : 0.0F;
-    }
-  }
+  for (int v = 0; v < depth.rows; ++v) invert_row(depth[v], least, most, depth.cols, inverse[v]);
   return inverse;
 }
 
@@ -101,14 +104,12 @@ class EdgeFinder {
   DepthEdges find() {
     const cv::Mat1f& w = edges_.inverse_depth;
     std::vector<float> unused(static_cast<std::size_t>(w.cols), 0.0F);
-    std::vector<std::uint8_t> flags(unused.size());
+    Marks flags(unused.size());
     for (int v = 0; v < w.rows; ++v) {
       float* const down = v > 0 ? edges_.down[v - 1] : unused.data();
       go_on(w[v], v > 0 ? w[v - 1] : unused.data(), tau_, w.cols, edges_.right[v], down,
             flags.data());
-      const auto end = flags.end();
-      for (auto at = std::find(flags.begin(), end, 1); at != end; at = std::find(at + 1, end, 1))
-        look_back(v, static_cast<int>(at - flags.begin()));
+      for_each_marked(flags, [&](int u) { look_back(v, u); });
       const int last = last_in_row(v, w.cols);
       if (w.cols - last > kWidestGap) beside_hole_in_row(v, last, w.cols);
     }

@@ -4,12 +4,12 @@
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 
 #include "core/segmentation/edge_aligned/outline_distance.hpp"
+#include "core/wide_vectors.hpp"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 
 namespace mapscore {
 namespace {
@@ -38,23 +38,6 @@ cv::Rect window_of(const std::vector<Detection>& detections, const cv::Size& ima
   return window & cv::Rect({0, 0}, image);
 }
 
-/// The first from a place on that is not 0.
-const std::uint16_t* next_of(const std::uint16_t* from, const std::uint16_t* end) {
-  std::uint64_t four = 0;
-  for (; end - from >= 4; from += 4) {
-    std::memcpy(&four, from, sizeof four);
-    if (four != 0) break;
-  }
-  return std::find_if(from, end, [](std::uint16_t x) { return x != 0; });
-}
-
-/// Calls use(n) with each place n whose mark is not 0.
-void for_each_marked(const std::vector<std::uint16_t>& marks, auto&& use) {
-  const std::uint16_t *const begin = marks.data(), *const end = begin + marks.size();
-  for (auto found = next_of(begin, end); found != end; found = next_of(found + 1, end))
-    use(static_cast<int>(found - begin));
-}
-
 /// A pixel whose right or lower neighbour has another owner; the image's border repeats its own.
 struct Change {
   int u, v;
@@ -66,14 +49,13 @@ std::vector<Change> changes_of(const cv::Mat1w& masks) {
   std::vector<Change> changes;
   if (masks.empty()) return changes;
   const int last = masks.cols - 1;
-  std::vector<std::uint16_t> differ(static_cast<std::size_t>(masks.cols));
-  std::uint16_t* const differs = differ.data();
+  Marks differ(static_cast<std::size_t>(masks.cols));
+  std::uint8_t* const differs = differ.data();
   for (int v = 0; v < masks.rows; ++v) {
     const std::uint16_t* row = masks[v];
     const std::uint16_t* below = v + 1 < masks.rows ? masks[v + 1] : row;
-    for (int u = 0; u < last; ++u)
-      differs[u] = static_cast<std::uint16_t>((row[u] ^ row[u + 1]) | (row[u] ^ below[u]));
-    differs[last] = row[last] ^ below[last];
+    for (int u = 0; u < last; ++u) differs[u] = (row[u] != row[u + 1]) | (row[u] != below[u]);
+    differs[last] = row[last] != below[last];
     for_each_marked(differ, [&](int u) {
       changes.push_back({u, v, row[u], row[std::min(u + 1, last)], below[u]});
     });
@@ -175,8 +157,8 @@ std::vector<cv::Point> rim_of(const cv::Mat1w& owner) {
   std::vector<cv::Point> rim;
   if (owner.empty()) return rim;
   const int last = owner.cols - 1;
-  std::vector<std::uint16_t> flags(static_cast<std::size_t>(owner.cols));
-  std::uint16_t* const flag = flags.data();
+  Marks flags(static_cast<std::size_t>(owner.cols));
+  std::uint8_t* const flag = flags.data();
   for (int v = 0; v < owner.rows; ++v) {
     const std::uint16_t* row = owner[v];
     const std::uint16_t* above = owner[std::max(v - 1, 0)];

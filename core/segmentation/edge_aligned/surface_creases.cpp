@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace mapscore {
@@ -74,6 +75,13 @@ void cut_at_peaks(const std::array<const float*, 2 * kPeak_px + 1>& turns, int c
   }
 }
 
+/// Marks where a surface went on and does not any more.
+MAPSCORE_WIDE_VECTORS
+void find_cuts(const float* before, const float* on, int count, std::uint8_t* __restrict marks) {
+  for (int n = 0; n < count; ++n)
+    marks[n] = static_cast<std::uint8_t>((before[n] > 0) & (on[n] == 0.0F));
+}
+
 cv::Mat1f parted_in_rows(const DepthEdges& edges) {
   const cv::Mat1f& w = edges.inverse_depth;
   cv::Mat1f out = edges.right.clone();
@@ -136,15 +144,14 @@ std::vector<DepthEdge> contacts_of(const DepthEdges& edges, const Continuity& pa
                                    const CameraModel& camera) {
   const cv::Mat1f& w = edges.inverse_depth;
   std::vector<DepthEdge> contacts;
+  Marks cut(static_cast<std::size_t>(w.cols));
   for (int v = 0; v + 1 < w.rows; ++v) {
-    const float *on = parted.down[v], *before = edges.down[v], *end = on + w.cols;
-    for (const float* at = std::find(on, end, 0.0F); at != end; at = std::find(at + 1, end, 0.0F)) {
-      const auto u = static_cast<int>(at - on);
-      if (!(before[u] > 0)) continue;
+    find_cuts(edges.down[v], parted.down[v], w.cols, cut.data());
+    for_each_marked(cut, [&](int u) {
       const double z_m = 2.0 / static_cast<double>(w(v, u) + w(v + 1, u));
       const Eigen::Vector3d point = camera.back_project(u, v + 0.5, z_m);
       contacts.push_back({point.cast<float>(), Outward::down, 1.0F});
-    }
+    });
   }
   return contacts;
 }

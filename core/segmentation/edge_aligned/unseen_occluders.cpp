@@ -109,10 +109,17 @@ class Occluders {
   /// Marks what the run [begin, end) of a hole covers.
   void cover(int line, int begin, int end, cv::Mat1b& hit) const {
     const auto count = static_cast<std::size_t>(end - begin);
+    std::vector<Eigen::Vector3d> rays;  // at 1 m, in the colour camera's axes
+    for (int n = begin; n < end; ++n) {
+      const cv::Point pixel = place(line, n);
+      rays.emplace_back(mended_.T_color_depth.linear() *
+                        mended_.depth.back_project(pixel.x, pixel.y, 1.0));
+    }
     std::vector<int> cells(count), far_owners(count);
     const auto find_cells = [&](double z_m) {
-      for (std::size_t n = 0; n < count; ++n)
-        cells[n] = cell_of(place(line, begin + static_cast<int>(n)), z_m);
+      std::transform(rays.begin(), rays.end(), cells.begin(), [&](const Eigen::Vector3d& ray) {
+        return cell_of(z_m * ray + mended_.T_color_depth.translation());
+      });
     };
     find_cells(mended_.range_max_m);
     std::transform(cells.begin(), cells.end(), far_owners.begin(),
@@ -130,14 +137,13 @@ class Occluders {
     }
   }
 
-  /// The colour pixel of a depth pixel at a depth; -1 beyond the image.
-  [[nodiscard]] int cell_of(const cv::Point& pixel, double z_m) const {
-    const Eigen::Vector2d at = mended_.color.project(
-        mended_.T_color_depth * mended_.depth.back_project(pixel.x, pixel.y, z_m));
-    const double c = std::floor(at.x() + 0.5), r = std::floor(at.y() + 0.5);
+  /// The colour pixel that a point in the colour camera's frame lies in; -1 beyond the image.
+  [[nodiscard]] int cell_of(const Eigen::Vector3d& point) const {
+    const Eigen::Vector2d at = mended_.color.project(point);
+    const double u = at.x() + 0.5, v = at.y() + 0.5;
     const cv::Size image = field_.masks.size();
-    const bool within = c >= 0 && r >= 0 && c < image.width && r < image.height;
-    return within ? static_cast<int>(r) * image.width + static_cast<int>(c) : -1;
+    const bool within = u >= 0 && v >= 0 && u < image.width && v < image.height;
+    return within ? static_cast<int>(v) * image.width + static_cast<int>(u) : -1;
   }
 
   /// Whose mask holds a cell, as large as its object is; 0 for none.

@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: 2026 the mapscore authors
+// SPDX-License-Identifier: MIT
+
+#include "core/segmentation/edge_aligned/pixel_votes.hpp"
+
+#include "core/segmentation/edge_aligned/edge_matching.hpp"
+#include "core/segmentation/edge_aligned/filled_slits.hpp"
+#include "core/segmentation/edge_aligned/unseen_occluders.hpp"
+#include "core/wide_vectors.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace mapscore {
+namespace {
+
+constexpr float kHidden = 0.015F;   // share of inverse depth by which a hidden pixel lies behind
+constexpr float kSlopes = 2.0F;     // pixels that a surface may rise by itself
+constexpr float kNoise = 4.0F;      // sigmas that it may be off
+constexpr float kSureAt_px = 2.0F;  // from the outline a pixel's vote has full weight
+constexpr float kLeastVote = 0.05F;
+constexpr float kHiddenVote = 0.2F;   // against every object
+constexpr float kGrown_px = 0.5F;     // from here on masks may have filled slits
+constexpr float kFree_px = 0.5F;      // what no mask holds begins half a pixel before its centre
+constexpr float kOutside_px = -1e4F;  // of what the colour camera does not see
+
+/// By how much more than noise a surface lies behind the nearest one of its colour pixel, 1/m.
+float behind(float nearest, float noise, float w) {
+  return nearest * (1.0F - kHidden) - kNoise * noise - w;
+}
+
+/// From a depth pixel to the colour image.
+struct RayMotion {
+  Eigen::Matrix3f R;
+  Eigen::Vector3f t;
+  Projection color, depth;
+};
+
+/// Projects the pixels of a row of inverse depths w: with p = z ray, p_color / z = R ray + t w.
+MAPSCORE_WIDE_VECTORS
+void project_row(const RayMotion& motion, int v, const float* w, int columns, float* us,
+                 float* vs) {
+  const Eigen::Matrix3f& R = motion.R;
+  const Projection &color = motion.color, &depth = motion.depth;
+  const float y = (static_cast<float>(v) - depth.cy) / depth.fy, inverse_f = 1.0F / depth.fx;
+  const float xx = R(0, 0), xy = R(0, 1) * y, xz = R(0, 2), yx = R(1, 0), yy = R(1, 1) * y,
+              yz = R(1, 2), zx = R(2, 0), zy = R(2, 1) * y, zz = R(2, 2);
+  const float tx = motion.t.x(), ty = motion.t.y(), tz = motion.t.z();
+  const float fx = color.fx, fy = color.fy, cx = color.cx, cy = color.cy, centre = depth.cx;
+  for (int u = 0; u < columns; ++u) {
+    const float x = (static_cast<float>(u) - centre) * inverse_f;
+    const float X = xx * x + xy + xz + tx * w[u];
+    const float Y = yx * x + yy + yz + ty * w[u];
+    const float Z = zx * x + zy + zz + tz * w[u];
+    const float inverse_z = 1.0F / Z;
+    us[u] = fx * X * inverse_z + cx;
+    vs[u] = fy * Y * inverse_z + cy;
+  }
+}
+
+/// The pixels of an image, row-major, that hold some places; -1 beyond it.
+MAPSCORE_WIDE_VECTORS
+void find_pixels(const float* us, const float* vs, int count, const cv::Size& image, int* pixels) {
+  const int columns = image.width;
+  const float right = static_cast<float>(columns), bottom = static_cast<float>(image.height);
+  for (int n = 0; n < count; ++n) {
+    const float u = us[n] + 0.5F, v = vs[n] + 0.5F;
+    const bool within = (u >= 0) & (v >= 0) & (u < right) & (v < bottom);
+    const int column = static_cast<int>(within ? u : 0.0F);
+    const int row = static_cast<int>(within ? v : 0.0F);
+    pixels[n] = within ? row * columns + column : -1;
+  }
+}
+
+/// Some depth pixels in a row: inverse depth, 1/m, 0 where there is none, and place in a colour
+/// image, -1 beyond it.
+struct PixelRow {
+  const float* w;
+  const int* cells;
+  int count;
+
+  [[nodiscard]] bool is_seen(int u) const { return (w[u] > 0) & (cells[u] >= 0); }
+};
+
+/// What an image holds where they lie; of those beyond it, its first value. Wide loads from
+/// scattered places are no quicker.
+void look_up(const float* image, const PixelRow& row, float* __restrict values) {
+  const auto [w, cells, count] = row;
+  for (int u = 0; u < count; ++u) values[u] = image[cells[u] < 0 ? 0 : cells[u]];
+}
+
+/// How far they lie inside of outlines `distance` px away from them that mended masks have moved
+/// outwards by `offset_px`.
+MAPSCORE_WIDE_VECTORS
+void find_depth_in(const PixelRow& row, const float* distance, float offset_px, float* depth_in) {
+  for (int u = 0; u < row.count; ++u)
+    depth_in[u] = row.is_seen(u) ? offset_px - distance[u] : kOutside_px;
+}
+
+/// What their votes weigh as far as they are seen. Marks those that something near covers, or whose
+/// colour pixel has a `nearest` surface nearer by more than noise.
+MAPSCORE_WIDE_VECTORS
+void weigh(PixelRow row, const float* depth_in, const float* nearest, const std::uint8_t* covered,
+           float noise, float* __restrict weight, std::uint8_t* __restrict may_be_hidden) {
+  const int count = row.count;
+  for (int u = 0; u < count; ++u) {
+    const float share = std::abs(depth_in[u]) / kSureAt_px;
+    const float limited = share < kLeastVote ? kLeastVote : share > 1.0F ? 1.0F : share;
+    const bool is_seen = row.is_seen(u);
+    const bool is_behind = behind(nearest[u], noise, row.w[u]) > 0;
+    weight[u] = is_seen ? limited : 0.0F;
+    may_be_hidden[u] = static_cast<std::uint8_t>(is_seen & (is_behind | (covered[u] != 0)));
+  }
+}
+
+/// Takes the owner from pixels that do not lie inside of its object.
+MAPSCORE_WIDE_VECTORS
+void leave_out(const float* depth_in, int count, std::uint16_t* __restrict owner) {
+  for (int u = 0; u < count; ++u) owner[u] = depth_in[u] > 0 ? owner[u] : std::uint16_t{0};
+}
+
+class Voting {
+ public:
+  Voting(const DepthEdges& edges, const OutlineField& field, const OutlineAlignment& alignment,
+         const Calibration& believed, std::size_t detections)
+      : edges_(edges),
+        field_(field),
+        alignment_(alignment),
+        believed_(believed),
+        detections_(detections) {}
+
+  /// Finds the colour pixel that each depth pixel lies in.
+  void locate(const OutlineShifts& shifts) {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    cells_.create(w.rows, w.cols);
+    const Eigen::Isometry3f T_color_depth = alignment_.corrected(believed_.T_color_depth);
+    const RayMotion motion{T_color_depth.linear(), T_color_depth.translation(),
+                           Projection(believed_.color), Projection(believed_.depth)};
+    std::vector<float> us(static_cast<std::size_t>(w.cols)), vs(us.size());
+    for (int v = 0; v < w.rows; ++v) {
+      project_row(motion, v, w[v], w.cols, us.data(), vs.data());
+      if (!shifts.nodes.empty())
+        for (std::size_t u = 0; u < us.size(); ++u) {
+          const cv::Vec2f by = shifts.at(us[u], vs[u]);
+          us[u] += by[0], vs[u] += by[1];
+        }
+      find_pixels(us.data(), vs.data(), w.cols, field_.masks.size(), cells_[v]);
+    }
+  }
+
+  /// Nearest surface by colour pixel, as inverse depth, spread over the neighbouring pixels.
+  void find_nearest() {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    cv::Mat1f hit(field_.masks.rows, field_.masks.cols, 0.0F);
+    float* const hits = hit[0];
+    for (int v = 0; v < w.rows; ++v) {
+      const float* in = w[v];
+      const int* cells = cells_[v];
+      for (int u = 0; u < w.cols; ++u)
+        if (cells[u] >= 0 && in[u] > hits[cells[u]]) hits[cells[u]] = in[u];
+    }
+    cv::dilate(hit, nearest_, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
+    behind_unseen_ = unseen_occluders(edges_, cells_, field_, alignment_, believed_);
+  }
+
+  PixelVotes collect() {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    const int beyond_px = static_cast<int>(std::ceil(1.5F * alignment_.offset_px));
+    const cv::Mat1w owners =
+        alignment_.offset_px > 0.5F ? spread_owners(field_.masks, beyond_px) : field_.masks;
+    PixelVotes votes{cv::Mat1w(w.rows, w.cols), cv::Mat1f(w.rows, w.cols)};
+    cv::Mat1f depths_in(w.rows, w.cols);
+    const cv::Mat1f to_free = distance_to_free();
+    const std::uint16_t* const owner_of = owners[0];
+    std::vector<float> distance(static_cast<std::size_t>(w.cols)), nearest(distance.size());
+    Marks may_be_hidden(distance.size());
+    for (int v = 0; v < w.rows; ++v) {
+      const PixelRow row{w[v], cells_[v], w.cols};
+      float *depth_in = depths_in[v], *weight = votes.weight[v];
+      std::uint16_t* owner = votes.owner[v];
+      for (int u = 0; u < w.cols; ++u)
+        owner[u] = row.is_seen(u) ? owner_of[row.cells[u]] : std::uint16_t{0};
+      look_up(field_.mask_distance[0], row, distance.data());
+      look_up(nearest_[0], row, nearest.data());
+      find_depth_in(row, distance.data(), alignment_.offset_px, depth_in);
+      if (!to_free.empty()) hold_borders(row, to_free[0], distance.data(), depth_in);
+      const std::uint8_t* covered = behind_unseen_[v];
+      weigh(row, depth_in, nearest.data(), covered, edges_.noise, weight, may_be_hidden.data());
+      for_each_marked(may_be_hidden, [&](int u) {
+        const float w_behind = behind(nearest[static_cast<std::size_t>(u)], edges_.noise, row.w[u]);
+        if (covered[u] != 0 || w_behind > kSlopes * slope_at(v, u))
+          depth_in[u] = -1.0F, weight[u] = kHiddenVote;
+      });
+    }
+    close_slits(votes, depths_in);
+    for (int v = 0; v < w.rows; ++v) leave_out(depths_in[v], w.cols, votes.owner[v]);
+    return votes;
+  }
+
+ private:
+  /// By colour pixel, how far it is from what no mask holds; empty unless there are some masks that
+  /// are too large.
+  [[nodiscard]] cv::Mat1f distance_to_free() const {
+    cv::Mat1f distance;
+    if (detections_ > 1 && alignment_.offset_px < -kGrown_px)
+      cv::distanceTransform(field_.masks != 0, distance, cv::DIST_L2, cv::DIST_MASK_3);
+    return distance;
+  }
+
+  /// A border of two masks stays where it is when both shrink. `distance`: of each pixel of the row
+  /// from its mask's outline.
+  void hold_borders(const PixelRow& row, const float* to_free, const float* distance,
+                    float* depth_in) const {
+    for (int u = 0; u < row.count; ++u)
+      if (row.is_seen(u) && depth_in[u] <= 0 &&
+          to_free[row.cells[u]] > kFree_px - alignment_.offset_px)
+        depth_in[u] = -distance[u];
+  }
+
+  /// Where masks have been grown over slits of their objects, what lies behind is not the object.
+  void close_slits(PixelVotes& votes, cv::Mat1f& depths_in) const {
+    if (alignment_.offset_px > -kGrown_px) return;
+    const int widest_px = static_cast<int>(std::ceil(-2 * alignment_.offset_px));
+    const cv::Mat1b slits = filled_slits(edges_, votes.owner, widest_px);
+    depths_in.setTo(-1.0F, slits);
+    votes.weight.setTo(1.0F, slits);
+  }
+
+  /// How much the inverse depth of the surface of a pixel rises to the next, along its row or its
+  /// column; of two neighbours on the surface the nearer in depth counts.
+  [[nodiscard]] float slope_at(int v, int u) const {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    const float here = w(v, u);
+    const auto least = [&](bool before, float w_before, bool after, float w_after) {
+      const float back = before ? std::abs(here - w_before) : 1.0F;
+      const float on = after ? std::abs(w_after - here) : 1.0F;
+      return before || after ? std::min(back, on) : 0.0F;
+    };
+    const auto next = [](float continuity) { return continuity >= 1.0F; };
+    const bool left = u > 0 && next(edges_.right(v, u - 1)), right = next(edges_.right(v, u));
+    const bool up = v > 0 && next(edges_.down(v - 1, u)), down = next(edges_.down(v, u));
+    return std::max(least(left, left ? w(v, u - 1) : 0, right, right ? w(v, u + 1) : 0),
+                    least(up, up ? w(v - 1, u) : 0, down, down ? w(v + 1, u) : 0));
+  }
+
+  const DepthEdges& edges_;
+  const OutlineField& field_;
+  const OutlineAlignment& alignment_;
+  const Calibration& believed_;
+  std::size_t detections_;
+  cv::Mat1i cells_;  ///< by depth pixel: place in a colour image, row-major; -1 beyond it
+  cv::Mat1f nearest_;
+  cv::Mat1b behind_unseen_;  ///< by depth pixel, 255 or 0
+};
+
+}  // namespace
+
+PixelVotes pixel_votes(const DepthEdges& edges, const OutlineField& field,
+                       const OutlineAlignment& alignment, const OutlineShifts& shifts,
+                       const Calibration& believed, std::size_t detections) {
+  Voting voting(edges, field, alignment, believed, detections);
+  voting.locate(shifts);
+  voting.find_nearest();
+  return voting.collect();
+}
+
+}  // namespace mapscore
