@@ -106,9 +106,10 @@ std::string fit_text(const LabelledDepth& labelled, OutlineFit fitted) {
     const Eigen::AngleAxisf turn(fit.rotation);
     const Eigen::Vector3d degrees = (turn.angle() * turn.axis()).cast<double>() / kDegree;
     text += fmt::format(
-        "turned by {:.2f} and {:.2f} degrees about x and y of color_optical, shifted by {:.1f} and "
-        "{:.1f} mm along them; ",
-        degrees.x(), degrees.y(), 1e3 * fit.translation.x(), 1e3 * fit.translation.y());
+        "turned by {:.2f}, {:.2f} and {:.2f} degrees about x, y and z of color_optical, shifted by "
+        "{:.1f} and {:.1f} mm along x and y, focal length {:+.2f} %; ",
+        degrees.x(), degrees.y(), degrees.z(), 1e3 * fit.translation.x(),
+        1e3 * fit.translation.y(), 100 * (fit.focal - 1));
   }
   text +=
       fmt::format("objects end {:.1f} px {} their masks; depth edges lie on {:.2f} of the outlines",

@@ -36,6 +36,12 @@ struct Projection {
         fy(static_cast<float>(camera.fy_px)),
         cx(static_cast<float>(camera.cx_px)),
         cy(static_cast<float>(camera.cy_px)) {}
+  /// With focal lengths `ratio` times as long.
+  [[nodiscard]] Projection scaled(float ratio) const {
+    Projection other = *this;
+    other.fx *= ratio, other.fy *= ratio;
+    return other;
+  }
   [[nodiscard]] Eigen::Vector2f operator()(const Eigen::Vector3f& p) const {
     return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy};
   }

@@ -13,11 +13,13 @@
 namespace mapscore {
 
 /// Correction of the believed registration for one frame, p_color = rotation *
-/// (T_believed_color_depth p_depth) + translation, and the error of the masks' size: objects end
-/// where the signed distance to the mask's outline is `offset_px` (positive: masks too small).
+/// (T_believed_color_depth p_depth) + translation, seen with focal lengths `focal` times those
+/// believed, and the error of the masks' size: objects end where the signed distance to the mask's
+/// outline is `offset_px` (positive: masks too small).
 struct OutlineAlignment {
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
   Eigen::Vector3f translation = Eigen::Vector3f::Zero();
+  float focal = 1;  ///< of the colour camera, over the believed one
   float offset_px = 0;
   float sharpness = 1;  ///< `score` at sigma 1.2 px over that at 4 px: near 1 for a rigid scene
   float score = 0;      ///< share of the outline that depth edges explain at sigma 1.5 px, 0 to 1
@@ -25,14 +27,16 @@ struct OutlineAlignment {
   /// The scene moved as one, and the masks' outlines are right to about a pixel.
   [[nodiscard]] bool is_sharp() const { return sharpness > 0.85F; }
 
-  /// T_color_depth, corrected.
-  template <class Scalar = float>
-  [[nodiscard]] Eigen::Transform<Scalar, 3, Eigen::Isometry> corrected(const Pose& believed) const {
-    Eigen::Transform<Scalar, 3, Eigen::Isometry> T = believed.cast<Scalar>();
-    const auto R = rotation.cast<Scalar>().eval();
-    T.linear() = (R * T.linear()).eval();
-    T.translation() = (R * T.translation() + translation.cast<Scalar>()).eval();
-    return T;
+  /// The calibration with the correction.
+  [[nodiscard]] Calibration corrected(const Calibration& believed) const {
+    Calibration mended = believed;
+    const Eigen::Matrix3d R = rotation.cast<double>();
+    mended.T_color_depth.linear() = R * believed.T_color_depth.linear();
+    mended.T_color_depth.translation() =
+        R * believed.T_color_depth.translation() + translation.cast<double>();
+    mended.color.fx_px *= static_cast<double>(focal);
+    mended.color.fy_px *= static_cast<double>(focal);
+    return mended;
   }
 };
 

@@ -50,8 +50,9 @@ class ShiftFinder {
         rows_(field.distance.rows / kPitch + 2),
         columns_(field.distance.cols / kPitch + 2),
         cells_(static_cast<std::size_t>(rows_ * columns_)) {
-    const Projection project(believed.color);
-    const Eigen::Isometry3f T = alignment.corrected(believed.T_color_depth);
+    const Calibration mended = alignment.corrected(believed);
+    const Projection project(mended.color);
+    const Eigen::Isometry3f T = mended.T_color_depth.cast<float>();
     const Eigen::Matrix3f R = T.linear();
     const Eigen::Vector3f t = T.translation();
     for (const DepthEdge& edge : edges.steps) {

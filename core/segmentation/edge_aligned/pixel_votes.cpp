@@ -137,9 +137,10 @@ class Voting {
   void locate(const OutlineShifts& shifts) {
     const cv::Mat1f& w = edges_.inverse_depth;
     cells_.create(w.rows, w.cols);
-    const Eigen::Isometry3f T_color_depth = alignment_.corrected(believed_.T_color_depth);
+    const Calibration mended = alignment_.corrected(believed_);
+    const Eigen::Isometry3f T_color_depth = mended.T_color_depth.cast<float>();
     const RayMotion motion{T_color_depth.linear(), T_color_depth.translation(),
-                           Projection(believed_.color), Projection(believed_.depth)};
+                           Projection(mended.color), Projection(mended.depth)};
     std::vector<float> us(static_cast<std::size_t>(w.cols)), vs(us.size());
     for (int v = 0; v < w.rows; ++v) {
       project_row(motion, v, w[v], w.cols, us.data(), vs.data());

@@ -26,8 +26,10 @@ class Occluders {
  public:
   Occluders(const DepthEdges& edges, const OutlineField& field, const OutlineAlignment& alignment,
             const Calibration& believed)
-      : edges_(edges), field_(field), offset_px_(alignment.offset_px), mended_(believed) {
-    mended_.T_color_depth = alignment.corrected<double>(believed.T_color_depth);
+      : edges_(edges),
+        field_(field),
+        offset_px_(alignment.offset_px),
+        mended_(alignment.corrected(believed)) {
     const Eigen::Vector3d& t = mended_.T_color_depth.translation();
     in_rows_ = std::abs(t.x()) >= std::abs(t.y());
   }

@@ -133,26 +133,18 @@ class PlainSteps {
   std::map<std::pair<Outward, int>, std::vector<std::size_t>> of_line_;  ///< numbers of found_
 };
 
-/// p_color = R p_depth + t with the alignment.
-struct Mended {
-  Eigen::Matrix3f R;
-  Eigen::Vector3f t;
-  Mended(const OutlineAlignment& alignment, const Calibration& believed)
-      : R(alignment.rotation * believed.T_color_depth.linear().cast<float>()),
-        t(alignment.rotation * believed.T_color_depth.translation().cast<float>() +
-          alignment.translation) {}
-};
-
 class PlainShifts {
  public:
   PlainShifts(const DepthEdges& edges, const OutlineField& field, const OutlineAlignment& alignment,
               const Calibration& believed)
       : field_(field), offset_px_(alignment.offset_px) {
-    const Mended mended(alignment, believed);
-    const Projection project(believed.color);
+    const Calibration mended = alignment.corrected(believed);
+    const Eigen::Matrix3f R = mended.T_color_depth.linear().cast<float>();
+    const Eigen::Vector3f t = mended.T_color_depth.translation().cast<float>();
+    const Projection project(mended.color);
     std::vector<Placed> placed;
     for (const DepthEdge& edge : edges.steps) {
-      const Eigen::Vector3f p = mended.R * edge.point + mended.t;
+      const Eigen::Vector3f p = R * edge.point + t;
       const Eigen::Vector2f at = project(p);
       const bool within = at.x() >= 0 && at.y() >= 0 &&
                           at.x() < static_cast<float>(field.distance.cols) &&

@@ -108,10 +108,10 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field
                               const OutlineAlignment& alignment, const OutlineShifts& shifts,
                               const Calibration& believed, std::size_t detections, float reach_px) {
   const cv::Mat1f& w = edges.inverse_depth;
-  const Eigen::Isometry3f mended = alignment.corrected(believed.T_color_depth);
-  const Eigen::Matrix3f R = mended.linear();
-  const Eigen::Vector3f t = mended.translation();
-  const Projection color(believed.color), depth(believed.depth);
+  const Calibration mended = alignment.corrected(believed);
+  const Eigen::Matrix3f R = mended.T_color_depth.linear().cast<float>();
+  const Eigen::Vector3f t = mended.T_color_depth.translation().cast<float>();
+  const Projection color(mended.color), depth(mended.depth);
   cv::Mat2i pixels(w.size());
   cv::Mat1f nearest(field.masks.size(), 0.0F);
   const cv::Rect image({0, 0}, field.masks.size());
