@@ -188,7 +188,8 @@ class Aligner {
     return static_cast<float>(sum) / static_cast<float>(field_.length_px);
   }
 
-  /// Gauss-Newton with weights of the last step (Welsch), pulled weakly to no correction at all.
+  /// Gauss-Newton with weights of the last step (Welsch), pulled weakly to no correction at all, of
+  /// `steps` steps or until one changes nothing to speak of.
   void refine(OutlineAlignment& a, float sigma, int steps, std::size_t most_edges,
               const Parameters& free) const {
     const std::size_t stride = 1 + edges_.size() / most_edges;
@@ -237,6 +238,7 @@ class Aligner {
       a.translation = R * a.translation + Eigen::Vector3f(change[kShiftX], change[kShiftY], 0);
       a.focal *= std::exp(change[kFocal] / project_.fx);
       a.offset_px = std::clamp(a.offset_px + change[kOffset], -6.0F, 6.0F);
+      if (are_same(change, Parameters::Zero())) return;
     }
   }
 
