@@ -61,6 +61,52 @@ INSTANTIATE_TEST_SUITE_P(
                       Error6{{-0.03, 0.04, 0}, {0, 0, 0}}, Error6{{0, 0, 0}, {1, 0, 0}},
                       Error6{{0, 0, 0}, {-1.5, 2, 0}}, Error6{{0.01, 0, 0}, {0, -1, 0}}));
 
+/// Plates towards the image's corners, which turn and grow about its middle.
+PlateScene wide_scene() {
+  return PlateScene({{-0.75, -0.45, -0.5, -0.25, 1.6, 1},
+                     {0.4, 0.7, -0.45, -0.2, 1.5, 2},
+                     {-0.7, -0.4, 0.2, 0.5, 1.7, 3},
+                     {0.3, 0.6, 0.25, 0.45, 1.5, 4}});
+}
+
+OutlineAlignment fit_of(const PlateScene& scene, const Calibration& believed) {
+  return align_outlines(find_depth_edges(scene.depth(), believed),
+                        outline_field(scene.detections(), 320, 240, 68), believed, 40);
+}
+
+double roll_deg(const OutlineAlignment& fit) {
+  return std::atan2(fit.rotation(1, 0), fit.rotation(0, 0)) * 180 / std::numbers::pi;
+}
+
+TEST(EdgeAligned, RollAndFocalLengthAreMendedWhereOutlinesLieFarApart) {
+  const PlateScene scene = wide_scene();
+  for (const double error_deg : {-5.0, 0.0, 3.0, 5.0})
+    for (const double ratio : {0.95, 1.0, 1.05}) {
+      SCOPED_TRACE(std::to_string(error_deg) + " degrees, focal length times " +
+                   std::to_string(ratio));
+      Calibration believed =
+          scene.misregistered({0, 0, 0}, {0, 0, error_deg * std::numbers::pi / 180});
+      believed.color.fx_px *= ratio, believed.color.fy_px *= ratio;
+      const OutlineAlignment fit = fit_of(scene, believed);
+      EXPECT_NEAR(roll_deg(fit), -error_deg, 0.15);
+      EXPECT_NEAR(fit.focal * ratio, 1.0, 0.004);
+      const Calibration mended = fit.corrected(believed);
+      EXPECT_NEAR(mended.color.fx_px / scene.truth().color.fx_px, 1.0, 0.004);
+      expect_recovered(scene, believed, scene.detections());
+    }
+}
+
+/// Turned or grown about the image's middle, a small plate lies as if shifted.
+TEST(EdgeAligned, RollAndFocalLengthStayAsBelievedWhereOneSmallObjectIsSeen) {
+  const PlateScene scene({{0.35, 0.5, 0.1, 0.25, 1.5, 1}});
+  const Calibration believed = scene.misregistered({0.02, 0, 0}, {0, 0, 0.03});
+  const OutlineAlignment fit = fit_of(scene, believed);
+  EXPECT_GT(fit.score, 0.6F);
+  EXPECT_EQ(fit.focal, 1.0F);
+  EXPECT_NEAR(roll_deg(fit), 0, 0.05);
+  expect_recovered(scene, believed, scene.detections());
+}
+
 class EdgeAlignedBoundaries : public ::testing::TestWithParam<int> {};
 
 TEST_P(EdgeAlignedBoundaries, GoBackToTheEdges) {

@@ -76,6 +76,7 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
         if (shift_m > 0) alignment = {};  // so that something is left to shift
         alignment.score = 0.5F, alignment.sharpness = 0.5F;
         alignment.offset_px = static_cast<float>(-grown_px);
+        if (grown_px > 0) alignment.focal = 1.02F;
         const OutlineShifts shifts = find_outline_shifts(edges, field, alignment, scene.believed);
         const OutlineShifts plain_ones = plain_shifts(edges, field, alignment, scene.believed);
         ASSERT_EQ(shifts.nodes.empty(), plain_ones.nodes.empty());
