@@ -216,7 +216,7 @@ class Aligner {
       H *= scale, b *= scale;
       const Parameters now = parameters_of(a);
       Parameters prior;
-      prior << 1 / square(20.0F), 1 / square(20.0F), 1 / square(60.0F), 1 / square(60.0F),
+      prior << 1 / square(20.0F), 1 / square(20.0F), 1 / square(60.0F), 1 / square(20.0F),
           1 / square(0.03F), 1 / square(0.03F), 1 / square(4.0F);
       prior[kOffset] *=
           CorrectionCost::unexplained(scale * matched / static_cast<float>(field_.length_px));
