@@ -85,17 +85,20 @@ std::vector<AlignmentStart> alignment_starts(const std::vector<ProjectedEdge>& e
   starts.insert(starts.end(), far.begin(), far.end());
 
   const auto keep_best = [&](std::vector<AlignmentStart> tried, std::size_t most) {
-    for (AlignmentStart& a : tried) a.score = coarse.score(a.rotation, a.translation) - cost(a);
+    for (AlignmentStart& a : tried) {
+      a.score = coarse.score(a.rotation, a.translation);
+      a.score -= cost(a);
+    }
     std::stable_sort(tried.begin(), tried.end(),
                      [](const auto& a, const auto& b) { return a.score > b.score; });
-    std::vector<Eigen::Vector2f> kept;
+    std::vector<Eigen::Vector3f> kept;  // where a point at 2 m lies, and the roll, all in pixels
     for (const AlignmentStart& a : tried) {
       const Eigen::Vector2f middle = project(a.rotation * Eigen::Vector3f(0, 0, 2) + a.translation);
-      const bool near = std::any_of(kept.begin(), kept.end(), [&](const Eigen::Vector2f& other) {
-        return (middle - other).norm() < kApartPx;
-      });
+      const Eigen::Vector3f at(middle.x(), middle.y(), project.fx * a.rotation(1, 0));
+      const bool near = std::ranges::any_of(
+          kept, [&](const Eigen::Vector3f& other) { return (at - other).norm() < kApartPx; });
       if (near) continue;
-      kept.push_back(middle);
+      kept.push_back(at);
       starts.push_back(a);
       if (kept.size() == most) return;
     }

@@ -99,9 +99,10 @@ struct EdgeMatch {
     float strength, float offset_px, float sigma_px,
     float against = static_cast<float>(OutlineField::kOtherWay)) {
   EdgeMatch match;
-  if (!(at.x() >= 0 && at.y() >= 0)) return match;
+  const float right = static_cast<float>(field.distance.cols - 1),
+              bottom = static_cast<float>(field.distance.rows - 1);
+  if (!(at.x() >= 0 && at.y() >= 0 && at.x() < right && at.y() < bottom)) return match;
   const int u = static_cast<int>(at.x()), v = static_cast<int>(at.y());
-  if (u + 1 >= field.distance.cols || v + 1 >= field.distance.rows) return match;
   const float* top = field.distance[v] + u;
   const float* low = field.distance[v + 1] + u;
   const float a = at.x() - static_cast<float>(u), b = at.y() - static_cast<float>(v);

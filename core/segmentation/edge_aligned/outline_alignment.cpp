@@ -49,8 +49,8 @@ Levers levers_of(const OutlineField& field, const Projection& project) {
     for (int row = 0; row < cells.rows; ++row)
       for (int column = 0; column < cells.cols; ++column) {
         if (cells(row, column) <= 0) continue;
-        const Eigen::Vector2f at((static_cast<float>(column) + 0.5F) * OutlineField::kCell_px,
-                                 (static_cast<float>(row) + 0.5F) * OutlineField::kCell_px);
+        const Eigen::Vector2f at(static_cast<float>(column * OutlineField::kCell_px) + 1.5F,
+                                 static_cast<float>(row * OutlineField::kCell_px) + 1.5F);
         const Eigen::Vector2d from_middle =
             (at - Eigen::Vector2f(project.cx, project.cy)).cast<double>();
         Eigen::Matrix<double, 5, 1> J;
@@ -236,7 +236,7 @@ class Aligner {
       const Eigen::Matrix3f R = exp_rotation(turn.cast<double>()).cast<float>();
       a.rotation = R * a.rotation;
       a.translation = R * a.translation + Eigen::Vector3f(change[kShiftX], change[kShiftY], 0);
-      a.focal *= std::exp(change[kFocal] / project_.fx);
+      a.focal = std::clamp(a.focal * std::exp(change[kFocal] / project_.fx), 0.5F, 2.0F);
       a.offset_px = std::clamp(a.offset_px + change[kOffset], -6.0F, 6.0F);
       if (are_same(change, Parameters::Zero())) return;
     }
