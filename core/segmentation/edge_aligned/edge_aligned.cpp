@@ -14,6 +14,7 @@
 #include "core/segmentation/occupied_centres.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 namespace mapscore {
 namespace {
@@ -54,10 +55,6 @@ std::vector<Segment> EdgeAligned::segment(const Sight& sight, double voxel_m,
                                           bool with_voxels) const {
   const auto [labels, inverse_depth, alignment, confidence] = label_surfaces(sight, *this);
   const cv::Mat1w& depth = sight.depth();
-  const auto z_m = [&](int v, int u) {
-    return inverse_depth.empty() ? depth(v, u) / kDepthUnitsPerMetre
-                                 : 1.0 / static_cast<double>(inverse_depth(v, u));
-  };
   std::vector<Segment> segments;
   segments.reserve(sight.detections().size());
   for (const Detection& detection : sight.detections()) {
@@ -68,12 +65,19 @@ std::vector<Segment> EdgeAligned::segment(const Sight& sight, double voxel_m,
     segment.confidence = confidence;
   }
   const DepthRays rays(sight.believed().depth);
-  for (int v = 0; v < depth.rows; ++v)
-    for (int u = 0; u < depth.cols; ++u)
-      if (labels(v, u) != 0)
-        segments[labels(v, u) - std::size_t{1}].points.push_back(rays.point(u, v, z_m(v, u)));
+  for (int v = 0; v < depth.rows; ++v) {
+    const std::uint16_t *label = labels[v], *units = depth[v];
+    const float* settled = inverse_depth.empty() ? nullptr : inverse_depth[v];
+    for (int u = 0; u < depth.cols; ++u) {
+      if (label[u] == 0) continue;
+      Segment& segment = segments[label[u] - std::size_t{1}];
+      const double z_m = settled == nullptr ? units[u] / kDepthUnitsPerMetre
+                                            : 1.0 / static_cast<double>(settled[u]);
+      segment.points.push_back(rays.point(u, v, z_m));
+      segment.box.extend(segment.points.back());
+    }
+  }
   for (Segment& segment : segments) {
-    for (const Eigen::Vector3d& point : segment.points) segment.box.extend(point);
     if (segment.points.empty()) segment.skipped = SkipReason::no_points;
     if (with_voxels) segment.voxel_centres = occupied_centres(segment.points, voxel_m);
   }
