@@ -108,8 +108,8 @@ std::string fit_text(const LabelledDepth& labelled, OutlineFit fitted) {
     text += fmt::format(
         "turned by {:.2f}, {:.2f} and {:.2f} degrees about x, y and z of color_optical, shifted by "
         "{:.1f} and {:.1f} mm along x and y, focal length {:+.2f} %; ",
-        degrees.x(), degrees.y(), degrees.z(), 1e3 * fit.translation.x(),
-        1e3 * fit.translation.y(), 100 * (fit.focal - 1));
+        degrees.x(), degrees.y(), degrees.z(), 1e3 * fit.translation.x(), 1e3 * fit.translation.y(),
+        100 * (fit.focal - 1));
   }
   text +=
       fmt::format("objects end {:.1f} px {} their masks; depth edges lie on {:.2f} of the outlines",
