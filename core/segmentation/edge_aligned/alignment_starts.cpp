@@ -19,8 +19,10 @@ using Family = AlignmentStart::Family;
 constexpr float kStepPx = 4.0F;   // between turns that are tried
 constexpr float kStepM = 0.005F;  // between shifts that are tried
 constexpr float kReachM = 0.06F;
-constexpr float kRollStep_px = 20.0F, kMostRoll_px = 60.0F;   // as far from the middle as a
-constexpr float kRolledStep_px = 8.0F, kRolledReach_px = 16;  // focal length; turns of these
+/// Rolls that are tried, in pixels as far from the image's middle as the focal length, each with
+/// turns on a lattice.
+constexpr float kRollStep_px = 20.0F, kMostRoll_px = 60.0F;
+constexpr float kRolledStep_px = 8.0F, kRolledReach_px = 16.0F;
 constexpr float kApartPx = 8.0F;  // between the turns that are kept for the fine fit
 constexpr float kLabelOffset_px = 3.5F;
 

@@ -22,10 +22,10 @@ using Family = AlignmentStart::Family;
 constexpr std::size_t kCoarseEdges = 800, kFineEdges = 4000;
 constexpr float kSame_px = 0.1F, kSame_m = 0.0004F;  // between starts that are one
 
-constexpr float kNearest_m = 0.05F;     // from the colour camera
-constexpr float kLeastScore = 0.15F;    // below, the edges show nothing of the masks,
-constexpr float kLeastLength_px = 100;  // unless they lie on so much of a long outline
-constexpr float kLeastLever_px = 40.0F;
+constexpr float kNearest_m = 0.05F;      // from the colour camera
+constexpr float kLeastScore = 0.15F;     // below, the edges show nothing of the masks,
+constexpr float kLeastLength_px = 100;   // unless they lie on so much of a long outline
+constexpr float kLeastLever_px = 40.0F;  // for roll and focal length to be fitted
 constexpr float kPrior = 3.0F;
 constexpr float kLeastPrior = 0.01F;  // of it, where exact edges say nothing of a correction
 
