@@ -20,6 +20,7 @@ constexpr float kSigmas = 4.0F;
 constexpr float kNoisy = 0.0005F;  // 1/m: 4 sigma reach the least step
 constexpr float kLeast = 4;
 constexpr float kLeastShare = 0.5F;
+constexpr float kMostError_m = 0.01F;
 
 /// How many neighbouring pixels of a row are fitted at once.
 constexpr int kFitted = 16;
@@ -33,6 +34,11 @@ struct PlaneSums {
 /// How much w rises from pixel to pixel.
 struct WindowSlopes {
   Fitted du{}, dv{};
+};
+
+/// w of pixels, and its standard error where a plane was fitted.
+struct SettledImage {
+  cv::Mat1f inverse, error;
 };
 
 /// The images with a rim as wide as the window's reach, so that no window leaves them; labels as
@@ -75,16 +81,22 @@ bool is_on_surface(const PlaneSums& sums, std::size_t n) {
   return sums.near[n] >= kLeast && sums.near[n] >= kLeastShare * sums.labelled[n];
 }
 
-/// The fitted plane at its pixel; the mean where all lie in a line.
-float at_pixel(const PlaneSums& sums, std::size_t n) {
+/// A fitted plane at its pixel.
+struct PlaneAtPixel {
+  float rise;   ///< of w from the pixel's own
+  float error;  ///< standard error of w, in standard deviations of the noise of one pixel
+};
+
+/// The mean where all pixels lie in a line.
+PlaneAtPixel at_pixel(const PlaneSums& sums, std::size_t n) {
   Eigen::Matrix3f A;
   A << sums.near[n], sums.u[n], sums.v[n], sums.u[n], sums.uu[n], sums.uv[n], sums.v[n], sums.uv[n],
       sums.vv[n];
   const float determinant = A.determinant();
-  if (determinant < 1.0F) return sums.w[n] / sums.near[n];
-  Eigen::Matrix3f first = A;
-  first.col(0) = Eigen::Vector3f(sums.w[n], sums.uw[n], sums.vw[n]);
-  return first.determinant() / determinant;
+  if (determinant < 1.0F) return {sums.w[n] / sums.near[n], 1.0F / std::sqrt(sums.near[n])};
+  const float cofactor = A(1, 1) * A(2, 2) - A(1, 2) * A(2, 1);
+  A.col(0) = Eigen::Vector3f(sums.w[n], sums.uw[n], sums.vw[n]);
+  return {A.determinant() / determinant, std::sqrt(cofactor / determinant)};
 }
 
 float median_of(float* first, float* last) {
@@ -115,7 +127,7 @@ void find_slope(const RimmedImages& images, int row, int column, std::size_t n,
 }
 
 /// A row is fitted in blocks of kFitted pixels; the last block reaches beyond the image.
-RimmedImages rimmed(const DepthEdges& edges, const cv::Mat1w& labels) {
+RimmedImages rimmed(const cv::Mat1f& inverse, const cv::Mat1w& labels) {
   RimmedImages images;
   cv::Mat1f as_floats;
   labels.convertTo(as_floats, CV_32F);
@@ -124,20 +136,15 @@ RimmedImages rimmed(const DepthEdges& edges, const cv::Mat1w& labels) {
                        cv::BORDER_CONSTANT, 0.0);
   };
   widen(as_floats, images.labels);
-  widen(edges.inverse_depth, images.inverse);
+  widen(inverse, images.inverse);
   return images;
 }
 
-}  // namespace
-
-bool is_noisy(const DepthEdges& edges) {
-  return edges.noise > kNoisy;
-}
-
-cv::Mat1f settle_on_surfaces(const DepthEdges& edges, cv::Mat1w& labels) {
-  const RimmedImages images = rimmed(edges, labels);
-  const float within = kSigmas * edges.noise;
-  cv::Mat1f settled(labels.rows, labels.cols, 0.0F);
+/// Fits a plane about each labelled pixel; those on no surface lose their label.
+SettledImage fit_planes(const cv::Mat1f& inverse, float noise, cv::Mat1w& labels) {
+  const RimmedImages images = rimmed(inverse, labels);
+  const float within = kSigmas * noise;
+  SettledImage settled{cv::Mat1f(labels.size(), 0.0F), cv::Mat1f(labels.size(), 0.0F)};
   for (int v = 0; v < labels.rows; ++v)
     for (int u = 0; u < labels.cols; u += kFitted) {
       const int row = v + kReach_px, column = u + kReach_px;
@@ -158,11 +165,33 @@ cv::Mat1f settle_on_surfaces(const DepthEdges& edges, cv::Mat1w& labels) {
         if (label[n] == 0.0F) continue;
         const PlaneSums& sums = is_on_surface(level, n) ? level : sloped;
         const int at = u + static_cast<int>(n);
-        if (is_on_surface(sums, n))
-          settled(v, at) = edges.inverse_depth(v, at) + at_pixel(sums, n);
-        else
+        if (is_on_surface(sums, n)) {
+          const PlaneAtPixel plane = at_pixel(sums, n);
+          settled.inverse(v, at) = inverse(v, at) + plane.rise;
+          settled.error(v, at) = noise * plane.error;
+        } else {
           labels(v, at) = 0;
+        }
       }
+    }
+  return settled;
+}
+
+}  // namespace
+
+bool is_noisy(const DepthEdges& edges) {
+  return edges.noise > kNoisy;
+}
+
+cv::Mat1f settle_on_surfaces(const DepthEdges& edges, cv::Mat1w& labels) {
+  const SettledImage first = fit_planes(edges.inverse_depth, edges.noise, labels);
+  auto [settled, error] = fit_planes(first.inverse, edges.noise, labels);
+  for (int v = 0; v < labels.rows; ++v)
+    for (int u = 0; u < labels.cols; ++u) {
+      const float w = settled(v, u);
+      if (labels(v, u) == 0 || error(v, u) <= kMostError_m * w * w) continue;
+      labels(v, u) = 0;
+      settled(v, u) = 0.0F;
     }
   return settled;
 }

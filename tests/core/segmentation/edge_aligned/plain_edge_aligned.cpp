@@ -276,11 +276,18 @@ OutlineShifts plain_shifts(const DepthEdges& edges, const OutlineField& field,
   return PlainShifts(edges, field, alignment, believed).find();
 }
 
-cv::Mat1f settle_plainly(const DepthEdges& edges, cv::Mat1w& labels) {
-  const cv::Mat1f& w = edges.inverse_depth;
+namespace {
+
+struct PlainPlane {
+  float rise, error;
+};
+
+/// w with planes fitted about labelled pixels, and its standard errors.
+std::pair<cv::Mat1f, cv::Mat1f> fit_planes_plainly(const cv::Mat1f& w, float noise,
+                                                   cv::Mat1w& labels) {
   const cv::Mat1w given = labels.clone();
-  cv::Mat1f settled(w.size(), 0.0F);
-  const float within = 4 * edges.noise;
+  cv::Mat1f settled(w.size(), 0.0F), error(w.size(), 0.0F);
+  const float within = 4 * noise;
   for (int v = 0; v < w.rows; ++v)
     for (int u = 0; u < w.cols; ++u) {
       if (given(v, u) == 0) continue;
@@ -288,7 +295,7 @@ cv::Mat1f settle_plainly(const DepthEdges& edges, cv::Mat1w& labels) {
         return y >= 0 && x >= 0 && y < w.rows && x < w.cols && std::abs(y - v) <= 4 &&
                std::abs(x - u) <= 4 && given(y, x) == given(v, u);
       };
-      const auto fit = [&](float slope_u, float slope_v) -> std::optional<float> {
+      const auto fit = [&](float slope_u, float slope_v) -> std::optional<PlainPlane> {
         int labelled = 0;
         Eigen::Matrix3f A = Eigen::Matrix3f::Zero();
         Eigen::Vector3f b = Eigen::Vector3f::Zero();
@@ -304,12 +311,13 @@ cv::Mat1f settle_plainly(const DepthEdges& edges, cv::Mat1w& labels) {
           }
         if (A(0, 0) < 4 || A(0, 0) < 0.5F * static_cast<float>(labelled)) return {};
         const float determinant = A.determinant();
-        if (determinant < 1.0F) return b[0] / A(0, 0);
+        if (determinant < 1.0F) return PlainPlane{b[0] / A(0, 0), 1.0F / std::sqrt(A(0, 0))};
+        const float variance = (A(1, 1) * A(2, 2) - A(1, 2) * A(2, 1)) / determinant;
         A.col(0) = b;
-        return A.determinant() / determinant;
+        return PlainPlane{A.determinant() / determinant, std::sqrt(variance)};
       };
-      std::optional<float> rise = fit(0, 0);
-      if (!rise) {
+      std::optional<PlainPlane> plane = fit(0, 0);
+      if (!plane) {
         std::vector<float> across, down;
         for (int y = v - 4; y <= v + 4; ++y)
           for (int x = u - 4; x <= u + 4; ++x) {
@@ -320,13 +328,27 @@ cv::Mat1f settle_plainly(const DepthEdges& edges, cv::Mat1w& labels) {
           std::sort(all.begin(), all.end());
           return all.empty() ? 0.0F : all[all.size() / 2];
         };
-        rise = fit(median(across), median(down));
+        plane = fit(median(across), median(down));
       }
-      if (rise)
-        settled(v, u) = w(v, u) + *rise;
-      else
+      if (plane) {
+        settled(v, u) = w(v, u) + plane->rise;
+        error(v, u) = noise * plane->error;
+      } else {
         labels(v, u) = 0;
+      }
     }
+  return {settled, error};
+}
+
+}  // namespace
+
+cv::Mat1f settle_plainly(const DepthEdges& edges, cv::Mat1w& labels) {
+  const cv::Mat1f once = fit_planes_plainly(edges.inverse_depth, edges.noise, labels).first;
+  auto [settled, error] = fit_planes_plainly(once, edges.noise, labels);
+  for (int v = 0; v < labels.rows; ++v)
+    for (int u = 0; u < labels.cols; ++u)
+      if (error(v, u) > 0.01F * settled(v, u) * settled(v, u))
+        settled(v, u) = 0.0F, labels(v, u) = 0;
   return settled;
 }
 

@@ -43,7 +43,7 @@ TEST(SettledDepth, AsksForNoise) {
   EXPECT_TRUE(is_noisy(Slant(kNoise).edges));
 }
 
-TEST(SettledDepth, PlaneIsRestoredWithinAFifthOfTheNoise) {
+TEST(SettledDepth, PlaneIsRestoredWithinATenthOfTheNoise) {
   Slant slant(kNoise);
   const cv::Mat1f settled = settle_on_surfaces(slant.edges, slant.labels);
   double inside = 0, all = 0;
@@ -54,8 +54,8 @@ TEST(SettledDepth, PlaneIsRestoredWithinAFifthOfTheNoise) {
       if (v >= 4 && v < 56 && u >= 4 && u < 36) inside += error * error;
     }
   EXPECT_EQ(cv::countNonZero(slant.labels), 60 * 80);
-  EXPECT_LT(std::sqrt(inside / (52 * 32)), 0.2 * kNoise);
-  EXPECT_LT(std::sqrt(all / (60 * 80)), 0.35 * kNoise);
+  EXPECT_LT(std::sqrt(inside / (52 * 32)), 0.1 * kNoise);
+  EXPECT_LT(std::sqrt(all / (60 * 80)), 0.25 * kNoise);
 }
 
 TEST(SettledDepth, PixelsOnNoSurfaceAreDropped) {
@@ -64,14 +64,18 @@ TEST(SettledDepth, PixelsOnNoSurfaceAreDropped) {
     slant.edges.inverse_depth(at) = 0.2F;
   const cv::Mat1f settled = settle_on_surfaces(slant.edges, slant.labels);
   EXPECT_EQ(cv::countNonZero(slant.labels), 60 * 80 - 3);
+  EXPECT_EQ(slant.labels(20, 20), 0);
   EXPECT_EQ(slant.labels(20, 21), 0);
+  EXPECT_EQ(slant.labels(0, 0), 0);
   EXPECT_EQ(settled(20, 21), 0.0F);
 }
 
 /// A table top seen at a slant: 1/z rises by two sigma from pixel to pixel.
 TEST(SettledDepth, SteepSurfacesStay) {
   constexpr float kSteepness = 15.0F;
+  constexpr float kNearer = 0.4F;  // far corners would be uncertain
   Slant slant(kNoise, kSteepness);
+  slant.edges.inverse_depth += kNearer;
   slant.edges.inverse_depth(20, 20) = 0.2F;
   const cv::Mat1f settled = settle_on_surfaces(slant.edges, slant.labels);
   EXPECT_EQ(slant.labels(20, 20), 0) << "it flies";
@@ -79,7 +83,7 @@ TEST(SettledDepth, SteepSurfacesStay) {
   double squares = 0;
   for (int v = 4; v < 56; ++v)
     for (int u = 44; u < 76; ++u)
-      squares += std::pow(settled(v, u) - Slant::truth(v, u, kSteepness), 2);
+      squares += std::pow(settled(v, u) - kNearer - Slant::truth(v, u, kSteepness), 2);
   EXPECT_LT(std::sqrt(squares / (52 * 32)), 0.25 * kNoise);
 }
 
@@ -87,11 +91,25 @@ TEST(SettledDepth, OtherLabelsDoNotTakePart) {
   Slant slant(kNoise);
   for (int v = 0; v < 60; ++v)
     for (int u = 40; u < 80; ++u) slant.edges.inverse_depth(v, u) += 3 * kNoise;
+  cv::Mat1w left_labels = slant.labels.clone();
+  left_labels(cv::Rect(40, 0, 40, 60)) = 0;
   const cv::Mat1f both = settle_on_surfaces(slant.edges, slant.labels);
-  slant.labels(cv::Rect(40, 0, 40, 60)) = 0;
-  const cv::Mat1f left = settle_on_surfaces(slant.edges, slant.labels);
+  const cv::Mat1f left = settle_on_surfaces(slant.edges, left_labels);
   EXPECT_EQ(cv::countNonZero(both(cv::Rect(0, 0, 40, 60)) != left(cv::Rect(0, 0, 40, 60))), 0);
   EXPECT_EQ(cv::countNonZero(left(cv::Rect(40, 0, 40, 60))), 0);
+}
+
+/// At about 5 m a pixel is 5 cm off by chance. A plane at the middle of its window is known to a
+/// ninth of that, at a label's corner, which fewer pixels tell and from one side, to half.
+TEST(SettledDepth, PixelsOfUncertainDepthAreDropped) {
+  Slant slant(kNoise);
+  slant.edges.inverse_depth -= 0.2F;
+  const cv::Mat1f settled = settle_on_surfaces(slant.edges, slant.labels);
+  EXPECT_EQ(slant.labels(0, 0), 0);
+  EXPECT_EQ(settled(0, 0), 0.0F);
+  EXPECT_EQ(slant.labels(59, 79), 0);
+  EXPECT_EQ(cv::countNonZero(slant.labels(cv::Rect(4, 4, 32, 52))), 32 * 52);
+  EXPECT_EQ(cv::countNonZero(slant.labels), cv::countNonZero(settled));
 }
 
 /// A bar of 2 pixels, as a chair's leg; and a line of 1.
