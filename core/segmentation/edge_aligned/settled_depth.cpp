@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace mapscore {
 namespace {
@@ -34,11 +35,6 @@ struct PlaneSums {
 /// How much w rises from pixel to pixel.
 struct WindowSlopes {
   Fitted du{}, dv{};
-};
-
-/// w of pixels, and its standard error where a plane was fitted.
-struct SettledImage {
-  cv::Mat1f inverse, error;
 };
 
 /// The images with a rim as wide as the window's reach, so that no window leaves them; labels as
@@ -140,11 +136,12 @@ RimmedImages rimmed(const cv::Mat1f& inverse, const cv::Mat1w& labels) {
   return images;
 }
 
-/// Fits a plane about each labelled pixel; those on no surface lose their label.
-SettledImage fit_planes(const cv::Mat1f& inverse, float noise, cv::Mat1w& labels) {
+/// w of planes fitted about labelled pixels. Those on no surface lose their label, and those whose
+/// depth is uncertain by more than `most_error_m`.
+cv::Mat1f fit_planes(const cv::Mat1f& inverse, float noise, float most_error_m, cv::Mat1w& labels) {
   const RimmedImages images = rimmed(inverse, labels);
   const float within = kSigmas * noise;
-  SettledImage settled{cv::Mat1f(labels.size(), 0.0F), cv::Mat1f(labels.size(), 0.0F)};
+  cv::Mat1f settled(labels.size(), 0.0F);
   for (int v = 0; v < labels.rows; ++v)
     for (int u = 0; u < labels.cols; u += kFitted) {
       const int row = v + kReach_px, column = u + kReach_px;
@@ -165,13 +162,12 @@ SettledImage fit_planes(const cv::Mat1f& inverse, float noise, cv::Mat1w& labels
         if (label[n] == 0.0F) continue;
         const PlaneSums& sums = is_on_surface(level, n) ? level : sloped;
         const int at = u + static_cast<int>(n);
-        if (is_on_surface(sums, n)) {
-          const PlaneAtPixel plane = at_pixel(sums, n);
-          settled.inverse(v, at) = inverse(v, at) + plane.rise;
-          settled.error(v, at) = noise * plane.error;
-        } else {
+        const PlaneAtPixel plane = at_pixel(sums, n);
+        const float w = inverse(v, at) + plane.rise;
+        if (is_on_surface(sums, n) && noise * plane.error <= most_error_m * w * w)
+          settled(v, at) = w;
+        else
           labels(v, at) = 0;
-        }
       }
     }
   return settled;
@@ -184,16 +180,9 @@ bool is_noisy(const DepthEdges& edges) {
 }
 
 cv::Mat1f settle_on_surfaces(const DepthEdges& edges, cv::Mat1w& labels) {
-  const SettledImage first = fit_planes(edges.inverse_depth, edges.noise, labels);
-  auto [settled, error] = fit_planes(first.inverse, edges.noise, labels);
-  for (int v = 0; v < labels.rows; ++v)
-    for (int u = 0; u < labels.cols; ++u) {
-      const float w = settled(v, u);
-      if (labels(v, u) == 0 || error(v, u) <= kMostError_m * w * w) continue;
-      labels(v, u) = 0;
-      settled(v, u) = 0.0F;
-    }
-  return settled;
+  constexpr float kAnyError_m = std::numeric_limits<float>::infinity();
+  const cv::Mat1f first = fit_planes(edges.inverse_depth, edges.noise, kAnyError_m, labels);
+  return fit_planes(first, edges.noise, kMostError_m, labels);
 }
 
 }  // namespace mapscore
