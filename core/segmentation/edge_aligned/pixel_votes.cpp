@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace mapscore {
@@ -76,6 +77,19 @@ void find_pixels(const float* us, const float* vs, int count, const cv::Size& im
   }
 }
 
+/// Marks the pixels of a row that do not lie beside the one before, in an image that holds both.
+MAPSCORE_WIDE_VECTORS
+void mark_jumps(const int* cells, int count, std::uint8_t* marks) {
+  for (int u = 1; u < count; ++u)
+    marks[u] = static_cast<std::uint8_t>((cells[u - 1] < 0) | (cells[u] != cells[u - 1] + 1));
+}
+
+/// Depth pixels of a row, from column `begin`, that lie in colour pixels beside each other, from
+/// `cell` on. Most runs are long, and read an image as fast as it can be copied.
+struct Run {
+  int begin, count, cell;
+};
+
 /// Some depth pixels in a row: inverse depth, 1/m, 0 where there is none, and place in a colour
 /// image, -1 beyond it.
 struct PixelRow {
@@ -86,19 +100,35 @@ struct PixelRow {
   [[nodiscard]] bool is_seen(int u) const { return (w[u] > 0) & (cells[u] >= 0); }
 };
 
-/// What an image holds where they lie; of those beyond it, its first value. Wide loads from
-/// scattered places are no quicker.
-void look_up(const float* image, const PixelRow& row, float* __restrict values) {
-  const auto [w, cells, count] = row;
-  for (int u = 0; u < count; ++u) values[u] = image[cells[u] < 0 ? 0 : cells[u]];
+/// What an image holds where the runs of a row lie; the other values stay.
+template <typename Value>
+MAPSCORE_WIDE_VECTORS void look_up(const Value* image, std::span<const Run> runs,
+                                   Value* __restrict values) {
+  for (const auto& [begin, count, cell] : runs)
+    for (int n = 0; n < count; ++n) values[begin + n] = image[cell + n];
+}
+
+/// Keeps the largest inverse depth w of each place of an image, by the runs of a row.
+MAPSCORE_WIDE_VECTORS
+void keep_nearest(const float* w, std::span<const Run> runs, float* __restrict nearest) {
+  for (const auto& [begin, count, cell] : runs)
+    for (int n = 0; n < count; ++n) {
+      const float last = nearest[cell + n], here = w[begin + n];
+      nearest[cell + n] = here > last ? here : last;
+    }
 }
 
 /// How far they lie inside of outlines `distance` px away from them that mended masks have moved
-/// outwards by `offset_px`.
+/// outwards by `offset_px`. Takes the owner from those that are not seen.
 MAPSCORE_WIDE_VECTORS
-void find_depth_in(const PixelRow& row, const float* distance, float offset_px, float* depth_in) {
-  for (int u = 0; u < row.count; ++u)
-    depth_in[u] = row.is_seen(u) ? offset_px - distance[u] : kOutside_px;
+void find_depth_in(PixelRow row, const float* distance, float offset_px, float* __restrict depth_in,
+                   std::uint16_t* __restrict owner) {
+  const int count = row.count;
+  for (int u = 0; u < count; ++u) {
+    const bool is_seen = row.is_seen(u);
+    depth_in[u] = is_seen ? offset_px - distance[u] : kOutside_px;
+    owner[u] = is_seen ? owner[u] : std::uint16_t{0};
+  }
 }
 
 /// What their votes weigh as far as they are seen. Marks those that something near covers, or whose
@@ -142,6 +172,7 @@ class Voting {
     const RayMotion motion{T_color_depth.linear(), T_color_depth.translation(),
                            Projection(mended.color), Projection(mended.depth)};
     std::vector<float> us(static_cast<std::size_t>(w.cols)), vs(us.size());
+    Marks jumps(us.size());
     for (int v = 0; v < w.rows; ++v) {
       project_row(motion, v, w[v], w.cols, us.data(), vs.data());
       if (!shifts.nodes.empty())
@@ -150,20 +181,25 @@ class Voting {
           us[u] += by[0], vs[u] += by[1];
         }
       find_pixels(us.data(), vs.data(), w.cols, field_.masks.size(), cells_[v]);
+      mark_jumps(cells_[v], w.cols, jumps.data());
+      first_run_.push_back(runs_.size());
+      int begin = 0;
+      const auto end_at = [&](int u) {
+        const int cell = cells_(v, begin);
+        if (u > begin && cell >= 0) runs_.push_back({begin, u - begin, cell});
+        begin = u;
+      };
+      for_each_marked(jumps, end_at);
+      end_at(w.cols);
     }
+    first_run_.push_back(runs_.size());
   }
 
   /// Nearest surface by colour pixel, as inverse depth, spread over the neighbouring pixels.
   void find_nearest() {
     const cv::Mat1f& w = edges_.inverse_depth;
     cv::Mat1f hit(field_.masks.rows, field_.masks.cols, 0.0F);
-    float* const hits = hit[0];
-    for (int v = 0; v < w.rows; ++v) {
-      const float* in = w[v];
-      const int* cells = cells_[v];
-      for (int u = 0; u < w.cols; ++u)
-        if (cells[u] >= 0 && in[u] > hits[cells[u]]) hits[cells[u]] = in[u];
-    }
+    for (int v = 0; v < w.rows; ++v) keep_nearest(w[v], runs_of(v), hit[0]);
     cv::dilate(hit, nearest_, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
     behind_unseen_ = unseen_occluders(edges_, cells_, field_, alignment_, believed_);
   }
@@ -181,13 +217,13 @@ class Voting {
     Marks may_be_hidden(distance.size());
     for (int v = 0; v < w.rows; ++v) {
       const PixelRow row{w[v], cells_[v], w.cols};
+      const auto runs = runs_of(v);
       float *depth_in = depths_in[v], *weight = votes.weight[v];
       std::uint16_t* owner = votes.owner[v];
-      for (int u = 0; u < w.cols; ++u)
-        owner[u] = row.is_seen(u) ? owner_of[row.cells[u]] : std::uint16_t{0};
-      look_up(field_.mask_distance[0], row, distance.data());
-      look_up(nearest_[0], row, nearest.data());
-      find_depth_in(row, distance.data(), alignment_.offset_px, depth_in);
+      look_up(owner_of, runs, owner);
+      look_up(field_.mask_distance[0], runs, distance.data());
+      look_up(nearest_[0], runs, nearest.data());
+      find_depth_in(row, distance.data(), alignment_.offset_px, depth_in, owner);
       if (!to_free.empty()) hold_borders(row, to_free[0], distance.data(), depth_in);
       const std::uint8_t* covered = behind_unseen_[v];
       weigh(row, depth_in, nearest.data(), covered, edges_.noise, weight, may_be_hidden.data());
@@ -203,6 +239,11 @@ class Voting {
   }
 
  private:
+  [[nodiscard]] std::span<const Run> runs_of(int v) const {
+    const auto row = static_cast<std::size_t>(v);
+    return std::span(runs_).subspan(first_run_[row], first_run_[row + 1] - first_run_[row]);
+  }
+
   /// By colour pixel, how far it is from what no mask holds; empty unless there are some masks that
   /// are too large.
   [[nodiscard]] cv::Mat1f distance_to_free() const {
@@ -254,6 +295,8 @@ class Voting {
   const Calibration& believed_;
   std::size_t detections_;
   cv::Mat1i cells_;  ///< by depth pixel: place in a colour image, row-major; -1 beyond it
+  std::vector<Run> runs_;
+  std::vector<std::size_t> first_run_;  ///< of each row, and the end
   cv::Mat1f nearest_;
   cv::Mat1b behind_unseen_;  ///< by depth pixel, 255 or 0
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "core/random_stream.hpp"
+#include "core/segmentation/edge_aligned/pixel_votes.hpp"
 #include "core/segmentation/edge_aligned/settled_depth.hpp"
 #include "core/segmentation/edge_aligned/surface_vote.hpp"
 #include "plain_edge_aligned.hpp"
@@ -103,6 +104,27 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
   EXPECT_GT(shifted, 5);
   EXPECT_GT(labelled, 18 * 5000);
   EXPECT_GT(settled_pixels, 18 * 5000);
+}
+
+/// Also the pixel that lies in the colour image's first, beside one that lies beyond it.
+TEST(EdgeAlignedFastSteps, ReadEachPixelOfAColourImageThatSeesLess) {
+  Calibration believed = PlateScene({}).truth();
+  believed.T_color_depth.setIdentity();
+  believed.color = believed.depth;
+  believed.color.width_px = 100, believed.color.height_px = 80;
+  believed.color.cx_px -= 40, believed.color.cy_px -= 30;
+  DepthEdges edges;
+  edges.inverse_depth = cv::Mat1f(240, 320, 0.5F);
+  edges.right = edges.down = cv::Mat1f(240, 320, 1.0F);
+  edges.near_holes = cv::Mat1b(240, 320, std::uint8_t{0});
+  Detection all;
+  all.box = {0, 0, 99, 79};
+  all.mask = cv::Mat1b(80, 100, std::uint8_t{255});
+  const OutlineField field = outline_field({all}, 100, 80, 20);
+  const cv::Mat1w owners = pixel_votes(edges, field, {}, {}, believed, 1).owner;
+  cv::Mat1w expected(240, 320, std::uint16_t{0});
+  expected(cv::Rect(40, 30, 100, 80)) = 1;
+  EXPECT_EQ(cv::countNonZero(owners != expected), 0);
 }
 
 }  // namespace
