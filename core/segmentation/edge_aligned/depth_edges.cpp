@@ -17,6 +17,8 @@ namespace {
 
 constexpr float kLeastStep = 0.002F;  // 1/m: 8 mm at 2 m
 constexpr float kStepSigmas = 4.0F;
+constexpr float kNoisy = 0.0005F;      // 1/m: kStepSigmas reach the least step
+constexpr double kProjector_m = 0.08;  // from the camera; a Kinect's and an Astra's 0.075
 constexpr int kWidestGap = 24;
 constexpr int kInner_px = 6;           // behind the outermost step of a surface
 constexpr float kSameDepth = 0.03F;    // of the inverse depth: one surface, not one before another
@@ -92,7 +94,9 @@ class EdgeFinder {
   EdgeFinder(const cv::Mat1w& depth, const Calibration& believed) : camera_(believed.depth) {
     edges_.inverse_depth = inverse_of(depth, believed);
     edges_.noise = noise_of(edges_.inverse_depth);
-    edges_.near_holes = near_holes(edges_.inverse_depth, believed.range_min_m);
+    const double projector_m = is_noisy(edges_) ? kProjector_m : 0.0;
+    edges_.near_holes =
+        near_holes(edges_.inverse_depth, believed.range_min_m, projector_m * believed.depth.fx_px);
     farthest_ = static_cast<float>(1.0 / (kShareOfRange * believed.range_max_m));
     tau_ = std::max(kLeastStep, kStepSigmas * edges_.noise);
     last_[0] = last_[1] = std::vector<LastStep>(static_cast<std::size_t>(depth.rows));
@@ -223,6 +227,10 @@ class EdgeFinder {
 };
 
 }  // namespace
+
+bool is_noisy(const DepthEdges& edges) {
+  return edges.noise > kNoisy;
+}
 
 DepthEdges find_depth_edges(const cv::Mat1w& depth, const Calibration& believed) {
   return EdgeFinder(depth, believed).find();

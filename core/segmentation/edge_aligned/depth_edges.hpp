@@ -32,6 +32,10 @@ struct DepthEdges {
   std::vector<DepthEdge> steps;  ///< row-major, rows before columns of a pixel
 };
 
+/// True when the noise of the inverse depth exceeds 0.0005/m, so that 4 sigma exceed the least step
+/// that counts as an edge (0.002/m): only such images have projector's shadows and are smoothed.
+[[nodiscard]] bool is_noisy(const DepthEdges& edges);
+
 /// Finds the steps of a depth image of `camera`. On a plane the inverse depth w = 1/z is linear in
 /// the pixel, so a pair (p, q) is judged by how far w_q lies from the line through p's side and w_p
 /// from the line through q's side, the lesser of the two: e = min(|w_q - 2 w_p + w_p'|, |w_p - 2
@@ -39,11 +43,11 @@ struct DepthEdges {
 /// sigma the noise of w as the image's own second differences show it. Depths outside the camera's
 /// range are none. A gap of up to 24 pixels without depth is stepped over. Behind a wider one, or
 /// one that reaches the image's border, lies nothing within the range unless it is a near hole
-/// (near_holes.hpp): the surfaces at its ends are edges of strength 1, but those beyond 0.9 of the
-/// range, which may end there because the range does. Not given is a step
-/// beyond which the next one that faces alike in its row or column lies within 6 pixels, with a w
-/// on its nearer side that differs by at most 3 %: it is a crease of the surface that ends there,
-/// or noise about that end.
+/// (near_holes.hpp; the shadows of noisy images are those of a projector 0.08 m beside the camera):
+/// the surfaces at its ends are edges of strength 1, but those beyond 0.9 of the range, which may
+/// end there because the range does. Not given is a step beyond which the next one that faces alike
+/// in its row or column lies within 6 pixels, with a w on its nearer side that differs by at most 3
+/// %: it is a crease of the surface that ends there, or noise about that end.
 [[nodiscard]] DepthEdges find_depth_edges(const cv::Mat1w& depth, const Calibration& believed);
 
 }  // namespace mapscore

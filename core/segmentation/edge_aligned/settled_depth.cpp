@@ -18,7 +18,6 @@ namespace {
 
 constexpr int kReach_px = 4;
 constexpr float kSigmas = 4.0F;
-constexpr float kNoisy = 0.0005F;  // 1/m: 4 sigma reach the least step
 constexpr float kLeast = 4;
 constexpr float kLeastShare = 0.5F;
 constexpr float kMostError_m = 0.01F;
@@ -174,10 +173,6 @@ cv::Mat1f fit_planes(const cv::Mat1f& inverse, float noise, float most_error_m, 
 }
 
 }  // namespace
-
-bool is_noisy(const DepthEdges& edges) {
-  return edges.noise > kNoisy;
-}
 
 cv::Mat1f settle_on_surfaces(const DepthEdges& edges, cv::Mat1w& labels) {
   constexpr float kAnyError_m = std::numeric_limits<float>::infinity();

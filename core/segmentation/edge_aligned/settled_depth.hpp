@@ -9,10 +9,6 @@
 
 namespace mapscore {
 
-/// True when the noise of the inverse depth exceeds 0.0005/m, so that 4 sigma exceed the least step
-/// that counts as an edge (0.002/m): only such images are smoothed by settle_on_surfaces.
-[[nodiscard]] bool is_noisy(const DepthEdges& edges);
-
 /// Smooths the inverse depth w = 1/z of labelled pixels: a plane w = a + b du + c dv is fitted
 /// around each pixel and gives its new w, twice, the second time through what the first gave. The
 /// fit takes pixels of the same label in the 9 x 9 window whose w differs from the pixel's by at
