@@ -17,8 +17,7 @@ namespace {
 
 constexpr float kLeastStep = 0.002F;  // 1/m: 8 mm at 2 m
 constexpr float kStepSigmas = 4.0F;
-constexpr float kNoisy = 0.0005F;      // 1/m: kStepSigmas reach the least step
-constexpr double kProjector_m = 0.08;  // from the camera; a Kinect's and an Astra's 0.075
+constexpr float kNoisy = 0.0005F;  // 1/m: kStepSigmas reach the least step
 constexpr int kWidestGap = 24;
 constexpr int kInner_px = 6;           // behind the outermost step of a surface
 constexpr float kSameDepth = 0.03F;    // of the inverse depth: one surface, not one before another
@@ -37,7 +36,8 @@ void invert_row(const std::uint16_t* depth, float least, float most, int columns
 
 cv::Mat1f inverse_of(const cv::Mat1w& depth, const Calibration& believed) {
   cv::Mat1f inverse(depth.rows, depth.cols);
-  const float least = static_cast<float>(believed.range_min_m * kDepthUnitsPerMetre - 1e-3);
+  const float least =  // 0 is no depth
+      static_cast<float>(std::max(1.0, believed.range_min_m * kDepthUnitsPerMetre) - 1e-3);
   const float most = static_cast<float>(believed.range_max_m * kDepthUnitsPerMetre + 1e-3);
   for (int v = 0; v < depth.rows; ++v) invert_row(depth[v], least, most, depth.cols, inverse[v]);
   return inverse;
@@ -94,9 +94,7 @@ class EdgeFinder {
   EdgeFinder(const cv::Mat1w& depth, const Calibration& believed) : camera_(believed.depth) {
     edges_.inverse_depth = inverse_of(depth, believed);
     edges_.noise = noise_of(edges_.inverse_depth);
-    const double projector_m = is_noisy(edges_) ? kProjector_m : 0.0;
-    edges_.near_holes =
-        near_holes(edges_.inverse_depth, believed.range_min_m, projector_m * believed.depth.fx_px);
+    edges_.near_holes = near_holes(edges_.inverse_depth, believed.range_min_m);
     farthest_ = static_cast<float>(1.0 / (kShareOfRange * believed.range_max_m));
     tau_ = std::max(kLeastStep, kStepSigmas * edges_.noise);
     last_[0] = last_[1] = std::vector<LastStep>(static_cast<std::size_t>(depth.rows));

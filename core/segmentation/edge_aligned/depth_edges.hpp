@@ -33,7 +33,8 @@ struct DepthEdges {
 };
 
 /// True when the noise of the inverse depth exceeds 0.0005/m, so that 4 sigma exceed the least step
-/// that counts as an edge (0.002/m): only such images have projector's shadows and are smoothed.
+/// that counts as an edge (0.002/m): only such images are smoothed, and may have shadows of a
+/// projector.
 [[nodiscard]] bool is_noisy(const DepthEdges& edges);
 
 /// Finds the steps of a depth image of `camera`. On a plane the inverse depth w = 1/z is linear in
@@ -43,7 +44,7 @@ struct DepthEdges {
 /// sigma the noise of w as the image's own second differences show it. Depths outside the camera's
 /// range are none. A gap of up to 24 pixels without depth is stepped over. Behind a wider one, or
 /// one that reaches the image's border, lies nothing within the range unless it is a near hole
-/// (near_holes.hpp; the shadows of noisy images are those of a projector 0.08 m beside the camera):
+/// (near_holes.hpp):
 /// the surfaces at its ends are edges of strength 1, but those beyond 0.9 of the range, which may
 /// end there because the range does. Not given is a step beyond which the next one that faces alike
 /// in its row or column lies within 6 pixels, with a w on its nearer side that differs by at most 3

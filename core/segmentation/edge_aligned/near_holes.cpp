@@ -5,8 +5,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -14,7 +12,7 @@
 namespace mapscore {
 namespace {
 
-constexpr int kRim_px = 4;          // of a hole
+constexpr int kWideHole_px = 9;
 constexpr double kNearRange = 1.3;  // in least ranges, of a surface that runs on into a near object
 
 struct Hole {
@@ -27,31 +25,16 @@ std::uint8_t kind_of(const Hole& hole) {
   return hole.above ? kOpenHole : kNearHole;
 }
 
-/// Clears the pixels of rows that lie in a projector's shadow.
-void clear_shadows(const cv::Mat1f& inverse_depth, double shadow_px_m, cv::Mat1b& holes) {
-  for (int v = 0; v < holes.rows; ++v) {
-    const float* const w = inverse_depth[v];
-    for (int before = -1, after = 0; after < holes.cols; ++after) {
-      if (!(w[after] > 0)) continue;
-      const int count = after - before - 1;
-      if (before >= 0 &&
-          count <= shadow_px_m * static_cast<double>(std::abs(w[after] - w[before])) + kRim_px)
-        std::fill_n(holes[v] + before + 1, count, std::uint8_t{0});
-      before = after;
-    }
-  }
-}
-
 cv::Mat1b square_px(int edge_px) {
   return cv::Mat1b(edge_px, edge_px, std::uint8_t{1});
 }
 
 }  // namespace
 
-cv::Mat1b near_holes(const cv::Mat1f& inverse_depth, double range_min_m, double shadow_px_m) {
+cv::Mat1b near_holes(const cv::Mat1f& inverse_depth, double range_min_m) {
   const cv::Mat1b hole = inverse_depth == 0.0F;
   cv::Mat1b wide;
-  cv::erode(hole, wide, square_px(2 * kRim_px + 1), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  cv::erode(hole, wide, square_px(kWideHole_px), {-1, -1}, 1, cv::BORDER_REPLICATE);
   if (cv::countNonZero(wide) == 0) return wide;
   cv::Mat1i components;
   const int count = cv::connectedComponents(hole, components);
@@ -71,7 +54,6 @@ cv::Mat1b near_holes(const cv::Mat1f& inverse_depth, double range_min_m, double 
   for (int v = 0; v < hole.rows; ++v)
     for (int u = 0; u < hole.cols; ++u)
       if (wide(v, u) != 0) wide(v, u) = kind_of(hole_at(v, u));
-  if (shadow_px_m > 0) clear_shadows(inverse_depth, shadow_px_m, wide);
   return wide;
 }
 

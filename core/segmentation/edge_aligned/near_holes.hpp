@@ -19,11 +19,7 @@ inline constexpr std::uint8_t kNearHole = 255, kOpenHole = 128;
 /// under the camera. One that reaches the lower and the upper border, and touches nothing near, is
 /// open: as often the sky beyond a scene's floor. Any other hole has nothing within the range, or a
 /// surface that gives no return, and hides nothing. The outermost 4 pixels of a hole are left out,
-/// since shadows are as wide, and the shadows of a projector beside the camera (Kinect, Astra) are
-/// no holes: pixels of a row between two surfaces, one nearer by dw in inverse depth, that are at
-/// most shadow_px_m dw + 4. `shadow_px_m`: focal length times the distance of the projector, pixels
-/// times m; 0 for none. `inverse_depth`: 1/m, 0 where there is none. Thread-safe.
-[[nodiscard]] cv::Mat1b near_holes(const cv::Mat1f& inverse_depth, double range_min_m,
-                                   double shadow_px_m);
+/// since shadows are as wide. `inverse_depth`: 1/m, 0 where there is none. Thread-safe.
+[[nodiscard]] cv::Mat1b near_holes(const cv::Mat1f& inverse_depth, double range_min_m);
 
 }  // namespace mapscore

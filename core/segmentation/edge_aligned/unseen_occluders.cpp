@@ -17,16 +17,18 @@ namespace {
 
 /// Depths at which a near object is tried, in least ranges.
 constexpr std::array kNearDepths{1.0, 0.85, 0.7, 0.6, 0.5};
-constexpr double kHeld = 0.8;          // of a run of a hole that is a whole object
-constexpr double kRunsOnFrom = 1.3;    // in least ranges: a farther surface does not run on,
-constexpr double kRunsOnUntil = 1.05;  // and one that does ends nearer than this
-constexpr int kHoleRim_px = 11;        // near holes leave out 4 pixels at their rims
+constexpr double kHeld = 0.8;                 // of a run of a hole that is a whole object
+constexpr double kRunsOnFrom = 1.3;           // in least ranges: a farther surface does not run on,
+constexpr double kRunsOnUntil = 1.05;         // and one that does ends nearer than this
+constexpr std::array kBesideRim_px{1, 4, 7};  // where masks are compared; two of three must agree
+constexpr int kHoleRim_px = 11;               // near holes leave out 4 pixels at their rims
 
 class Occluders {
  public:
-  Occluders(const DepthEdges& edges, const OutlineField& field, const OutlineAlignment& alignment,
-            const Calibration& believed)
+  Occluders(const DepthEdges& edges, const cv::Mat1i& cells, const OutlineField& field,
+            const OutlineAlignment& alignment, const Calibration& believed)
       : edges_(edges),
+        cells_(cells),
         field_(field),
         offset_px_(alignment.offset_px),
         mended_(alignment.corrected(believed)) {
@@ -45,7 +47,7 @@ class Occluders {
         end = begin + 1;
         if (!is_hole(begin)) continue;
         while (end < length && is_hole(end)) ++end;
-        cover(line, begin, end, hit);
+        if (!is_shadow(line, begin, end)) cover(line, begin, end, hit);
       }
     }
     cv::dilate(hit, hit, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
@@ -77,7 +79,7 @@ class Occluders {
   }
 
   /// Marks what objects beside the view may hide: `from_border` pixels from where they may stand.
-  void mark_beside_view(const cv::Mat1i& cells, cv::Mat1b& hidden) const {
+  void mark_beside_view(cv::Mat1b& hidden) const {
     const cv::Mat1f &w = edges_.inverse_depth, &on = in_rows_ ? edges_.right : edges_.down;
     const Eigen::Vector3d color = mended_.T_color_depth.inverse().translation();
     const double parallax_px =  // of a point at 1 m; what is nearer lies farther this way
@@ -93,7 +95,7 @@ class Occluders {
         const cv::Point link = parallax_px > 0 ? place(line, n - 1) : at;  // to the pixel before
         if (from_border == widest || !(on(link) >= 1.0F)) is_free = false;
         if (!(w(at) > 0)) continue;
-        const bool has_mask = owner_at(cells(at)) != 0;
+        const bool has_mask = owner_at(cells_(at)) != 0;
         if (std::abs(parallax_px) * (nearest - static_cast<double>(w(at))) <= from_border)
           is_free = !has_mask;
         else if (is_free && has_mask)
@@ -106,6 +108,34 @@ class Occluders {
   /// The n-th pixel of a line along the baseline.
   [[nodiscard]] cv::Point place(int line, int n) const {
     return in_rows_ ? cv::Point(n, line) : cv::Point(line, n);
+  }
+
+  /// Whether the run [begin, end) of a hole may be a projector's shadow. Something near would
+  /// cover, in the colour image, the surface on the side that the colour camera sees past it, but
+  /// no more of it than a reach: the mask there is the same as beyond.
+  [[nodiscard]] bool is_shadow(int line, int begin, int end) const {
+    if (!is_noisy(edges_)) return false;
+    const cv::Mat1f& w = edges_.inverse_depth;
+    const int length = in_rows_ ? w.cols : w.rows;
+    const Eigen::Vector3d& t = mended_.T_color_depth.translation();
+    const double shift_px = in_rows_ ? mended_.depth.fx_px * t.x() : mended_.depth.fy_px * t.y();
+    const int way = shift_px < 0 ? -1 : 1;
+    const auto is_inside = [&](int n) { return n >= 0 && n < length; };
+    int rim = shift_px < 0 ? begin - 1 : end;
+    const int last = rim + way * kHoleRim_px;
+    while (is_inside(rim) && rim != last && !(w(place(line, rim)) > 0)) rim += way;
+    if (!is_inside(rim) || !(w(place(line, rim)) > 0)) return false;
+    const double nearest = 1 / (kNearDepths.back() * mended_.range_min_m);
+    const double reach_px =
+        std::abs(shift_px) * (nearest - static_cast<double>(w(place(line, rim))));
+    const int reach = static_cast<int>(std::ceil(reach_px)) + 2;
+    if (!is_inside(rim + way * (kBesideRim_px.back() + reach))) return false;
+    return std::ranges::count_if(kBesideRim_px, [&](int n) {
+             const cv::Point near = place(line, rim + way * n),
+                             beyond = place(line, rim + way * (n + reach));
+             return w(near) > 0 && w(beyond) > 0 &&
+                    owner_at(cells_(near)) == owner_at(cells_(beyond));
+           }) > 1;
   }
 
   /// Marks what the run [begin, end) of a hole covers.
@@ -154,6 +184,7 @@ class Occluders {
   }
 
   const DepthEdges& edges_;
+  const cv::Mat1i& cells_;
   const OutlineField& field_;
   float offset_px_;
   Calibration mended_;
@@ -165,9 +196,10 @@ class Occluders {
 cv::Mat1b unseen_occluders(const DepthEdges& edges, const cv::Mat1i& cells,
                            const OutlineField& field, const OutlineAlignment& alignment,
                            const Calibration& believed) {
-  const Occluders occluders(edges, field, alignment, believed);
+  const Occluders occluders(edges, cells, field, alignment, believed);
   cv::Mat1b hidden(cells.size(), std::uint8_t{0});
-  occluders.mark_beside_view(cells, hidden);
+  if (!(believed.range_min_m > 0)) return hidden;
+  occluders.mark_beside_view(hidden);
   if (cv::countNonZero(edges.near_holes) == 0) return hidden;
   const cv::Mat1b covered = occluders.covered();
   if (cv::countNonZero(covered) == 0) return hidden;

@@ -22,11 +22,15 @@ namespace mapscore {
 /// object. Beside an object before nothing, as at the end of a scene's floor, a mask holds a part
 /// of the hole alone, and only if that is taken to be near. A surface that itself runs on into the
 /// hole, ending at the least depth, is not hidden by it: in lines along the baseline, as far as
-/// such a hole may hide (a depth of 1.3 against half the least one).
+/// such a hole may hide (a depth of 1.3 against half the least one). Nor does a hole of a noisy
+/// image (is_noisy) hide anything where it may be the shadow of a projector: what is near would
+/// cover the surface beside it in the colour image, yet its mask is the same there and farther away
+/// than anything near can cover.
 ///
 /// Objects beside the depth camera's view, within the range, are seen by the colour camera alone.
 /// In lines along the baseline, a surface without a mask that runs on into a mask where such an
-/// object may hide it is taken to be hidden: its own outline would be a step or a crease.
+/// object may hide it is taken to be hidden: its own outline would be a step or a crease. Of a
+/// range that begins at 0 nothing is nearer: all 0.
 [[nodiscard]] cv::Mat1b unseen_occluders(const DepthEdges& edges, const cv::Mat1i& cells,
                                          const OutlineField& field,
                                          const OutlineAlignment& alignment,

@@ -16,12 +16,12 @@ cv::Mat1f wall_with(const cv::Rect& hole) {
 }
 
 bool any_near(const cv::Mat1f& inverse) {
-  return cv::countNonZero(near_holes(inverse, 0.6, 0)) > 0;
+  return cv::countNonZero(near_holes(inverse, 0.6)) > 0;
 }
 
 TEST(NearHoles, StandOnTheLowerBorder) {
   const cv::Rect before_the_robot(30, 20, 20, 40);
-  const cv::Mat1b near = near_holes(wall_with(before_the_robot), 0.6, 0);
+  const cv::Mat1b near = near_holes(wall_with(before_the_robot), 0.6);
   const cv::Rect middle(34, 24, 12, 36);  // without 4 pixels inside of the hole's edges
   EXPECT_EQ(cv::countNonZero(near), middle.area());
   EXPECT_EQ(cv::countNonZero(near(middle) == kNearHole), middle.area());
@@ -29,12 +29,11 @@ TEST(NearHoles, StandOnTheLowerBorder) {
 
 TEST(NearHoles, AreOpenWhereNothingMayLieBeyondAFloor) {
   cv::Mat1f inverse = wall_with({40, 0, 40, 60});
-  const cv::Mat1b open = near_holes(inverse, 0.6, 0);
+  const cv::Mat1b open = near_holes(inverse, 0.6);
   EXPECT_EQ(cv::countNonZero(open == kOpenHole), cv::countNonZero(open));
   EXPECT_GT(cv::countNonZero(open), 0);
   inverse.col(39).setTo(1.0F / 0.7F);
-  EXPECT_GT(cv::countNonZero(near_holes(inverse, 0.6, 0) == kNearHole), 0)
-      << "beside something near";
+  EXPECT_GT(cv::countNonZero(near_holes(inverse, 0.6) == kNearHole), 0) << "beside something near";
 }
 
 TEST(NearHoles, NothingInRangeBesideTheEndOfAWall) {
@@ -57,21 +56,6 @@ TEST(NearHoles, ATableThatRunsUnderTheCameraGoesOnInThem) {
 TEST(NearHoles, NarrowOnesAreShadows) {
   EXPECT_FALSE(any_near(wall_with({30, 20, 8, 40})));
   EXPECT_TRUE(any_near(wall_with({30, 20, 9, 40})));
-}
-
-/// Something at 0.64 m hides a strip of the wall from a projector beside the camera.
-TEST(NearHoles, AProjectorsShadowIsNone) {
-  cv::Mat1f inverse = wall_with({20, 10, 30, 50});
-  inverse(cv::Rect(50, 10, 30, 50)).setTo(1.0F / 0.64F);
-  constexpr double kStep = 1 / 0.64 - 1 / 3.0;
-  const auto near = [&](double longest_px) {
-    return cv::countNonZero(near_holes(inverse, 0.6, (longest_px - 4) / kStep));
-  };
-  EXPECT_GT(cv::countNonZero(near_holes(inverse, 0.6, 0)), 500);
-  EXPECT_GT(near(29.9), 500);
-  EXPECT_EQ(near(30.1), 0);
-  inverse(cv::Rect(0, 10, 20, 50)).setTo(0.0F);
-  EXPECT_GT(near(80), 500) << "reaches the image's border";
 }
 
 }  // namespace

@@ -53,16 +53,21 @@ TEST(UnseenOccluders, HideNothingWhereAFloorEnds) {
   EXPECT_GE(kept.recall, 0.99);
 }
 
+cv::Mat1w with_noise(const cv::Mat1w& depth, double noise) {
+  cv::Mat1w noisy = depth.clone();
+  RandomStream random(5, "noise", {});
+  for (std::uint16_t& z : noisy)
+    z = cv::saturate_cast<std::uint16_t>(kDepthUnitsPerMetre /
+                                         (kDepthUnitsPerMetre / z + noise * random.normal()));
+  return noisy;
+}
+
 /// Beside what stands near, a projector's shadow has no depth. In a noisy image it hides nothing;
 /// in an exact one, where no projector is, it may be something nearer.
 TEST(UnseenOccluders, HideNothingBehindAProjectorsShadow) {
   const PlateScene scene({{-0.3, 0.3, -0.3, 0.2, 1.45, 1}, {0.1, 0.4, -0.3, 0.3, 0.64, 2}});
   for (const double noise : {0.0, 0.002}) {
-    cv::Mat1w depth = scene.depth(), truth = scene.depth_label();
-    RandomStream random(5, "noise", {});
-    for (std::uint16_t& z : depth)
-      z = cv::saturate_cast<std::uint16_t>(kDepthUnitsPerMetre /
-                                           (kDepthUnitsPerMetre / z + noise * random.normal()));
+    cv::Mat1w depth = with_noise(scene.depth(), noise), truth = scene.depth_label();
     const cv::Rect shadow(186, 0, 19, 240);
     depth(shadow) = 0, truth(shadow) = 0;
     ASSERT_EQ(cv::countNonZero(truth(cv::Rect(205, 0, 1, 240)) == 2), 240);
@@ -74,6 +79,30 @@ TEST(UnseenOccluders, HideNothingBehindAProjectorsShadow) {
     else
       EXPECT_LE(kept.recall, 0.96);
   }
+}
+
+/// A plate nearer than the range, in a noisy image, where a shadow could be as wide.
+TEST(UnseenOccluders, ANarrowNearObjectIsNoShadow) {
+  const PlateScene scene({{-0.6, 0.6, -0.4, 0.3, 2.0, 1},
+                          {-0.05, -0.015, -0.3, 0.3, 0.45, 2},
+                          {-0.0187, 0.3, -0.3, 0.3, 0.63, 3}});
+  const cv::Mat1w depth = with_noise(scene.depth(), 0.002);
+  cv::Mat1w truth = scene.depth_label();
+  ASSERT_GT(cv::countNonZero(truth == 2), 4000);
+  truth.setTo(0, truth == 2);
+  const cv::Mat1w labels = label_depth(scene.detections(), depth, scene.truth(), {});
+  EXPECT_GE(agreement(labels, scene.detections(), truth).precision, 0.99);
+}
+
+/// Nothing is nearer than a range that begins at 0, and no depth is none.
+TEST(UnseenOccluders, HideNothingWhereTheRangeBeginsAtTheCamera) {
+  const PlateScene scene({{-0.4, 0.3, -0.3, 0.5, 1.5, 1}});
+  Calibration camera = scene.truth();
+  camera.range_min_m = 0;
+  cv::Mat1w depth = scene.depth();
+  depth(cv::Rect(0, 200, 320, 40)) = 0;
+  EXPECT_EQ(cv::countNonZero(find_depth_edges(depth, camera).inverse_depth > 10), 0);
+  EXPECT_GT(cv::countNonZero(label_depth(scene.detections(), depth, camera, {})), 1000);
 }
 
 /// A panel that comes nearer from left to right, and so ends at the least depth; its mask goes on.
