@@ -19,7 +19,7 @@ constexpr float kTold = 0.25F;  // an alignment that explains less knows too lit
 constexpr float kSupport_px = 1.5F * kPitch;
 constexpr float kFine_px = 1.5F, kWide_px = 3.0F;  // sigmas of the matches
 constexpr float kGood = 0.6F;                      // share of an outline that shows a good fit
-constexpr float kGain = 1.5F;                      // that a shift must bring
+constexpr float kGain = 1.5F;                      // over what lies within the wide sigma as it is
 constexpr float kLeastLength = 12.0F;              // weighted outline elements about a node
 constexpr int kShiftSearch = 15, kShiftStep = 3;   // px, of the shifts that are tried
 constexpr float kSearch_px = kShiftSearch;
@@ -167,7 +167,8 @@ class ShiftFinder {
     const Eigen::Vector2f fallback = gained(near, 1.08F) ? near : none;
     if (unshifted > kGood * length) return fallback;
     Eigen::Vector2f best = none;
-    float most = score(none, kWide_px);
+    const float unshifted_wide = score(none, kWide_px);
+    float most = unshifted_wide;
     const std::vector<float> scores = scores_of_tried();
     for (std::size_t n = 0; n < tried_.size(); ++n) {
       const float value =
@@ -176,7 +177,7 @@ class ShiftFinder {
     }
     best = refined(best, length);
     const float shifted = score(best, kFine_px);
-    const bool accepted = shifted > kGain * unshifted && shifted > 0.5F * kGood * length;
+    const bool accepted = shifted > kGain * unshifted_wide && shifted > 0.5F * kGood * length;
     return accepted ? best : fallback;
   }
 

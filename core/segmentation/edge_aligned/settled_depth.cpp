@@ -11,16 +11,24 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace mapscore {
 namespace {
 
 constexpr int kReach_px = 4;
-constexpr float kSigmas = 4.0F;
+constexpr float kSigmas = 4.0F, kLeastSigmas = 1.5F;  // of the band about a surface
+constexpr float kBand_m = 0.02F;                      // of the second plane's, between the two
 constexpr float kLeast = 4;
 constexpr float kLeastShare = 0.5F;
 constexpr float kMostError_m = 0.01F;
+
+/// In metres of depth: the band within which pixels lie on one surface, between kLeastSigmas and
+/// kSigmas, and how uncertain a depth may be.
+struct Limits {
+  float band_m, error_m;
+};
+constexpr float kAny_m = 1e6F;
+constexpr Limits kFirst{kAny_m, kAny_m}, kSecond{kBand_m, kMostError_m};
 
 /// How many neighbouring pixels of a row are fitted at once.
 constexpr int kFitted = 16;
@@ -44,7 +52,7 @@ struct RimmedImages {
 
 /// Sums about kFitted pixels from a place of the rimmed images on.
 MAPSCORE_WIDE_VECTORS
-PlaneSums sums_about(const RimmedImages& images, int row, int column, float within,
+PlaneSums sums_about(const RimmedImages& images, int row, int column, const Fitted& within,
                      const WindowSlopes& slopes) {
   PlaneSums sums;
   const float* const own = images.labels[row] + column;
@@ -58,7 +66,7 @@ PlaneSums sums_about(const RimmedImages& images, int row, int column, float with
         const float rise = w[n] - here[n];
         const float off = std::abs(rise - slopes.du[n] * du - slopes.dv[n] * dv);
         const float same = label[n] == own[n] ? 1.0F : 0.0F;
-        const float near = off <= within ? same : 0.0F;
+        const float near = off <= within[n] ? same : 0.0F;
         sums.labelled[n] += same;
         sums.near[n] += near;
         sums.u[n] += near * du, sums.v[n] += near * dv;
@@ -135,11 +143,19 @@ RimmedImages rimmed(const cv::Mat1f& inverse, const cv::Mat1w& labels) {
   return images;
 }
 
+/// How far in w from each of kFitted pixels others of its surface lie.
+Fitted bands_about(const float* w, float noise, float band_m) {
+  Fitted within;
+  for (std::size_t n = 0; n < kFitted; ++n)
+    within[n] = std::clamp(band_m * w[n] * w[n], kLeastSigmas * noise, kSigmas * noise);
+  return within;
+}
+
 /// w of planes fitted about labelled pixels. Those on no surface lose their label, and those whose
-/// depth is uncertain by more than `most_error_m`.
-cv::Mat1f fit_planes(const cv::Mat1f& inverse, float noise, float most_error_m, cv::Mat1w& labels) {
+/// depth is too uncertain.
+cv::Mat1f fit_planes(const cv::Mat1f& inverse, float noise, const Limits& limits,
+                     cv::Mat1w& labels) {
   const RimmedImages images = rimmed(inverse, labels);
-  const float within = kSigmas * noise;
   cv::Mat1f settled(labels.size(), 0.0F);
   for (int v = 0; v < labels.rows; ++v)
     for (int u = 0; u < labels.cols; u += kFitted) {
@@ -147,6 +163,7 @@ cv::Mat1f fit_planes(const cv::Mat1f& inverse, float noise, float most_error_m, 
       const auto lanes = static_cast<std::size_t>(std::min(kFitted, labels.cols - u));
       const float* const label = images.labels[row] + column;
       if (std::all_of(label, label + lanes, [](float own) { return own == 0.0F; })) continue;
+      const Fitted within = bands_about(images.inverse[row] + column, noise, limits.band_m);
       const PlaneSums level = sums_about(images, row, column, within, {});
       PlaneSums sloped;
       WindowSlopes slopes;
@@ -163,7 +180,7 @@ cv::Mat1f fit_planes(const cv::Mat1f& inverse, float noise, float most_error_m, 
         const int at = u + static_cast<int>(n);
         const PlaneAtPixel plane = at_pixel(sums, n);
         const float w = inverse(v, at) + plane.rise;
-        if (is_on_surface(sums, n) && noise * plane.error <= most_error_m * w * w)
+        if (is_on_surface(sums, n) && noise * plane.error <= limits.error_m * w * w)
           settled(v, at) = w;
         else
           labels(v, at) = 0;
@@ -175,9 +192,8 @@ cv::Mat1f fit_planes(const cv::Mat1f& inverse, float noise, float most_error_m, 
 }  // namespace
 
 cv::Mat1f settle_on_surfaces(const DepthEdges& edges, cv::Mat1w& labels) {
-  constexpr float kAnyError_m = std::numeric_limits<float>::infinity();
-  const cv::Mat1f first = fit_planes(edges.inverse_depth, edges.noise, kAnyError_m, labels);
-  return fit_planes(first, edges.noise, kMostError_m, labels);
+  const cv::Mat1f first = fit_planes(edges.inverse_depth, edges.noise, kFirst, labels);
+  return fit_planes(first, edges.noise, kSecond, labels);
 }
 
 }  // namespace mapscore

@@ -256,7 +256,7 @@ class PlainShifts {
       }
     best = refined(best, length);
     const float shifted = score(best, 1.5F);
-    return shifted > 1.5F * unshifted && shifted > 0.5F * 0.6F * length ? best : fallback;
+    return shifted > 1.5F * score(none, 3.0F) && shifted > 0.5F * 0.6F * length ? best : fallback;
   }
 
   const OutlineField& field_;
@@ -283,14 +283,14 @@ struct PlainPlane {
 };
 
 /// w with planes fitted about labelled pixels, and its standard errors.
-std::pair<cv::Mat1f, cv::Mat1f> fit_planes_plainly(const cv::Mat1f& w, float noise,
+std::pair<cv::Mat1f, cv::Mat1f> fit_planes_plainly(const cv::Mat1f& w, float noise, float band_m,
                                                    cv::Mat1w& labels) {
   const cv::Mat1w given = labels.clone();
   cv::Mat1f settled(w.size(), 0.0F), error(w.size(), 0.0F);
-  const float within = 4 * noise;
   for (int v = 0; v < w.rows; ++v)
     for (int u = 0; u < w.cols; ++u) {
       if (given(v, u) == 0) continue;
+      const float within = std::clamp(band_m * w(v, u) * w(v, u), 1.5F * noise, 4 * noise);
       const auto same = [&](int y, int x) {
         return y >= 0 && x >= 0 && y < w.rows && x < w.cols && std::abs(y - v) <= 4 &&
                std::abs(x - u) <= 4 && given(y, x) == given(v, u);
@@ -343,8 +343,8 @@ std::pair<cv::Mat1f, cv::Mat1f> fit_planes_plainly(const cv::Mat1f& w, float noi
 }  // namespace
 
 cv::Mat1f settle_plainly(const DepthEdges& edges, cv::Mat1w& labels) {
-  const cv::Mat1f once = fit_planes_plainly(edges.inverse_depth, edges.noise, labels).first;
-  auto [settled, error] = fit_planes_plainly(once, edges.noise, labels);
+  const cv::Mat1f once = fit_planes_plainly(edges.inverse_depth, edges.noise, 1e6F, labels).first;
+  auto [settled, error] = fit_planes_plainly(once, edges.noise, 0.02F, labels);
   for (int v = 0; v < labels.rows; ++v)
     for (int u = 0; u < labels.cols; ++u)
       if (error(v, u) > 0.01F * settled(v, u) * settled(v, u))

@@ -112,6 +112,26 @@ TEST(SettledDepth, PixelsOfUncertainDepthAreDropped) {
   EXPECT_EQ(cv::countNonZero(slant.labels), cv::countNonZero(settled));
 }
 
+/// At 4 m five sigma of 1/z are 16 cm. The first plane joins what lies that far apart, the second
+/// tells it apart again.
+TEST(SettledDepth, SurfacesFarAwayAreToldApart) {
+  RandomStream random(8, "test", {});
+  DepthEdges edges;
+  edges.noise = kNoise;
+  edges.inverse_depth = cv::Mat1f(60, 80);
+  const auto truth = [](int u) { return u < 40 ? 0.25F : 0.25F + 5 * kNoise; };
+  for (int v = 0; v < 60; ++v)
+    for (int u = 0; u < 80; ++u)
+      edges.inverse_depth(v, u) = truth(u) + kNoise * static_cast<float>(random.normal());
+  cv::Mat1w labels(60, 80, std::uint16_t{1});
+  const cv::Mat1f settled = settle_on_surfaces(edges, labels);
+  int between = 0;
+  for (int v = 0; v < 60; ++v)
+    for (int u = 32; u < 48; ++u)
+      between += settled(v, u) > 0 && std::abs(settled(v, u) - truth(u)) > kNoise;
+  EXPECT_LT(between, 140);
+}
+
 /// A bar of 2 pixels, as a chair's leg; and a line of 1.
 TEST(SettledDepth, ThinPartsStay) {
   Slant slant(kNoise);
