@@ -45,10 +45,9 @@ struct DepthEdges {
 /// range are none. A gap of up to 24 pixels without depth is stepped over. Behind a wider one, or
 /// one that reaches the image's border, lies nothing within the range unless it is a near hole
 /// (near_holes.hpp): the surfaces at its ends are edges of strength 1, but those beyond 0.9 of the
-/// range, which may end there because the range does. Not given is a step
-/// beyond which the next one that faces alike in its row or column lies within 6 pixels, with a w
-/// on its nearer side that differs by at most 3 %: it is a crease of the surface that ends there,
-/// or noise about that end.
+/// range, which may end there because the range does. Not given is a step beyond which the next one
+/// that faces alike in its row or column lies within 6 pixels, with a w on its nearer side that
+/// differs by at most 3 %: it is a crease of the surface that ends there, or noise about that end.
 [[nodiscard]] DepthEdges find_depth_edges(const cv::Mat1w& depth, const Calibration& believed);
 
 }  // namespace mapscore

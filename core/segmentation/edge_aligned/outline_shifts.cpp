@@ -19,7 +19,7 @@ constexpr float kTold = 0.25F;  // an alignment that explains less knows too lit
 constexpr float kSupport_px = 1.5F * kPitch;
 constexpr float kFine_px = 1.5F, kWide_px = 3.0F;  // sigmas of the matches
 constexpr float kGood = 0.6F;                      // share of an outline that shows a good fit
-constexpr float kGain = 1.5F;                      // over what lies within the wide sigma as it is
+constexpr float kGain = 1.5F;                      // over what no shift explains, at the wide sigma
 constexpr float kLeastLength = 12.0F;              // weighted outline elements about a node
 constexpr int kShiftSearch = 15, kShiftStep = 3;   // px, of the shifts that are tried
 constexpr float kSearch_px = kShiftSearch;

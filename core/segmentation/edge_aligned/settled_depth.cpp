@@ -16,19 +16,16 @@ namespace mapscore {
 namespace {
 
 constexpr int kReach_px = 4;
-constexpr float kSigmas = 4.0F, kLeastSigmas = 1.5F;  // of the band about a surface
-constexpr float kBand_m = 0.02F;                      // of the second plane's, between the two
+constexpr float kSigmas = 4.0F, kLeastSigmas = 1.5F;
 constexpr float kLeast = 4;
 constexpr float kLeastShare = 0.5F;
-constexpr float kMostError_m = 0.01F;
 
-/// In metres of depth: the band within which pixels lie on one surface, between kLeastSigmas and
-/// kSigmas, and how uncertain a depth may be.
+/// Of one fit, in metres of depth: the band in which pixels lie on one surface, at least
+/// kLeastSigmas and at most kSigmas wide, and how uncertain a depth may be.
 struct Limits {
   float band_m, error_m;
 };
-constexpr float kAny_m = 1e6F;
-constexpr Limits kFirst{kAny_m, kAny_m}, kSecond{kBand_m, kMostError_m};
+constexpr Limits kFirst{1e6F, 1e6F}, kSecond{0.02F, 0.01F};
 
 /// How many neighbouring pixels of a row are fitted at once.
 constexpr int kFitted = 16;

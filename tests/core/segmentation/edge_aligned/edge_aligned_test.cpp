@@ -206,33 +206,23 @@ TEST(OutlineShifts, AreSoughtOnlyWhereTheAlignmentExplainsEnough) {
   EXPECT_TRUE(find_outline_shifts(edges, field, alignment, off).nodes.empty());
 }
 
-/// How far local shifts move the place of an object's mask, where the alignment is the true one.
-Eigen::Vector2f shift_of_mask(const PlateScene& scene, const cv::Mat1w& label,
-                              const cv::Mat1w& depth) {
-  const OutlineField field = outline_field(scene.detections(label), 320, 240, 60);
+/// As a limb does under a time offset.
+TEST(OutlineShifts, FollowAnObjectThatMoved) {
+  const PlateScene scene({{-0.3, 0.1, -0.3, 0.3, 1.5, 1}});
+  cv::Mat1w moved(240, 320, std::uint16_t{0});
+  scene.label()(cv::Rect(0, 0, 311, 240)).copyTo(moved(cv::Rect(9, 0, 311, 240)));
   OutlineAlignment alignment;
   alignment.sharpness = 0.5F;
   alignment.score = 0.3F;
-  const OutlineShifts shifts =
-      find_outline_shifts(find_depth_edges(depth, scene.truth()), field, alignment, scene.truth());
-  if (shifts.nodes.empty()) return {0, 0};
-  std::vector<cv::Point> pixels;
-  cv::findNonZero(label > 0, pixels);
-  const cv::Rect box = cv::boundingRect(pixels);
-  const cv::Vec2f at = shifts.at(static_cast<float>(box.x + box.width / 2),
-                                 static_cast<float>(box.y + box.height / 2));
-  return {at[0], at[1]};
-}
-
-/// As a limb does under a time offset.
-TEST(OutlineShifts, AnObjectThatMovedIsFollowed) {
-  const PlateScene scene({{-0.3, 0.1, -0.3, 0.3, 1.5, 1}});
-  cv::Mat1w moved(scene.label().size(), std::uint16_t{0});
-  const cv::Rect all(0, 0, 320, 240), shifted(9, 0, 311, 240);
-  scene.label()(cv::Rect(0, 0, 311, 240)).copyTo(moved(shifted & all));
-  const Eigen::Vector2f shift = shift_of_mask(scene, moved, scene.depth());
-  EXPECT_NEAR(shift.x(), 9.0F, 0.5F);
-  EXPECT_NEAR(shift.y(), 0.0F, 0.5F);
+  const OutlineShifts shifts = find_outline_shifts(
+      find_depth_edges(scene.depth(), scene.truth()),
+      outline_field(scene.detections(moved), 320, 240, 60), alignment, scene.truth());
+  ASSERT_FALSE(shifts.nodes.empty());
+  const cv::Rect object = cv::boundingRect(moved > 0);
+  const cv::Vec2f shift = shifts.at(static_cast<float>(object.x + object.width / 2),
+                                    static_cast<float>(object.y + object.height / 2));
+  EXPECT_NEAR(shift[0], 9.0F, 0.5F);
+  EXPECT_NEAR(shift[1], 0.0F, 0.5F);
 }
 
 /// A calibration that is known is not changed, and the masks' size is found as well as otherwise.
