@@ -3,7 +3,6 @@
 
 #include "core/calibration/outline_evidence.hpp"
 
-#include "core/segmentation/edge_aligned/depth_edges.hpp"
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
 
 #include <algorithm>
@@ -58,7 +57,8 @@ OutlineEvidence::OutlineEvidence(const Sight& sight, const std::optional<FrameMo
            std::abs(u - at.x()) + std::abs(v - at.y());
   };
   if (field_.length_px == 0) return;
-  for (const DepthEdge& edge : find_depth_edges(sight.depth(), sight.believed()).steps) {
+  const DepthEdges found = find_depth_edges(sight.depth(), sight.believed(), kCalibrationEdges);
+  for (const DepthEdge& edge : found.steps) {
     const Eigen::Vector3f p = T_color_depth.linear().cast<float>() * edge.point +
                               T_color_depth.translation().cast<float>();
     if (!(p.z() > kNearest_m) || distance_near(project(p)) > static_cast<float>(reach_px)) continue;

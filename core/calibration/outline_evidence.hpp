@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/calibration/calibration_correction.hpp"
+#include "core/segmentation/edge_aligned/depth_edges.hpp"
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 #include "core/segmentation/sight.hpp"
@@ -18,6 +19,12 @@ namespace mapscore {
 
 /// Edges that err together, as an outline wavers and pixels are cut; roughly.
 inline constexpr double kEdgesOfAnError = 20.0;
+
+/// Steps of depth that a calibration is found from: more of what lies behind the end of a surface,
+/// and flying pixels, is left out than for one frame's segmentation, since it pulls all frames one
+/// way; and a near object whose left side ends at a projector's shadow keeps that end.
+inline constexpr DepthEdgeRules kCalibrationEdges{
+    .same_depth = 0.06F, .flying_px = 2, .shadow_ends = true};
 
 /// A depth edge and an outline that lie on each other, as one linear equation of a correction.
 struct OutlineEquation {

@@ -19,8 +19,9 @@ constexpr float kLeastStep = 0.002F;  // 1/m: 8 mm at 2 m
 constexpr float kStepSigmas = 4.0F;
 constexpr float kNoisy = 0.0005F;  // 1/m: kStepSigmas reach the least step
 constexpr int kWidestGap = 24;
-constexpr int kInner_px = 6;           // behind the outermost step of a surface
-constexpr float kSameDepth = 0.03F;    // of the inverse depth: one surface, not one before another
+constexpr int kInner_px = 6;                // behind the outermost step of a surface
+constexpr float kWidestBaseline_m = 0.08F;  // between a depth camera and its projector
+constexpr float kShadowRim_px = 4.0F;       // that lateral noise adds to a shadow
 constexpr double kShareOfRange = 0.9;  // surfaces farther than this may end because the range does
 
 /// Inverse depths, 1/m, of a row; 0 where the depth is not from `least` to `most`.
@@ -91,7 +92,8 @@ void go_on(const float* row, const float* above, float tau, int columns, float* 
 
 class EdgeFinder {
  public:
-  EdgeFinder(const cv::Mat1w& depth, const Calibration& believed) : camera_(believed.depth) {
+  EdgeFinder(const cv::Mat1w& depth, const Calibration& believed, const DepthEdgeRules& rules)
+      : rules_(rules), camera_(believed.depth) {
     edges_.inverse_depth = inverse_of(depth, believed);
     edges_.noise = noise_of(edges_.inverse_depth);
     edges_.near_holes = near_holes(edges_.inverse_depth, believed.range_min_m);
@@ -179,9 +181,21 @@ class EdgeFinder {
   /// A hole of a row that begins after column p and ends before q, either perhaps the border.
   void beside_hole_in_row(int v, int p, int q) {
     const cv::Mat1f& w = edges_.inverse_depth;
-    if (edges_.near_holes(v, (p + q) / 2) == kNearHole) return;
+    if (edges_.near_holes(v, (p + q) / 2) == kNearHole) {
+      if (may_be_shadow(v, p, q)) add(q - 0.5, v, w(v, q), Outward::left, 1.0F);
+      return;
+    }
     if (p >= 0 && w(v, p) > farthest_) add(p + 0.5, v, w(v, p), Outward::right, 1.0F);
     if (q < w.cols && w(v, q) > farthest_) add(q - 0.5, v, w(v, q), Outward::left, 1.0F);
+  }
+
+  [[nodiscard]] bool may_be_shadow(int v, int p, int q) const {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    if (!rules_.shadow_ends || !is_noisy(edges_) || p < 0 || q >= w.cols) return false;
+    const float nearer_by = w(v, q) - w(v, p);
+    return nearer_by > tau_ &&
+           static_cast<float>(q - p - 1) <=
+               kWidestBaseline_m * static_cast<float>(camera_.fx_px) * nearer_by + kShadowRim_px;
   }
 
   void beside_hole_in_column(int u, int p, int q) {
@@ -195,17 +209,21 @@ class EdgeFinder {
     return std::clamp((step - tau_) / (2 * tau_), 0.0F, 1.0F);
   }
 
-  /// A step; of two at one depth that face alike, the inner one gets strength 0.
+  /// A step. Of two at one depth that face alike the inner one gets strength 0, of the two sides of
+  /// a flying pixel both.
   void add(double u, double v, float inverse, Outward outward, float strength) {
     const bool in_row = outward == Outward::right || outward == Outward::left;
     const int along = static_cast<int>(std::floor(in_row ? u : v));
     LastStep& last =
         last_.at(static_cast<std::size_t>(outward)).at(static_cast<std::size_t>(in_row ? v : u));
-    if (along - last.along <= kInner_px &&
-        std::abs(last.inverse - inverse) <= kSameDepth * std::max(last.inverse, inverse)) {
-      const bool last_is_inner = outward == Outward::right || outward == Outward::down;
-      (last_is_inner ? edges_.steps[last.number].strength : strength) = 0;
-    }
+    const int apart = along - last.along;
+    const bool at_one_depth =
+        std::abs(last.inverse - inverse) <= rules_.same_depth * std::max(last.inverse, inverse);
+    const bool last_is_inner = outward == Outward::right || outward == Outward::down;
+    const bool flies = !at_one_depth && apart <= rules_.flying_px;
+    const bool is_crease = at_one_depth && apart <= kInner_px;
+    if (flies || (is_crease && last_is_inner)) edges_.steps[last.number].strength = 0;
+    if (flies || (is_crease && !last_is_inner)) strength = 0;
     last = {along, inverse, edges_.steps.size()};
     const Eigen::Vector3d point = camera_.back_project(u, v, 1.0 / static_cast<double>(inverse));
     edges_.steps.push_back({point.cast<float>(), outward, strength});
@@ -218,6 +236,7 @@ class EdgeFinder {
     std::size_t number = 0;
   };
 
+  DepthEdgeRules rules_;
   CameraModel camera_;
   std::array<std::vector<LastStep>, 4> last_;  ///< by Outward and row or column
   float tau_ = 0, farthest_ = 0;
@@ -230,8 +249,9 @@ bool is_noisy(const DepthEdges& edges) {
   return edges.noise > kNoisy;
 }
 
-DepthEdges find_depth_edges(const cv::Mat1w& depth, const Calibration& believed) {
-  return EdgeFinder(depth, believed).find();
+DepthEdges find_depth_edges(const cv::Mat1w& depth, const Calibration& believed,
+                            const DepthEdgeRules& rules) {
+  return EdgeFinder(depth, believed, rules).find();
 }
 
 }  // namespace mapscore

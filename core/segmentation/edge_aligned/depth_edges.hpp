@@ -32,6 +32,19 @@ struct DepthEdges {
   std::vector<DepthEdge> steps;  ///< row-major, rows before columns of a pixel
 };
 
+/// Which steps count. The defaults are the segmentation's.
+struct DepthEdgeRules {
+  /// Of the greater inverse depth: how far the nearer sides of two steps may differ for the inner
+  /// one to be a crease of the surface that ends at the outer one.
+  float same_depth = 0.03F;
+  /// Two steps that face alike and lie no farther apart, at other depths, are the sides of a flying
+  /// pixel, which lies on no surface: neither counts.
+  int flying_px = 0;
+  /// Of a noisy image, also the nearer ends of what may be shadows of a projector count. It stands
+  /// to the depth camera's right, as a Kinect's or an Astra's does, so they are left ends.
+  bool shadow_ends = false;
+};
+
 /// True when the noise of the inverse depth exceeds 0.0005/m, so that 4 sigma exceed the least step
 /// that counts as an edge (0.002/m): only such images are smoothed, and may have shadows of a
 /// projector.
@@ -45,9 +58,13 @@ struct DepthEdges {
 /// range are none. A gap of up to 24 pixels without depth is stepped over. Behind a wider one, or
 /// one that reaches the image's border, lies nothing within the range unless it is a near hole
 /// (near_holes.hpp): the surfaces at its ends are edges of strength 1, but those beyond 0.9 of the
-/// range, which may end there because the range does. Not given is a step beyond which the next one
-/// that faces alike in its row or column lies within 6 pixels, with a w on its nearer side that
-/// differs by at most 3 %: it is a crease of the surface that ends there, or noise about that end.
-[[nodiscard]] DepthEdges find_depth_edges(const cv::Mat1w& depth, const Calibration& believed);
+/// range, which may end there because the range does. A near hole of a row may be a projector's
+/// shadow where the surface on its right is nearer by dw > tau and it is no wider than 0.08 m f dw
+/// + 4 pixels, f the depth camera's fx. Not given is a step beyond which the next one that faces
+/// alike in its row or column lies within 6 pixels, with a w on its nearer side that is the same
+/// but for DepthEdgeRules::same_depth: it is a crease of the surface that ends there, or noise
+/// about that end. Thread-safe.
+[[nodiscard]] DepthEdges find_depth_edges(const cv::Mat1w& depth, const Calibration& believed,
+                                          const DepthEdgeRules& rules = {});
 
 }  // namespace mapscore

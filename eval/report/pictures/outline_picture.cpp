@@ -3,7 +3,7 @@
 
 #include "eval/report/pictures/outline_picture.hpp"
 
-#include "core/segmentation/edge_aligned/depth_edges.hpp"
+#include "core/calibration/outline_evidence.hpp"
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 #include "eval/report/pictures/caption.hpp"
 
@@ -93,7 +93,7 @@ cv::Mat3b outline_picture(const Sight& sight, const ClassTable& table,
                           const std::vector<TitledCalibration>& calibrations) {
   const CameraModel& color = sight.believed().color;
   const OutlineField field = outline_field(sight.detections(), color.width_px, color.height_px, 16);
-  const DepthEdges edges = find_depth_edges(sight.depth(), sight.believed());
+  const DepthEdges edges = find_depth_edges(sight.depth(), sight.believed(), kCalibrationEdges);
   std::vector<LegendEntry> legend;
   std::set<ClassId> shown;
   for (const Detection& detection : sight.detections())

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the mapscore authors
 // SPDX-License-Identifier: MIT
 
+#include "core/calibration/outline_evidence.hpp"
 #include "core/random_stream.hpp"
+#include "core/segmentation/edge_aligned/near_holes.hpp"
 #include "core/segmentation/edge_aligned/pixel_votes.hpp"
 #include "core/segmentation/edge_aligned/settled_depth.hpp"
 #include "core/segmentation/edge_aligned/surface_vote.hpp"
@@ -52,6 +54,31 @@ bool same_bits(const cv::Mat1f& a, const cv::Mat1f& b) {
   return a.size() == b.size() && cv::countNonZero(a != b) == 0;
 }
 
+void expect_equal_steps(const DepthEdges& fast, const DepthEdges& plain) {
+  EXPECT_TRUE(same_bits(fast.right, plain.right));
+  EXPECT_TRUE(same_bits(fast.down, plain.down));
+  ASSERT_EQ(fast.steps.size(), plain.steps.size());
+  for (std::size_t n = 0; n < plain.steps.size(); ++n) {
+    ASSERT_EQ(fast.steps[n].point, plain.steps[n].point) << n;
+    ASSERT_EQ(fast.steps[n].outward, plain.steps[n].outward) << n;
+    ASSERT_EQ(fast.steps[n].strength, plain.steps[n].strength) << n;
+  }
+}
+
+TEST(EdgeAlignedFastSteps, EqualThePlainOnesOfACalibration) {
+  for (const double noise : {0.0, 0.0015, 0.003}) {
+    SCOPED_TRACE("noise " + std::to_string(noise) + "/m");
+    RoughScene scene(noise, 0, {0, 0, 0});
+    scene.depth(cv::Rect(60, 60, 20, 180)) = static_cast<std::uint16_t>(0.5 * kDepthUnitsPerMetre);
+    scene.depth(cv::Rect(30, 60, 30, 180)) = 0;  // perhaps a shadow; near, for the lower border
+    scene.believed.range_min_m = 0.4;
+    const DepthEdges edges = find_depth_edges(scene.depth, scene.believed, kCalibrationEdges);
+    ASSERT_GT(cv::countNonZero(edges.near_holes == kNearHole), 0);
+    expect_equal_steps(edges, plain_steps(edges, scene.believed, kCalibrationEdges));
+    EXPECT_NE(edges.steps.size(), find_depth_edges(scene.depth, scene.believed).steps.size());
+  }
+}
+
 TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
   int shifted = 0, settled_pixels = 0, labelled = 0;
   for (const double noise : {0.0, 0.0015, 0.003})
@@ -61,15 +88,7 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
                      std::to_string(grown_px) + " px, shift " + std::to_string(shift_m) + " m");
         const RoughScene scene(noise, grown_px, {shift_m, 0, 0});
         const DepthEdges edges = find_depth_edges(scene.depth, scene.believed);
-        const DepthEdges plain = plain_steps(edges, scene.believed);
-        EXPECT_TRUE(same_bits(edges.right, plain.right));
-        EXPECT_TRUE(same_bits(edges.down, plain.down));
-        ASSERT_EQ(edges.steps.size(), plain.steps.size());
-        for (std::size_t n = 0; n < plain.steps.size(); ++n) {
-          ASSERT_EQ(edges.steps[n].point, plain.steps[n].point) << n;
-          ASSERT_EQ(edges.steps[n].outward, plain.steps[n].outward) << n;
-          ASSERT_EQ(edges.steps[n].strength, plain.steps[n].strength) << n;
-        }
+        expect_equal_steps(edges, plain_steps(edges, scene.believed));
         ASSERT_EQ(cv::countNonZero(edges.near_holes), 0);
 
         const OutlineField field = outline_field(scene.detections, 320, 240, 60);

@@ -8,6 +8,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -42,8 +43,8 @@ struct PixelLine {
 
 class PlainSteps {
  public:
-  PlainSteps(const DepthEdges& given, const Calibration& believed)
-      : believed_(believed), edges_(given) {
+  PlainSteps(const DepthEdges& given, const Calibration& believed, const DepthEdgeRules& rules)
+      : believed_(believed), rules_(rules), edges_(given) {
     edges_.right = cv::Mat1f(given.inverse_depth.size(), 0.0F);
     edges_.down = cv::Mat1f(given.inverse_depth.size(), 0.0F);
     edges_.steps.clear();
@@ -61,7 +62,7 @@ class PlainSteps {
     }
     for (int u = 0; u < w.cols; ++u) beside_hole({w, false, u}, w.rows);
     for (const Found& one : found_)
-      if (!has_outer(one)) edges_.steps.push_back(one.step);
+      if (!has_outer(one) && !flies(one)) edges_.steps.push_back(one.step);
     return edges_;
   }
 
@@ -91,8 +92,15 @@ class PlainSteps {
     const float farthest = static_cast<float>(1.0 / (0.9 * believed_.range_max_m));
     if (q - p <= kGap) return;
     if ((line.row ? edges_.near_holes(line.index, middle)
-                  : edges_.near_holes(middle, line.index)) == kNearHole)
+                  : edges_.near_holes(middle, line.index)) == kNearHole) {
+      if (!rules_.shadow_ends || !line.row || !is_noisy(edges_) || p < 0 || q == line.size())
+        return;
+      const float step = line.at(q) - line.at(p);
+      const float widest = 0.08F * static_cast<float>(believed_.depth.fx_px) * step + 4;
+      if (step > std::max(0.002F, 4 * edges_.noise) && static_cast<float>(q - p - 1) <= widest)
+        add(line, q, false, 1.0F);
       return;
+    }
     if (p >= 0 && line.at(p) > farthest) add(line, p, true, 1.0F);
     if (q < line.size() && line.at(q) > farthest) add(line, q, false, 1.0F);
   }
@@ -113,21 +121,34 @@ class PlainSteps {
     int line, at;
     float inverse;
   };
+  [[nodiscard]] bool at_one_depth(const Found& a, const Found& b) const {
+    return std::abs(a.inverse - b.inverse) <= rules_.same_depth * std::max(a.inverse, b.inverse);
+  }
+  /// The nearest step of the same line to a side that faces alike, up to so many pixels away.
+  [[nodiscard]] const Found* next_to(const Found& one, bool upwards, int most) const {
+    const Found* next = nullptr;
+    for (const std::size_t number : of_line_.at({one.step.outward, one.line})) {
+      const Found& other = found_[number];
+      const int beyond = upwards ? other.at - one.at : one.at - other.at;
+      if (beyond > 0 && beyond <= most) next = &other, most = beyond - 1;
+    }
+    return next;
+  }
   /// Whether the next step outward of the same line belongs to the same surface.
   [[nodiscard]] bool has_outer(const Found& one) const {
     const bool up = one.step.outward == Outward::right || one.step.outward == Outward::down;
-    const Found* next = nullptr;
-    int least = 7;
-    for (const std::size_t number : of_line_.at({one.step.outward, one.line})) {
-      const Found& other = found_[number];
-      const int beyond = up ? other.at - one.at : one.at - other.at;
-      if (beyond > 0 && beyond < least) next = &other, least = beyond;
-    }
-    return next != nullptr &&
-           std::abs(next->inverse - one.inverse) <= 0.03F * std::max(next->inverse, one.inverse);
+    const Found* next = next_to(one, up, 6);
+    return next != nullptr && at_one_depth(*next, one);
+  }
+  [[nodiscard]] bool flies(const Found& one) const {
+    return std::ranges::any_of(std::array{false, true}, [&](bool upwards) {
+      const Found* next = next_to(one, upwards, rules_.flying_px);
+      return next != nullptr && !at_one_depth(*next, one);
+    });
   }
 
   const Calibration& believed_;
+  DepthEdgeRules rules_;
   DepthEdges edges_;
   std::vector<Found> found_;
   std::map<std::pair<Outward, int>, std::vector<std::size_t>> of_line_;  ///< numbers of found_
@@ -266,8 +287,9 @@ class PlainShifts {
 
 }  // namespace
 
-DepthEdges plain_steps(const DepthEdges& given, const Calibration& believed) {
-  return PlainSteps(given, believed).find();
+DepthEdges plain_steps(const DepthEdges& given, const Calibration& believed,
+                       const DepthEdgeRules& rules) {
+  return PlainSteps(given, believed, rules).find();
 }
 
 OutlineShifts plain_shifts(const DepthEdges& edges, const OutlineField& field,

@@ -16,7 +16,8 @@ namespace mapscore::testing {
 // The steps of edge_aligned, pixel by pixel as their definitions say, which the core must equal.
 
 /// Continuity and steps of an image whose inverse depth, noise and near holes are given.
-[[nodiscard]] DepthEdges plain_steps(const DepthEdges& given, const Calibration& believed);
+[[nodiscard]] DepthEdges plain_steps(const DepthEdges& given, const Calibration& believed,
+                                     const DepthEdgeRules& rules = {});
 
 [[nodiscard]] OutlineShifts plain_shifts(const DepthEdges& edges, const OutlineField& field,
                                          const OutlineAlignment& alignment,
