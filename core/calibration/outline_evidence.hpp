@@ -20,11 +20,10 @@ namespace mapscore {
 /// Edges that err together, as an outline wavers and pixels are cut; roughly.
 inline constexpr double kEdgesOfAnError = 20.0;
 
-/// Steps of depth that a calibration is found from: more of what lies behind the end of a surface,
-/// and flying pixels, is left out than for one frame's segmentation, since it pulls all frames one
-/// way; and a near object whose left side ends at a projector's shadow keeps that end.
-inline constexpr DepthEdgeRules kCalibrationEdges{
-    .same_depth = 0.06F, .flying_px = 2, .shadow_ends = true};
+/// Steps of depth that a calibration is found from. They pull all frames one way, so more of what
+/// lies within the end of a surface is left out than for the segmentation of one frame, and a near
+/// object that ends at a projector's shadow keeps that end.
+inline constexpr DepthEdgeRules kCalibrationEdges{.same_depth = 0.06F, .shadow_ends = true};
 
 /// A depth edge and an outline that lie on each other, as one linear equation of a correction.
 struct OutlineEquation {

@@ -209,21 +209,17 @@ class EdgeFinder {
     return std::clamp((step - tau_) / (2 * tau_), 0.0F, 1.0F);
   }
 
-  /// A step. Of two at one depth that face alike the inner one gets strength 0, of the two sides of
-  /// a flying pixel both.
+  /// A step; of two at one depth that face alike, the inner one gets strength 0.
   void add(double u, double v, float inverse, Outward outward, float strength) {
     const bool in_row = outward == Outward::right || outward == Outward::left;
     const int along = static_cast<int>(std::floor(in_row ? u : v));
     LastStep& last =
         last_.at(static_cast<std::size_t>(outward)).at(static_cast<std::size_t>(in_row ? v : u));
-    const int apart = along - last.along;
-    const bool at_one_depth =
-        std::abs(last.inverse - inverse) <= rules_.same_depth * std::max(last.inverse, inverse);
-    const bool last_is_inner = outward == Outward::right || outward == Outward::down;
-    const bool flies = !at_one_depth && apart <= rules_.flying_px;
-    const bool is_crease = at_one_depth && apart <= kInner_px;
-    if (flies || (is_crease && last_is_inner)) edges_.steps[last.number].strength = 0;
-    if (flies || (is_crease && !last_is_inner)) strength = 0;
+    if (along - last.along <= kInner_px &&
+        std::abs(last.inverse - inverse) <= rules_.same_depth * std::max(last.inverse, inverse)) {
+      const bool last_is_inner = outward == Outward::right || outward == Outward::down;
+      (last_is_inner ? edges_.steps[last.number].strength : strength) = 0;
+    }
     last = {along, inverse, edges_.steps.size()};
     const Eigen::Vector3d point = camera_.back_project(u, v, 1.0 / static_cast<double>(inverse));
     edges_.steps.push_back({point.cast<float>(), outward, strength});

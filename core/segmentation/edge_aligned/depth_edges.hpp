@@ -37,9 +37,6 @@ struct DepthEdgeRules {
   /// Of the greater inverse depth: how far the nearer sides of two steps may differ for the inner
   /// one to be a crease of the surface that ends at the outer one.
   float same_depth = 0.03F;
-  /// Two steps that face alike and lie no farther apart, at other depths, are the sides of a flying
-  /// pixel, which lies on no surface: neither counts.
-  int flying_px = 0;
   /// Of a noisy image, also the nearer ends of what may be shadows of a projector count. It stands
   /// to the depth camera's right, as a Kinect's or an Astra's does, so they are left ends.
   bool shadow_ends = false;

@@ -73,13 +73,6 @@ TEST(DepthEdges, OfAThickEndAreTheOuterOnesForACalibration) {
   EXPECT_EQ(steps_with_ledge(2.2, 4, outer), (std::set{95.5, 99.5, 149.5, 153.5}));
 }
 
-TEST(DepthEdges, OfFlyingPixelsAreNoneForACalibration) {
-  const DepthEdgeRules no_flying{.flying_px = 2};
-  EXPECT_EQ(steps_with_ledge(2.2, 1), (std::set{98.5, 99.5, 149.5, 150.5}));
-  EXPECT_EQ(steps_with_ledge(2.2, 1, no_flying), std::set<double>{});
-  EXPECT_EQ(steps_with_ledge(2.2, 3, no_flying), (std::set{96.5, 99.5, 149.5, 152.5}));
-}
-
 /// Left and right ends of a board .4 m away in columns 160 to 219 before a wall at 2 m, between
 /// holes to its left and right, which are near but for their outermost 4 rows.
 std::pair<int, int> ends_at_holes(double noise, int left_px, int right_px,

@@ -75,7 +75,8 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnesOfACalibration) {
     const DepthEdges edges = find_depth_edges(scene.depth, scene.believed, kCalibrationEdges);
     ASSERT_GT(cv::countNonZero(edges.near_holes == kNearHole), 0);
     expect_equal_steps(edges, plain_steps(edges, scene.believed, kCalibrationEdges));
-    EXPECT_NE(edges.steps.size(), find_depth_edges(scene.depth, scene.believed).steps.size());
+    const DepthEdges segmentation = find_depth_edges(scene.depth, scene.believed);
+    EXPECT_EQ(edges.steps.size() != segmentation.steps.size(), is_noisy(edges));
   }
 }
 

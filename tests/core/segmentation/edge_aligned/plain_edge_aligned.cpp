@@ -8,7 +8,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -62,7 +61,7 @@ class PlainSteps {
     }
     for (int u = 0; u < w.cols; ++u) beside_hole({w, false, u}, w.rows);
     for (const Found& one : found_)
-      if (!has_outer(one) && !flies(one)) edges_.steps.push_back(one.step);
+      if (!has_outer(one)) edges_.steps.push_back(one.step);
     return edges_;
   }
 
@@ -121,30 +120,18 @@ class PlainSteps {
     int line, at;
     float inverse;
   };
-  [[nodiscard]] bool at_one_depth(const Found& a, const Found& b) const {
-    return std::abs(a.inverse - b.inverse) <= rules_.same_depth * std::max(a.inverse, b.inverse);
-  }
-  /// The nearest step of the same line to a side that faces alike, up to so many pixels away.
-  [[nodiscard]] const Found* next_to(const Found& one, bool upwards, int most) const {
-    const Found* next = nullptr;
-    for (const std::size_t number : of_line_.at({one.step.outward, one.line})) {
-      const Found& other = found_[number];
-      const int beyond = upwards ? other.at - one.at : one.at - other.at;
-      if (beyond > 0 && beyond <= most) next = &other, most = beyond - 1;
-    }
-    return next;
-  }
   /// Whether the next step outward of the same line belongs to the same surface.
   [[nodiscard]] bool has_outer(const Found& one) const {
     const bool up = one.step.outward == Outward::right || one.step.outward == Outward::down;
-    const Found* next = next_to(one, up, 6);
-    return next != nullptr && at_one_depth(*next, one);
-  }
-  [[nodiscard]] bool flies(const Found& one) const {
-    return std::ranges::any_of(std::array{false, true}, [&](bool upwards) {
-      const Found* next = next_to(one, upwards, rules_.flying_px);
-      return next != nullptr && !at_one_depth(*next, one);
-    });
+    const Found* next = nullptr;
+    int least = 7;
+    for (const std::size_t number : of_line_.at({one.step.outward, one.line})) {
+      const Found& other = found_[number];
+      const int beyond = up ? other.at - one.at : one.at - other.at;
+      if (beyond > 0 && beyond < least) next = &other, least = beyond;
+    }
+    return next != nullptr && std::abs(next->inverse - one.inverse) <=
+                                  rules_.same_depth * std::max(next->inverse, one.inverse);
   }
 
   const Calibration& believed_;
