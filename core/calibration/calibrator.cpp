@@ -27,6 +27,7 @@ constexpr double kBehind = 0.002;  // of the outlines, by which an estimate may 
 /// Squared: an estimate can be worse than the start only if it is wrong by half of their
 /// difference.
 constexpr double kSurely = 4.0;
+constexpr double kLittle = 0.01;      // of the outlines, by which what is surely better is ahead
 constexpr double kMostBeyond = 1.5;   // of what the search tries
 constexpr double kRadius_px = 150.0;  // of the edges about the image's middle, roughly
 
@@ -138,8 +139,9 @@ std::string advice_for(const std::string& direction, const CalibratorSettings& s
 std::string objection(const CalibrationEstimate& estimate, const CalibratorSettings& settings) {
   if (estimate.explained < kLeastShare)
     return "hardly any outline lies on a step of depth; see that masks and depth images belong "
-           "together, that focal lengths and principal points are those of these images, and that "
-           "the start is not farther off than search_m and search_deg";
+           "together, that depth was not smoothed or averaged over steps, that focal lengths, "
+           "principal points and the depth's scale are those of these images, and that the start "
+           "is not farther off than search_m and search_deg";
   if (!(estimate.weakest_px < CalibrationEstimate::kMostWeak_px) ||
       !(estimate.condition < CalibrationEstimate::kMostCondition))
     return estimate.weakest + " cannot be told; " + advice_for(estimate.weakest, settings);
@@ -215,7 +217,8 @@ CalibrationEstimate Calibrator::estimate() const {
     } else {
       result.verdict = CalibrationVerdict::calibrated;
       result.calibration = best.applied(start_);
-      result.may_be_worse = distance < kSurely * chance;
+      result.may_be_worse =
+          distance < kSurely * chance || result.explained < result.explained_start + kLittle;
     }
   }
   return result;

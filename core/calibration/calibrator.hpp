@@ -48,7 +48,7 @@ struct CalibrationEstimate {
   CalibrationVerdict verdict = CalibrationVerdict::undetermined;
   /// Empty where calibrated; else why not, and what helps.
   std::string reason;
-  /// Calibrated, but so near to the start that it may be worse than it.
+  /// Calibrated, but so near to the start, or ahead of it by so few outlines, that it may be worse.
   bool may_be_worse = false;
   CalibrationCorrection correction;  ///< what was found, to be used or not
   Calibration calibration;           ///< the start, corrected where the verdict is calibrated

@@ -34,17 +34,18 @@ struct DepthEdges {
 
 /// Which steps count. The defaults are the segmentation's.
 struct DepthEdgeRules {
-  /// Of the greater inverse depth: how far the nearer sides of two steps may differ for the inner
-  /// one to be a crease of the surface that ends at the outer one.
+  /// Relative difference of inverse depth up to which the nearer sides of two steps are one
+  /// surface, so that the inner step is a crease of it.
   float same_depth = 0.03F;
-  /// Of a noisy image, also the nearer ends of what may be shadows of a projector count. It stands
-  /// to the depth camera's right, as a Kinect's or an Astra's does, so they are left ends.
+  /// Whether a near hole of a row that may be a projector's shadow has a left edge of strength 1 at
+  /// its right end, in noisy images. The projector is taken to stand at most 0.08 m to the right of
+  /// the depth camera, as a Kinect's and an Astra's do.
   bool shadow_ends = false;
 };
 
 /// True when the noise of the inverse depth exceeds 0.0005/m, so that 4 sigma exceed the least step
-/// that counts as an edge (0.002/m): only such images are smoothed, and may have shadows of a
-/// projector.
+/// that counts as an edge (0.002/m): only such images are smoothed, and are taken to have shadows
+/// of a projector.
 [[nodiscard]] bool is_noisy(const DepthEdges& edges);
 
 /// Finds the steps of a depth image of `camera`. On a plane the inverse depth w = 1/z is linear in
