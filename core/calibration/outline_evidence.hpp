@@ -20,9 +20,9 @@ namespace mapscore {
 /// Edges that err together, as an outline wavers and pixels are cut; roughly.
 inline constexpr double kEdgesOfAnError = 20.0;
 
-/// Steps of depth that a calibration is found from. They pull all frames one way, so more of what
-/// lies within the end of a surface is left out than for the segmentation of one frame, and a near
-/// object that ends at a projector's shadow keeps that end.
+/// The steps of depth that a calibration is found from. A step that lies within its object pulls
+/// the estimate the same way in every frame, so more of them are left out than for the segmentation
+/// of one frame, and a near object's left side has an edge also where a projector's shadow begins.
 inline constexpr DepthEdgeRules kCalibrationEdges{.same_depth = 0.06F, .shadow_ends = true};
 
 /// A depth edge and an outline that lie on each other, as one linear equation of a correction.

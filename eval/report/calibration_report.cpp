@@ -41,8 +41,7 @@ constexpr std::array<CorrectionNumber, CalibrationCorrection::kAxes> kCorrection
 
 constexpr std::string_view kMayBeWorse =
     "\nnote: it is likely better than the start, but lies so near to it, or explains so little "
-    "more, "
-    "that it may be worse; more frames tell";
+    "more, that it may be worse; more frames tell";
 
 /// Those that were looked for.
 std::vector<int> looked_for(const CalibrationEstimate& estimate) {

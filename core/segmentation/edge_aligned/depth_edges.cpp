@@ -189,6 +189,7 @@ class EdgeFinder {
     if (q < w.cols && w(v, q) > farthest_) add(q - 0.5, v, w(v, q), Outward::left, 1.0F);
   }
 
+  /// Whether the hole between two columns of a row is no wider than a shadow of what ends it.
   [[nodiscard]] bool may_be_shadow(int v, int p, int q) const {
     const cv::Mat1f& w = edges_.inverse_depth;
     if (!rules_.shadow_ends || !is_noisy(edges_) || p < 0 || q >= w.cols) return false;

@@ -53,7 +53,7 @@ struct DepthEdgeRules {
 /// from the line through q's side, the lesser of the two: e = min(|w_q - 2 w_p + w_p'|, |w_p - 2
 /// w_q + w_q'|). strength = (e - tau) / (2 tau), limited to 0 and 1; tau = max(0.002 / m, 4 sigma),
 /// sigma the noise of w as the image's own second differences show it. Depths outside the camera's
-/// range are none. A gap of up to 24 pixels without depth is stepped over. Behind a wider one, or
+/// range are none. A gap of up to 23 pixels without depth is stepped over. Behind a wider one, or
 /// one that reaches the image's border, lies nothing within the range unless it is a near hole
 /// (near_holes.hpp): the surfaces at its ends are edges of strength 1, but those beyond 0.9 of the
 /// range, which may end there because the range does. A near hole of a row may be a projector's
