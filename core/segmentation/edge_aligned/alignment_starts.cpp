@@ -77,10 +77,9 @@ std::vector<AlignmentStart> mask_size_starts(Family family) {
   return starts;
 }
 
-std::vector<AlignmentStart> alignment_starts(const std::vector<ProjectedEdge>& edges,
-                                             const OutlineField& field, const Projection& project,
-                                             const CorrectionCost& cost, float search_px,
-                                             bool with_roll) {
+std::vector<AlignmentStart> alignment_starts(const EdgeColumns& edges, const OutlineField& field,
+                                             const Projection& project, const CorrectionCost& cost,
+                                             float search_px, bool with_roll) {
   CoarseOutlines coarse(edges, field, project);
   std::vector<AlignmentStart> starts{AlignmentStart{}};
   const std::vector<AlignmentStart> far = mask_size_starts(Family::turn);

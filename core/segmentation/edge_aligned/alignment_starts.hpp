@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "core/segmentation/edge_aligned/edge_matching.hpp"
+#include "core/segmentation/edge_aligned/matched_edges.hpp"
 #include "core/segmentation/edge_aligned/outline_alignment.hpp"
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 
@@ -40,7 +40,7 @@ class CorrectionCost {
 /// The corrections that a fit starts from: none, which is believed unless something better is
 /// found; none from farther away, with offsets; the best turns up to `search_px` and shifts, and
 /// `with_roll` those of rolled images, by their fit at quarter size less their cost.
-[[nodiscard]] std::vector<AlignmentStart> alignment_starts(const std::vector<ProjectedEdge>& edges,
+[[nodiscard]] std::vector<AlignmentStart> alignment_starts(const EdgeColumns& edges,
                                                            const OutlineField& field,
                                                            const Projection& project,
                                                            const CorrectionCost& cost,

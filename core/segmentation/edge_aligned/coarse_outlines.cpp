@@ -8,9 +8,7 @@
 namespace mapscore {
 namespace {
 
-constexpr std::size_t kCoarseSearchEdges = 800;
-
-struct EdgeColumns {
+struct CoarseColumns {
   const float *x, *y, *z;
   const int* map;
   int count;
@@ -19,7 +17,7 @@ struct EdgeColumns {
 /// The cells of maps of `size` that edges fall into after a motion, as their places in the maps
 /// behind each other; `beyond` for those outside.
 MAPSCORE_WIDE_VECTORS
-void find_cells(const EdgeColumns& edges, const Eigen::Matrix3f& R, const Eigen::Vector3f& t,
+void find_cells(const CoarseColumns& edges, const Eigen::Matrix3f& R, const Eigen::Vector3f& t,
                 const Projection& project, const cv::Size& size, int beyond, int* cells) {
   const int count = edges.count, columns = size.width;
   const float *xs = edges.x, *ys = edges.y, *zs = edges.z;
@@ -44,31 +42,24 @@ void find_cells(const EdgeColumns& edges, const Eigen::Matrix3f& R, const Eigen:
 
 }  // namespace
 
-CoarseOutlines::CoarseOutlines(const std::vector<ProjectedEdge>& edges, const OutlineField& field,
+CoarseOutlines::CoarseOutlines(const EdgeColumns& edges, const OutlineField& field,
                                const Projection& project)
-    : field_(field), project_(project), stride_(1 + edges.size() / kCoarseSearchEdges) {
+    : edges_(edges), field_(field), project_(project), cells_(edges.x.size()) {
   for (const cv::Mat1b& map : field.coarse) maps_.insert(maps_.end(), map[0], map[0] + map.total());
   maps_.push_back(0);
-  for (std::size_t n = 0; n < edges.size(); n += stride_) {
-    const ProjectedEdge& edge = edges[n];
-    x_.push_back(edge.p.x());
-    y_.push_back(edge.p.y());
-    z_.push_back(edge.p.z());
-    strength_.push_back(edge.strength);
-    map_.push_back(edge.way * static_cast<int>(field.coarse[0].total()));
-  }
-  cells_.resize(x_.size());
+  for (const std::uint8_t way : edges.way)
+    map_.push_back(way * static_cast<int>(field.coarse[0].total()));
 }
 
 float CoarseOutlines::score(const Eigen::Matrix3f& R, const Eigen::Vector3f& t) {
-  const EdgeColumns edges{x_.data(), y_.data(), z_.data(), map_.data(),
-                          static_cast<int>(x_.size())};
-  find_cells(edges, R, t, project_, field_.coarse[0].size(), static_cast<int>(maps_.size()) - 1,
+  const CoarseColumns columns{edges_.x.data(), edges_.y.data(), edges_.z.data(), map_.data(),
+                              static_cast<int>(map_.size())};
+  find_cells(columns, R, t, project_, field_.coarse[0].size(), static_cast<int>(maps_.size()) - 1,
              cells_.data());
   float sum = 0;
   for (std::size_t n = 0; n < cells_.size(); ++n)
-    sum += strength_[n] * static_cast<float>(maps_[static_cast<std::size_t>(cells_[n])]);
-  return sum * static_cast<float>(stride_) / (255.0F * static_cast<float>(field_.length_px));
+    sum += edges_.strength[n] * static_cast<float>(maps_[static_cast<std::size_t>(cells_[n])]);
+  return sum * static_cast<float>(edges_.stride) / (255.0F * static_cast<float>(field_.length_px));
 }
 
 }  // namespace mapscore

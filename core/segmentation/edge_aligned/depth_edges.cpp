@@ -71,18 +71,35 @@ float step_between(float before, float p, float q, float after, int gap) {
   return std::min(std::abs(rise - across * slope_p), std::abs(rise - across * slope_q));
 }
 
-/// Where a surface plainly goes on from a pixel to the next of a row, `right`, and to it from the
-/// row above, `down`: both have a depth, and their w differ by no more than tau. 1 there, 0
-/// elsewhere. `flags`: 1 at pixels with a depth that one of the two does not lead to.
+/// Some rows about a row of inverse depths, 1/m; 0 where there is no depth.
+struct RowsAbout {
+  const float *above2, *above, *row, *below;
+};
+
+/// Where a surface goes on from a pixel to the next of a row, `right`, and to it from the row
+/// above, `down`: both have a depth, and are no step. 1 there, 0 elsewhere. `flags`: 1 at pixels
+/// with a depth that one of the two does not lead to.
 MAPSCORE_WIDE_VECTORS
-void go_on(const float* row, const float* above, float tau, int columns, float* right, float* down,
-           std::uint8_t* flags) {
-  const auto on = [tau](float before, float here) {
-    return static_cast<int>(before > 0) & static_cast<int>(here > 0) &
-           static_cast<int>(std::abs(here - before) <= tau);
+void go_on(const RowsAbout& rows, float tau, int columns, float* __restrict right,
+           float* __restrict down, std::uint8_t* __restrict flags) {
+  const float *row = rows.row, *above = rows.above, *above2 = rows.above2, *below = rows.below;
+  const auto on = [tau](float before, float p, float q, float after) {
+    const float rise = q - p;
+    const float off_p = std::abs(rise - (before > 0 ? p - before : 0.0F));
+    const float off_q = std::abs(rise - (after > 0 ? after - q : 0.0F));
+    return static_cast<int>(p > 0) & static_cast<int>(q > 0) &
+           (static_cast<int>(std::abs(rise) <= tau) | static_cast<int>(off_p <= tau) |
+            static_cast<int>(off_q <= tau));
   };
-  for (int u = 0; u + 1 < columns; ++u) right[u] = on(row[u], row[u + 1]) != 0 ? 1.0F : 0.0F;
-  for (int u = 0; u < columns; ++u) down[u] = on(above[u], row[u]) != 0 ? 1.0F : 0.0F;
+  const auto set_right = [&](int u, float before, float after) {
+    right[u] = on(before, row[u], row[u + 1], after) != 0 ? 1.0F : 0.0F;
+  };
+  for (int u = 1; u + 2 < columns; ++u) set_right(u, row[u - 1], row[u + 2]);
+  if (columns > 1) set_right(0, 0, columns > 2 ? row[2] : 0.0F);
+  if (columns > 2) set_right(columns - 2, row[columns - 3], 0);
+  right[columns - 1] = 0;
+  for (int u = 0; u < columns; ++u)
+    down[u] = on(above2[u], above[u], row[u], below[u]) != 0 ? 1.0F : 0.0F;
   flags[0] = static_cast<std::uint8_t>(row[0] > 0);
   for (int u = 1; u < columns; ++u)
     flags[u] = static_cast<std::uint8_t>(
@@ -101,22 +118,25 @@ class EdgeFinder {
     tau_ = std::max(kLeastStep, kStepSigmas * edges_.noise);
     last_[0] = last_[1] = std::vector<LastStep>(static_cast<std::size_t>(depth.rows));
     last_[2] = last_[3] = std::vector<LastStep>(static_cast<std::size_t>(depth.cols));
-    edges_.right = cv::Mat1f(depth.rows, depth.cols, 0.0F);
-    edges_.down = cv::Mat1f(depth.rows, depth.cols, 0.0F);
+    edges_.right.create(depth.size());
+    edges_.down.create(depth.size());
   }
 
   DepthEdges find() {
     const cv::Mat1f& w = edges_.inverse_depth;
-    std::vector<float> unused(static_cast<std::size_t>(w.cols), 0.0F);
+    std::vector<float> unused(static_cast<std::size_t>(w.cols));
+    const std::vector<float> nothing(unused.size(), 0.0F);
     Marks flags(unused.size());
     for (int v = 0; v < w.rows; ++v) {
       float* const down = v > 0 ? edges_.down[v - 1] : unused.data();
-      go_on(w[v], v > 0 ? w[v - 1] : unused.data(), tau_, w.cols, edges_.right[v], down,
+      const auto row = [&](int n) { return n >= 0 && n < w.rows ? w[n] : nothing.data(); };
+      go_on({row(v - 2), row(v - 1), w[v], row(v + 1)}, tau_, w.cols, edges_.right[v], down,
             flags.data());
       for_each_marked(flags, [&](int u) { look_back(v, u); });
       const int last = last_in_row(v, w.cols);
       if (w.cols - last > kWidestGap) beside_hole_in_row(v, last, w.cols);
     }
+    if (!w.empty()) edges_.down.row(w.rows - 1).setTo(0);
     for (int u = 0; u < w.cols; ++u) {
       const int last = last_in_column(u, w.rows);
       if (w.rows - last > kWidestGap) beside_hole_in_column(u, last, w.rows);
@@ -151,7 +171,6 @@ class EdgeFinder {
 
   void across_row(int v, int p, int q) {
     const float* w = edges_.inverse_depth[v];
-    if (q == p + 1) edges_.right(v, p) = 1.0F;
     if (std::abs(w[q] - w[p]) <= tau_ || q - p > kWidestGap) return;
     const float strength =
         strength_of(step_between(p > 0 ? w[p - 1] : 0.0F, w[p], w[q],
@@ -166,7 +185,6 @@ class EdgeFinder {
 
   void across_column(int u, int p, int q) {
     const cv::Mat1f& w = edges_.inverse_depth;
-    if (q == p + 1) edges_.down(p, u) = 1.0F;
     if (std::abs(w(q, u) - w(p, u)) <= tau_ || q - p > kWidestGap) return;
     const float strength = strength_of(step_between(p > 0 ? w(p - 1, u) : 0.0F, w(p, u), w(q, u),
                                                     q + 1 < w.rows ? w(q + 1, u) : 0.0F, q - p));

@@ -62,6 +62,8 @@ struct BetweenPixels {
   float value;
   Eigen::Vector2f gradient;
 
+  BetweenPixels(float known_value, const Eigen::Vector2f& known_gradient)
+      : value(known_value), gradient(known_gradient) {}
   BetweenPixels(float top_left, float top_right, float low_left, float low_right, float a, float b)
       : value((1 - b) * ((1 - a) * top_left + a * top_right) +
               b * ((1 - a) * low_left + a * low_right)),
@@ -89,25 +91,17 @@ struct EdgeMatch {
                                                          const Eigen::Vector2f& outward,
                                                          const BetweenPixels& distance);
 
-/// Matches an edge with the nearest outline: weight = strength * (facing, or against * -facing) *
-/// exp(-residual^2 / (2 sigma^2)), 0 beyond 3 sigma; residual = distance - offset, interpolated
-/// between pixels. A border of two masks (beyond_border) has no offset, since objects that touch
-/// have no room for one. `against`: what faces against its outline weighs, since something may
-/// stand in front there.
-[[nodiscard]] inline EdgeMatch match_edge(
+/// Matches an edge with the nearest outline, which is `distance` from `at`, the field's between its
+/// pixels: weight = strength * (facing, or against * -facing) * exp(-residual^2 / (2 sigma^2)), 0
+/// beyond 3 sigma; residual = distance - offset. A border of two masks (beyond_border) has no
+/// offset, since objects that touch have no room for one. `against`: what faces against its outline
+/// weighs, since something may stand in front there.
+[[nodiscard]] inline EdgeMatch match_at(
     const OutlineField& field, const Eigen::Vector2f& at, const Eigen::Vector2f& outward,
-    float strength, float offset_px, float sigma_px,
+    float strength, BetweenPixels distance, float offset_px, float sigma_px,
     float against = static_cast<float>(OutlineField::kOtherWay)) {
   EdgeMatch match;
-  const float right = static_cast<float>(field.distance.cols - 1),
-              bottom = static_cast<float>(field.distance.rows - 1);
-  if (!(at.x() >= 0 && at.y() >= 0 && at.x() < right && at.y() < bottom)) return match;
   const int u = static_cast<int>(at.x()), v = static_cast<int>(at.y());
-  const float* top = field.distance[v] + u;
-  const float* low = field.distance[v + 1] + u;
-  const float a = at.x() - static_cast<float>(u), b = at.y() - static_cast<float>(v);
-  BetweenPixels distance(top[0], top[1], low[0], low[1], a, b);
-  if (std::abs(distance.value) > 3 * sigma_px + std::abs(offset_px)) return match;
   if (distance.value < 0 && field.is_near_border(v, u))
     if (const auto beyond = beyond_border(field, at, u, v, outward, distance)) {
       distance = *beyond;
@@ -121,6 +115,24 @@ struct EdgeMatch {
   match.weight = strength * (match.facing > 0 ? match.facing : -against * match.facing) *
                  std::exp(-0.5F * match.residual * match.residual / (sigma_px * sigma_px));
   return match;
+}
+
+/// The same of an edge at a place of the colour image; no weight beyond the image.
+[[nodiscard]] inline EdgeMatch match_edge(
+    const OutlineField& field, const Eigen::Vector2f& at, const Eigen::Vector2f& outward,
+    float strength, float offset_px, float sigma_px,
+    float against = static_cast<float>(OutlineField::kOtherWay)) {
+  EdgeMatch match;
+  const float right = static_cast<float>(field.distance.cols - 1),
+              bottom = static_cast<float>(field.distance.rows - 1);
+  if (!(at.x() >= 0 && at.y() >= 0 && at.x() < right && at.y() < bottom)) return match;
+  const int u = static_cast<int>(at.x()), v = static_cast<int>(at.y());
+  const float* top = field.distance[v] + u;
+  const float* low = field.distance[v + 1] + u;
+  const float a = at.x() - static_cast<float>(u), b = at.y() - static_cast<float>(v);
+  const BetweenPixels distance(top[0], top[1], low[0], low[1], a, b);
+  if (std::abs(distance.value) > 3 * sigma_px + std::abs(offset_px)) return match;
+  return match_at(field, at, outward, strength, distance, offset_px, sigma_px, against);
 }
 
 }  // namespace mapscore

@@ -6,6 +6,7 @@
 #include "core/geometry/pose.hpp"
 #include "core/segmentation/edge_aligned/alignment_starts.hpp"
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
+#include "core/segmentation/edge_aligned/matched_edges.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -22,7 +23,6 @@ using Family = AlignmentStart::Family;
 constexpr std::size_t kCoarseEdges = 800, kFineEdges = 4000;
 constexpr float kSame_px = 0.1F, kSame_m = 0.0004F;  // between starts that are one
 
-constexpr float kNearest_m = 0.05F;      // from the colour camera
 constexpr float kLeastScore = 0.15F;     // below, the edges show nothing of the masks,
 constexpr float kLeastLength_px = 100;   // unless they lie on so much of a long outline
 constexpr float kLeastLever_px = 40.0F;  // for roll and focal length to be fitted
@@ -34,6 +34,8 @@ constexpr float kLeastPrior = 0.01F;  // of it, where exact edges say nothing of
 /// masks' offset, px.
 enum Parameter { kTurnX, kTurnY, kRoll, kFocal, kShiftX, kShiftY, kOffset, kParameters };
 using Parameters = Eigen::Matrix<float, kParameters, 1>;
+/// With a 0 behind them, which makes whole vectors.
+using Padded = Eigen::Matrix<float, kParameters + 1, 1>;
 
 /// How far from the image's middle the outlines' pixels lie, root mean square, as far as this tells
 /// a roll, and a focal length, from turns, the masks' size and the other of the two.
@@ -78,15 +80,19 @@ class Aligner {
         search_px_(static_cast<float>(search_px)) {
     const Eigen::Matrix3f R = believed.T_color_depth.linear().cast<float>();
     const Eigen::Vector3f t = believed.T_color_depth.translation().cast<float>();
-    for (std::size_t way = 0; way < 4; ++way) votes_[way] = field.elements[way].clone();
+    for (const cv::Mat1f& map : field.elements)
+      elements_.insert(elements_.end(), map[0], map[0] + map.total());
     for (const DepthEdge& edge : edges.steps) {
       const Eigen::Vector3f p = R * edge.point + t;
-      if (!(p.z() > kNearest_m)) continue;
+      if (!(p.z() > MatchedEdges::kNearest_m)) continue;
       const Eigen::Vector2f at = project_(p);
       if (distance_near(at) > 1.3F * search_px_ + 12.0F) continue;
       edges_.push_back(
           {p, direction_of(edge.outward), static_cast<std::uint8_t>(edge.outward), edge.strength});
     }
+    coarse_ = EdgeColumns(edges_, kCoarseEdges);
+    fine_ = EdgeColumns(edges_, kFineEdges);
+    votes_.resize(elements_.size(), 0.0F);
   }
 
   OutlineAlignment align() {
@@ -95,7 +101,7 @@ class Aligner {
     Parameters free = Parameters::Ones();
     free[kRoll] = levers.roll_px > kLeastLever_px ? 1.0F : 0.0F;
     free[kFocal] = levers.focal_px > kLeastLever_px ? 1.0F : 0.0F;
-    return fit(alignment_starts(edges_, field_, project_, cost_, search_px_, free[kRoll] > 0),
+    return fit(alignment_starts(coarse_, field_, project_, cost_, search_px_, free[kRoll] > 0),
                free);
   }
 
@@ -113,20 +119,20 @@ class Aligner {
     for (AlignmentStart candidate : starts) {
       if (candidate.family != Family::none) {
         const Parameters first = free_of(candidate.family, 0), then = free_of(candidate.family, 1);
-        refine(candidate, 5.0F, 4, kCoarseEdges, free.cwiseProduct(first));
-        refine(candidate, 3.0F, 3, kCoarseEdges, free.cwiseProduct(then));
+        refine(candidate, 5.0F, 4, coarse_, free.cwiseProduct(first));
+        refine(candidate, 3.0F, 3, coarse_, free.cwiseProduct(then));
       }
       const Parameters at = parameters_of(candidate);
       if (std::ranges::any_of(tried, [&](const auto& other) { return are_same(at, other); }))
         continue;
       tried.push_back(at);
-      refine(candidate, 2.0F, 4, kCoarseEdges, free);
+      refine(candidate, 2.0F, 4, coarse_, free);
       candidate.score = fine_score(candidate, 1.5F);
       const float value = candidate.score - cost_(candidate);
       if (value > most) most = value, best = static_cast<OutlineAlignment>(candidate);
     }
-    refine(best, 2.0F, 2, kFineEdges, free);
-    refine(best, 1.2F, 4, kFineEdges, free);
+    refine(best, 2.0F, 2, fine_, free);
+    refine(best, 1.2F, 4, fine_, free);
     best.score = fine_score(best, 1.5F);
     if (best.score < kLeastScore &&
         best.score * static_cast<float>(field_.length_px) < kLeastLength_px)
@@ -154,65 +160,57 @@ class Aligner {
     return free;
   }
 
-  /// A match, and the point that it was found for.
-  struct Match : EdgeMatch {
-    Eigen::Vector3f p;
-  };
-  [[nodiscard]] Match match(const ProjectedEdge& edge, const OutlineAlignment& a,
-                            const Projection& project, float sigma) const {
-    const Eigen::Vector3f p = a.rotation * edge.p + a.translation;
-    if (!(p.z() > kNearest_m)) return {{}, p};
-    return {match_edge(field_, project(p), edge.outward, edge.strength, a.offset_px, sigma), p};
-  }
-
   /// Share of the outline elements that edges lie on. However many edges crowd around an element,
   /// it counts once.
   [[nodiscard]] float fine_score(const OutlineAlignment& a, float sigma) {
-    for (std::size_t way = 0; way < 4; ++way) votes_[way].setTo(0.0F);
-    const std::size_t stride = 1 + edges_.size() / kFineEdges;
-    const float weight = static_cast<float>(stride);
+    const float weight = static_cast<float>(fine_.stride);
     const Projection project = project_.scaled(a.focal);
-    for (std::size_t n = 0; n < edges_.size(); n += stride) {
-      const Match m = match(edges_[n], a, project, sigma);
-      if (m.weight <= 0) continue;
-      const Eigen::Vector2f foot = project(m.p) - m.distance * m.gradient;
+    const cv::Size cells = field_.elements[0].size();
+    voted_.clear();
+    matched_.for_each(fine_, a, project, sigma, [&](std::size_t n, const MatchedEdges::Match& m) {
+      const Eigen::Vector2f foot = Eigen::Vector2f(m.u, m.v) - m.distance * m.gradient;
       const int u = static_cast<int>(foot.x() / OutlineField::kCell_px),
                 v = static_cast<int>(foot.y() / OutlineField::kCell_px);
-      if (foot.x() < 0 || foot.y() < 0 || u >= votes_[0].cols || v >= votes_[0].rows) continue;
-      const bool same_way = m.gradient.dot(edges_[n].outward) > 0;
-      votes_[same_way ? edges_[n].way : edges_[n].way ^ 1U](v, u) += weight * m.weight;
-    }
+      if (foot.x() < 0 || foot.y() < 0 || u >= cells.width || v >= cells.height) return;
+      const int way = m.facing > 0 ? fine_.way[n] : fine_.way[n] ^ 1;
+      const auto at = static_cast<std::size_t>((way * cells.height + v) * cells.width + u);
+      if (elements_[at] <= 0) return;
+      if (votes_[at] <= 0) voted_.push_back(at);
+      votes_[at] += weight * m.weight;
+    });
     double sum = 0;
-    for (std::size_t way = 0; way < 4; ++way)
-      sum += cv::sum(cv::min(votes_[way], field_.elements[way]))[0];
+    for (const std::size_t at : voted_) {
+      sum += static_cast<double>(std::min(votes_[at], elements_[at]));
+      votes_[at] = 0;
+    }
     return static_cast<float>(sum) / static_cast<float>(field_.length_px);
   }
 
   /// Gauss-Newton with weights of the last step (Welsch), pulled weakly to no correction at all, of
   /// `steps` steps or until one changes nothing to speak of.
-  void refine(OutlineAlignment& a, float sigma, int steps, std::size_t most_edges,
-              const Parameters& free) const {
-    const std::size_t stride = 1 + edges_.size() / most_edges;
+  void refine(OutlineAlignment& a, float sigma, int steps, const EdgeColumns& edges,
+              const Parameters& free) {
     for (int step = 0; step < steps; ++step) {
-      Eigen::Matrix<float, kParameters, kParameters> H;
-      H.setZero();
-      Parameters b = Parameters::Zero();
+      Eigen::Matrix<float, kParameters + 1, kParameters> products;
+      products.setZero();
+      Padded residuals = Padded::Zero();
       const Projection project = project_.scaled(a.focal);
       float matched = 0, squares = 0;  // of weights, of weighted squared residuals
-      for (std::size_t n = 0; n < edges_.size(); n += stride) {
-        const Match m = match(edges_[n], a, project, sigma);
-        if (m.weight <= 0) continue;
-        const float x = m.p.x() / m.p.z(), y = m.p.y() / m.p.z();
+      matched_.for_each(edges, a, project, sigma, [&](std::size_t, const MatchedEdges::Match& m) {
+        const float x = m.x, y = m.y;
         const float gu = m.gradient.x() * project.fx, gv = m.gradient.y() * project.fy;
-        Parameters J;
+        Padded J;
         J << (-gu * x * y - gv * (1 + y * y)) / project_.fx,
             (gu * (1 + x * x) + gv * x * y) / project_.fx, (gv * x - gu * y) / project_.fx,
-            (gu * x + gv * y) / project_.fx, gu / m.p.z(), gv / m.p.z(), m.at_border ? 0.0F : -1.0F;
+            (gu * x + gv * y) / project_.fx, gu / m.z, gv / m.z, m.at_border ? 0.0F : -1.0F, 0.0F;
         matched += m.weight, squares += m.weight * m.residual * m.residual;
-        H.noalias() += m.weight * J * J.transpose();
-        b.noalias() -= m.weight * m.residual * J;
-      }
-      const float scale = static_cast<float>(stride);
+        const Padded weighted = m.weight * J;
+        for (int k = 0; k < kParameters; ++k) products.col(k) += weighted * J[k];
+        residuals -= m.weight * m.residual * J;
+      });
+      Eigen::Matrix<float, kParameters, kParameters> H = products.topRows<kParameters>();
+      Parameters b = residuals.head<kParameters>();
+      const float scale = static_cast<float>(edges.stride);
       H *= scale, b *= scale;
       const Parameters now = parameters_of(a);
       Parameters prior;
@@ -267,7 +265,11 @@ class Aligner {
   CorrectionCost cost_;
   float search_px_;
   std::vector<ProjectedEdge> edges_;
-  std::array<cv::Mat1f, 4> votes_;
+  EdgeColumns coarse_, fine_;
+  MatchedEdges matched_{field_};
+  std::vector<float> elements_;     ///< the field's, of all ways behind each other
+  std::vector<float> votes_;        ///< for each of them; 0 between two scores
+  std::vector<std::size_t> voted_;  ///< those that have votes
 };
 
 }  // namespace

@@ -210,16 +210,19 @@ class Voting {
     const cv::Mat1w owners =
         alignment_.offset_px > 0.5F ? spread_owners(field_.masks, beyond_px) : field_.masks;
     PixelVotes votes{cv::Mat1w(w.rows, w.cols), cv::Mat1f(w.rows, w.cols)};
-    cv::Mat1f depths_in(w.rows, w.cols);
+    const bool may_have_slits = alignment_.offset_px <= -kGrown_px;
+    cv::Mat1w grown = may_have_slits ? cv::Mat1w(w.rows, w.cols) : cv::Mat1w();
     const cv::Mat1f to_free = distance_to_free();
     const std::uint16_t* const owner_of = owners[0];
-    std::vector<float> distance(static_cast<std::size_t>(w.cols)), nearest(distance.size());
+    std::vector<float> distance(static_cast<std::size_t>(w.cols)), nearest(distance.size()),
+        depths_in(distance.size());
     Marks may_be_hidden(distance.size());
+    float* const depth_in = depths_in.data();
     for (int v = 0; v < w.rows; ++v) {
       const PixelRow row{w[v], cells_[v], w.cols};
       const auto runs = runs_of(v);
-      float *depth_in = depths_in[v], *weight = votes.weight[v];
-      std::uint16_t* owner = votes.owner[v];
+      float* const weight = votes.weight[v];
+      std::uint16_t* const owner = votes.owner[v];
       look_up(owner_of, runs, owner);
       look_up(field_.mask_distance[0], runs, distance.data());
       look_up(nearest_[0], runs, nearest.data());
@@ -232,9 +235,10 @@ class Voting {
         if (covered[u] != 0 || w_behind > kSlopes * slope_at(v, u))
           depth_in[u] = -1.0F, weight[u] = kHiddenVote;
       });
+      if (may_have_slits) std::copy(owner, owner + w.cols, grown[v]);
+      leave_out(depth_in, w.cols, owner);
     }
-    close_slits(votes, depths_in);
-    for (int v = 0; v < w.rows; ++v) leave_out(depths_in[v], w.cols, votes.owner[v]);
+    if (may_have_slits) close_slits(grown, votes);
     return votes;
   }
 
@@ -264,11 +268,10 @@ class Voting {
   }
 
   /// Where masks have been grown over slits of their objects, what lies behind is not the object.
-  void close_slits(PixelVotes& votes, cv::Mat1f& depths_in) const {
-    if (alignment_.offset_px > -kGrown_px) return;
+  void close_slits(const cv::Mat1w& grown, PixelVotes& votes) const {
     const int widest_px = static_cast<int>(std::ceil(-2 * alignment_.offset_px));
-    const cv::Mat1b slits = filled_slits(edges_, votes.owner, widest_px);
-    depths_in.setTo(-1.0F, slits);
+    const cv::Mat1b slits = filled_slits(edges_, grown, widest_px);
+    votes.owner.setTo(0, slits);
     votes.weight.setTo(1.0F, slits);
   }
 

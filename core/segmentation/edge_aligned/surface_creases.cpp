@@ -65,13 +65,13 @@ void find_turns(const Lines& lines, float noise, int count, float* __restrict tu
 
 /// Takes the continuity from where turns are the largest of five along their line; [2] is its own.
 MAPSCORE_WIDE_VECTORS
-void cut_at_peaks(const std::array<const float*, 2 * kPeak_px + 1>& turns, int count,
-                  float* __restrict on) {
+void cut_at_peaks(const std::array<const float*, 2 * kPeak_px + 1>& turns, const float* on,
+                  int count, float* __restrict parted) {
   const float *t0 = turns[0], *t1 = turns[1], *t2 = turns[2], *t3 = turns[3], *t4 = turns[4];
   for (int n = 0; n < count; ++n) {
     const int is_peak = static_cast<int>(t2[n] > most(most(t0[n], t1[n]), 0.0F)) &
                         static_cast<int>(t2[n] >= most(t3[n], t4[n]));
-    on[n] = is_peak != 0 ? 0.0F : on[n];
+    parted[n] = is_peak != 0 ? 0.0F : on[n];
   }
 }
 
@@ -84,7 +84,7 @@ void find_cuts(const float* before, const float* on, int count, std::uint8_t* __
 
 cv::Mat1f parted_in_rows(const DepthEdges& edges) {
   const cv::Mat1f& w = edges.inverse_depth;
-  cv::Mat1f out = edges.right.clone();
+  cv::Mat1f out(w.size());
   const auto columns = static_cast<std::size_t>(w.cols);
   std::vector<float> line(kBefore + columns + kAfter, 0.0F), on = line,
                                                              turns(columns + 2 * kPeak_px, 0.0F);
@@ -95,16 +95,16 @@ cv::Mat1f parted_in_rows(const DepthEdges& edges) {
   for (std::size_t n = 0; n < near.size(); ++n) near[n] = turns.data() + n;
   for (int v = 0; v < w.rows; ++v) {
     std::copy(w[v], w[v] + w.cols, line.begin() + kBefore);
-    std::copy(out[v], out[v] + w.cols, on.begin() + kBefore);
+    std::copy(edges.right[v], edges.right[v] + w.cols, on.begin() + kBefore);
     find_turns(lines, edges.noise, w.cols, turns.data() + kPeak_px);
-    cut_at_peaks(near, w.cols, out[v]);
+    cut_at_peaks(near, edges.right[v], w.cols, out[v]);
   }
   return out;
 }
 
 cv::Mat1f parted_in_columns(const DepthEdges& edges) {
   const cv::Mat1f& w = edges.inverse_depth;
-  cv::Mat1f out = edges.down.clone();
+  cv::Mat1f out(w.size());
   constexpr int kKept = 2 * kPeak_px + 1;
   cv::Mat1f turns(kKept, w.cols, 0.0F);  // of the last rows, each in row v % kKept
   const std::vector<float> nothing(static_cast<std::size_t>(w.cols), 0.0F);
@@ -129,7 +129,7 @@ cv::Mat1f parted_in_columns(const DepthEdges& edges) {
     std::array<const float*, kKept> near;
     for (int n = 0; n < kKept; ++n)
       near[static_cast<std::size_t>(n)] = turns[(peak + n - kPeak_px + kKept) % kKept];
-    cut_at_peaks(near, w.cols, out[peak]);
+    cut_at_peaks(near, edges.down[peak], w.cols, out[peak]);
   }
   return out;
 }

@@ -95,10 +95,9 @@ class Occluders {
         const cv::Point link = parallax_px > 0 ? place(line, n - 1) : at;  // to the pixel before
         if (from_border == widest || !(on(link) >= 1.0F)) is_free = false;
         if (!(w(at) > 0)) continue;
-        const bool has_mask = owner_at(cells_(at)) != 0;
         if (std::abs(parallax_px) * (nearest - static_cast<double>(w(at))) <= from_border)
-          is_free = !has_mask;
-        else if (is_free && has_mask)
+          is_free = owner_at(cells_(at)) == 0;
+        else if (is_free && owner_at(cells_(at)) != 0)
           hidden(at) = 255;
       }
     }

@@ -3,6 +3,7 @@
 
 #include "core/calibration/outline_evidence.hpp"
 #include "core/random_stream.hpp"
+#include "core/segmentation/edge_aligned/matched_edges.hpp"
 #include "core/segmentation/edge_aligned/near_holes.hpp"
 #include "core/segmentation/edge_aligned/pixel_votes.hpp"
 #include "core/segmentation/edge_aligned/settled_depth.hpp"
@@ -124,6 +125,57 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
   EXPECT_GT(shifted, 5);
   EXPECT_GT(labelled, 18 * 5000);
   EXPECT_GT(settled_pixels, 18 * 5000);
+}
+
+/// Edges matched many at once are those that match_edge gives one by one, bit by bit.
+TEST(EdgeAlignedFastSteps, MatchEdgesAsOneByOne) {
+  const RoughScene scene(0.0, 2.0, {0.02, 0, 0});
+  const OutlineField field = outline_field(scene.detections, 320, 240, 60);
+  const Projection project = Projection(scene.believed.color).scaled(1.002F);
+  const Eigen::Isometry3f T = scene.believed.T_color_depth.cast<float>();
+  std::vector<ProjectedEdge> edges;
+  for (const DepthEdge& edge : find_depth_edges(scene.depth, scene.believed).steps)
+    edges.push_back({T * edge.point, direction_of(edge.outward),
+                     static_cast<std::uint8_t>(edge.outward), edge.strength});
+  edges.push_back(edges.front());
+  edges.back().p.z() = -1.0F;  // behind the camera
+  OutlineAlignment a;
+  a.rotation = Eigen::AngleAxisf(0.004F, Eigen::Vector3f(0.1F, 1, 0.3F).normalized()).matrix();
+  a.translation = {-0.005F, 0.004F, 0.002F};
+  int at_border = 0;
+  for (const float offset_px : {0.0F, -2.0F, 1.5F})
+    for (const float sigma_px : {1.2F, 5.0F})
+      for (const std::size_t most : {std::size_t{300}, std::size_t{100000}}) {
+        a.offset_px = offset_px;
+        const EdgeColumns columns(edges, most);
+        MatchedEdges matched(field);
+        std::vector<MatchedEdges::Match> found(columns.x.size());
+        matched.for_each(columns, a, project, sigma_px,
+                         [&](std::size_t n, const MatchedEdges::Match& m) { found[n] = m; });
+        int weighed = 0;
+        for (std::size_t n = 0; n < found.size(); ++n) {
+          const ProjectedEdge& edge = edges[n * columns.stride];
+          const Eigen::Vector3f p = a.rotation * edge.p + a.translation;
+          const Eigen::Vector2f at = project(p);
+          EdgeMatch plain;
+          if (p.z() > MatchedEdges::kNearest_m)
+            plain = match_edge(field, at, edge.outward, edge.strength, offset_px, sigma_px);
+          ASSERT_EQ(found[n].weight, plain.weight) << n;
+          if (!(plain.weight > 0)) continue;
+          ++weighed, at_border += plain.at_border ? 1 : 0;
+          ASSERT_EQ(found[n].residual, plain.residual) << n;
+          ASSERT_EQ(found[n].distance, plain.distance) << n;
+          ASSERT_EQ(found[n].facing, plain.facing) << n;
+          ASSERT_EQ(found[n].gradient, plain.gradient) << n;
+          ASSERT_EQ(found[n].at_border, plain.at_border) << n;
+          ASSERT_EQ(Eigen::Vector2f(found[n].u, found[n].v), at) << n;
+          ASSERT_EQ(Eigen::Vector3f(found[n].x, found[n].y, found[n].z),
+                    Eigen::Vector3f(p.x() / p.z(), p.y() / p.z(), p.z()))
+              << n;
+        }
+        EXPECT_GT(weighed, 30);
+      }
+  EXPECT_GT(at_border, 20);
 }
 
 /// Also the pixel that lies in the colour image's first, beside one that lies beyond it.
