@@ -211,6 +211,7 @@ class Voting {
         alignment_.offset_px > 0.5F ? spread_owners(field_.masks, beyond_px) : field_.masks;
     PixelVotes votes{cv::Mat1w(w.rows, w.cols), cv::Mat1f(w.rows, w.cols)};
     const bool may_have_slits = alignment_.offset_px <= -kGrown_px;
+    // Owners as the masks have them, before what lies outside of the mended ones is left out.
     cv::Mat1w grown = may_have_slits ? cv::Mat1w(w.rows, w.cols) : cv::Mat1w();
     const cv::Mat1f to_free = distance_to_free();
     const std::uint16_t* const owner_of = owners[0];
