@@ -63,12 +63,13 @@ float noise_of(const cv::Mat1f& inverse) {
 
 /// Four inverse depths in a line; `before` and `after` may be 0. How far p and q lie off each
 /// other's line, `gap` pixels apart.
-float step_between(float before, float p, float q, float after, int gap) {
+inline float step_between(float before, float p, float q, float after, int gap) {
   const float rise = q - p;
   const float slope_p = before > 0 ? p - before : 0.0F;
   const float slope_q = after > 0 ? after - q : 0.0F;
   const float across = static_cast<float>(gap);
-  return std::min(std::abs(rise - across * slope_p), std::abs(rise - across * slope_q));
+  const float off_p = std::abs(rise - across * slope_p), off_q = std::abs(rise - across * slope_q);
+  return off_p < off_q ? off_p : off_q;  // std::min would not become vectors
 }
 
 /// Some rows about a row of inverse depths, 1/m; 0 where there is no depth.
@@ -84,12 +85,9 @@ void go_on(const RowsAbout& rows, float tau, int columns, float* __restrict righ
            float* __restrict down, std::uint8_t* __restrict flags) {
   const float *row = rows.row, *above = rows.above, *above2 = rows.above2, *below = rows.below;
   const auto on = [tau](float before, float p, float q, float after) {
-    const float rise = q - p;
-    const float off_p = std::abs(rise - (before > 0 ? p - before : 0.0F));
-    const float off_q = std::abs(rise - (after > 0 ? after - q : 0.0F));
     return static_cast<int>(p > 0) & static_cast<int>(q > 0) &
-           (static_cast<int>(std::abs(rise) <= tau) | static_cast<int>(off_p <= tau) |
-            static_cast<int>(off_q <= tau));
+           (static_cast<int>(std::abs(q - p) <= tau) |
+            static_cast<int>(step_between(before, p, q, after, 1) <= tau));
   };
   const auto set_right = [&](int u, float before, float after) {
     right[u] = on(before, row[u], row[u + 1], after) != 0 ? 1.0F : 0.0F;

@@ -82,21 +82,22 @@ class Aligner {
     const Eigen::Vector3f t = believed.T_color_depth.translation().cast<float>();
     for (const cv::Mat1f& map : field.elements)
       elements_.insert(elements_.end(), map[0], map[0] + map.total());
+    std::vector<ProjectedEdge> projected;
     for (const DepthEdge& edge : edges.steps) {
       const Eigen::Vector3f p = R * edge.point + t;
       if (!(p.z() > MatchedEdges::kNearest_m)) continue;
       const Eigen::Vector2f at = project_(p);
       if (distance_near(at) > 1.3F * search_px_ + 12.0F) continue;
-      edges_.push_back(
+      projected.push_back(
           {p, direction_of(edge.outward), static_cast<std::uint8_t>(edge.outward), edge.strength});
     }
-    coarse_ = EdgeColumns(edges_, kCoarseEdges);
-    fine_ = EdgeColumns(edges_, kFineEdges);
+    coarse_ = EdgeColumns(projected, kCoarseEdges);
+    fine_ = EdgeColumns(projected, kFineEdges);
     votes_.resize(elements_.size(), 0.0F);
   }
 
   OutlineAlignment align() {
-    if (edges_.empty() || field_.length_px == 0) return {};
+    if (fine_.x.empty() || field_.length_px == 0) return {};
     const Levers levers = levers_of(field_, project_);
     Parameters free = Parameters::Ones();
     free[kRoll] = levers.roll_px > kLeastLever_px ? 1.0F : 0.0F;
@@ -106,7 +107,7 @@ class Aligner {
   }
 
   OutlineAlignment fit_size() {
-    if (edges_.empty() || field_.length_px == 0) return {};
+    if (fine_.x.empty() || field_.length_px == 0) return {};
     return fit(mask_size_starts(Family::none), Parameters::Unit(kOffset));
   }
 
@@ -264,7 +265,6 @@ class Aligner {
   Projection project_;
   CorrectionCost cost_;
   float search_px_;
-  std::vector<ProjectedEdge> edges_;
   EdgeColumns coarse_, fine_;
   MatchedEdges matched_{field_};
   std::vector<float> elements_;     ///< the field's, of all ways behind each other
