@@ -63,13 +63,12 @@ float noise_of(const cv::Mat1f& inverse) {
 
 /// Four inverse depths in a line; `before` and `after` may be 0. How far p and q lie off each
 /// other's line, `gap` pixels apart.
-inline float step_between(float before, float p, float q, float after, int gap) {
+float step_between(float before, float p, float q, float after, int gap) {
   const float rise = q - p;
   const float slope_p = before > 0 ? p - before : 0.0F;
   const float slope_q = after > 0 ? after - q : 0.0F;
   const float across = static_cast<float>(gap);
-  const float off_p = std::abs(rise - across * slope_p), off_q = std::abs(rise - across * slope_q);
-  return off_p < off_q ? off_p : off_q;  // std::min would not become vectors
+  return std::min(std::abs(rise - across * slope_p), std::abs(rise - across * slope_q));
 }
 
 /// Some rows about a row of inverse depths, 1/m; 0 where there is no depth.
@@ -79,15 +78,19 @@ struct RowsAbout {
 
 /// Where a surface goes on from a pixel to the next of a row, `right`, and to it from the row
 /// above, `down`: both have a depth, and are no step. 1 there, 0 elsewhere. `flags`: 1 at pixels
-/// with a depth that one of the two does not lead to.
+/// with a depth that one of the two does not lead to. No step: step_between by up to tau, which is
+/// written out here, since a call of it does not become vectors.
 MAPSCORE_WIDE_VECTORS
 void go_on(const RowsAbout& rows, float tau, int columns, float* __restrict right,
            float* __restrict down, std::uint8_t* __restrict flags) {
   const float *row = rows.row, *above = rows.above, *above2 = rows.above2, *below = rows.below;
   const auto on = [tau](float before, float p, float q, float after) {
+    const float rise = q - p;
+    const float off_p = std::abs(rise - (before > 0 ? p - before : 0.0F));
+    const float off_q = std::abs(rise - (after > 0 ? after - q : 0.0F));
     return static_cast<int>(p > 0) & static_cast<int>(q > 0) &
-           (static_cast<int>(std::abs(q - p) <= tau) |
-            static_cast<int>(step_between(before, p, q, after, 1) <= tau));
+           (static_cast<int>(std::abs(rise) <= tau) | static_cast<int>(off_p <= tau) |
+            static_cast<int>(off_q <= tau));
   };
   const auto set_right = [&](int u, float before, float after) {
     right[u] = on(before, row[u], row[u + 1], after) != 0 ? 1.0F : 0.0F;
