@@ -3,14 +3,14 @@
 
 #include "core/segmentation/edge_aligned/settled_depth.hpp"
 
+#include "core/segmentation/edge_aligned/window_medians.hpp"
 #include "core/wide_vectors.hpp"
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace mapscore {
 namespace {
@@ -19,6 +19,7 @@ constexpr int kReach_px = 4;
 constexpr float kSigmas = 4.0F, kLeastSigmas = 1.5F;
 constexpr float kLeast = 4;
 constexpr float kLeastShare = 0.5F;
+constexpr float kNoLabel = -1.0F;  // that no pixel has
 
 /// Of one fit, in metres of depth: the band in which pixels lie on one surface, at least
 /// kLeastSigmas and at most kSigmas wide, and how uncertain a depth may be.
@@ -28,12 +29,51 @@ struct Limits {
 constexpr Limits kFirst{1e6F, 1e6F}, kSecond{0.02F, 0.01F};
 
 /// How many neighbouring pixels of a row are fitted at once.
-constexpr int kFitted = 16;
-using Fitted = std::array<float, kFitted>;
+constexpr int kFitted = WindowValues::kWindows;
+using Fitted = WindowValues::Row;
 
 /// Sums of planes' fits, each about its pixel.
 struct PlaneSums {
   Fitted labelled{}, near{}, u{}, v{}, uu{}, uv{}, vv{}, w{}, uw{}, vw{};
+};
+
+/// Sums over a window's pixels, at most 81, at places of one number; coordinates are counted from
+/// the window's corner, so that none is negative.
+struct PackedSums {
+  static constexpr unsigned kU = 7, kV = 16, kLabelled = 25;  // after the number of near pixels
+  static constexpr unsigned kVV = 10, kUV = 20;               // after the squares of u
+  std::array<std::uint32_t, kFitted> places{}, squares{};
+
+  static constexpr std::uint32_t place(int x, int y) {
+    return 1U + (from_corner(x) << kU) + (from_corner(y) << kV);
+  }
+  static constexpr std::uint32_t square(int x, int y) {
+    return static_cast<std::uint32_t>(x * x) + (static_cast<std::uint32_t>(y * y) << kVV) +
+           (from_corner(x) * from_corner(y) << kUV);
+  }
+
+  void unpack(PlaneSums& sums) const {
+    const auto part = [](std::uint32_t packed, unsigned begin, unsigned end) {
+      return static_cast<int>((packed >> begin) & ((1U << (end - begin)) - 1U));
+    };
+    for (std::size_t n = 0; n < kFitted; ++n) {
+      const int near = part(places[n], 0, kU);
+      const int u = part(places[n], kU, kV), v = part(places[n], kV, kLabelled);
+      const int uv = part(squares[n], kUV, 31) - kReach_px * (u + v - kReach_px * near);
+      sums.labelled[n] = static_cast<float>(places[n] >> kLabelled);
+      sums.near[n] = static_cast<float>(near);
+      sums.u[n] = static_cast<float>(u - kReach_px * near);
+      sums.v[n] = static_cast<float>(v - kReach_px * near);
+      sums.uu[n] = static_cast<float>(part(squares[n], 0, kVV));
+      sums.uv[n] = static_cast<float>(uv);
+      sums.vv[n] = static_cast<float>(part(squares[n], kVV, kUV));
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t from_corner(int x) {
+    return static_cast<std::uint32_t>(x + kReach_px);
+  }
 };
 
 /// How much w rises from pixel to pixel.
@@ -48,10 +88,11 @@ struct RimmedImages {
 };
 
 /// Sums about kFitted pixels from a place of the rimmed images on.
-MAPSCORE_WIDE_VECTORS
-PlaneSums sums_about(const RimmedImages& images, int row, int column, const Fitted& within,
-                     const WindowSlopes& slopes) {
+template <bool kSloped>
+MAPSCORE_WIDE_VECTORS PlaneSums sums_about(const RimmedImages& images, int row, int column,
+                                           const Fitted& within, const WindowSlopes& slopes) {
   PlaneSums sums;
+  PackedSums packed;
   const float* const own = images.labels[row] + column;
   const float* const here = images.inverse[row] + column;
   for (int y = -kReach_px; y <= kReach_px; ++y)
@@ -59,71 +100,89 @@ PlaneSums sums_about(const RimmedImages& images, int row, int column, const Fitt
       const float* const label = images.labels[row + y] + column + x;
       const float* const w = images.inverse[row + y] + column + x;
       const float du = static_cast<float>(x), dv = static_cast<float>(y);
+      const std::uint32_t place = PackedSums::place(x, y), square = PackedSums::square(x, y);
       for (std::size_t n = 0; n < kFitted; ++n) {
         const float rise = w[n] - here[n];
-        const float off = std::abs(rise - slopes.du[n] * du - slopes.dv[n] * dv);
-        const float same = label[n] == own[n] ? 1.0F : 0.0F;
-        const float near = off <= within[n] ? same : 0.0F;
-        sums.labelled[n] += same;
-        sums.near[n] += near;
-        sums.u[n] += near * du, sums.v[n] += near * dv;
-        sums.uu[n] += near * (du * du), sums.uv[n] += near * (du * dv);
-        sums.vv[n] += near * (dv * dv);
-        sums.w[n] += near * rise;
-        sums.uw[n] += near * (du * rise), sums.vw[n] += near * (dv * rise);
+        const float off = std::abs(kSloped ? rise - slopes.du[n] * du - slopes.dv[n] * dv : rise);
+        const bool is_same = label[n] == own[n], is_near = is_same & (off <= within[n]);
+        const std::uint32_t same = is_same ? ~0U : 0U, near = is_near ? ~0U : 0U;
+        const float near_rise = is_near ? rise : 0.0F;
+        packed.places[n] += (same & (1U << PackedSums::kLabelled)) + (near & place);
+        packed.squares[n] += near & square;
+        sums.w[n] += near_rise;
+        sums.uw[n] += du * near_rise, sums.vw[n] += dv * near_rise;
       }
     }
+  packed.unpack(sums);
   return sums;
 }
 
-/// Whether enough of the label's pixels lie near the fitted surface.
-bool is_on_surface(const PlaneSums& sums, std::size_t n) {
-  return sums.near[n] >= kLeast && sums.near[n] >= kLeastShare * sums.labelled[n];
-}
+/// Planes fitted about pixels.
+struct PlaneFits {
+  PlaneSums sums;
+  Fitted rise{};      ///< of w at the pixel, from its own
+  Fitted variance{};  ///< of w there, in variances of the noise of one pixel
 
-/// A fitted plane at its pixel.
-struct PlaneAtPixel {
-  float rise;   ///< of w from the pixel's own
-  float error;  ///< standard error of w, in standard deviations of the noise of one pixel
+  /// Whether enough of the label's pixels lie near the plane.
+  [[nodiscard]] bool is_on_surface(std::size_t n) const {
+    return sums.near[n] >= kLeast && sums.near[n] >= kLeastShare * sums.labelled[n];
+  }
 };
 
 /// The mean where all pixels lie in a line.
-PlaneAtPixel at_pixel(const PlaneSums& sums, std::size_t n) {
-  Eigen::Matrix3f A;
-  A << sums.near[n], sums.u[n], sums.v[n], sums.u[n], sums.uu[n], sums.uv[n], sums.v[n], sums.uv[n],
-      sums.vv[n];
-  const float determinant = A.determinant();
-  if (determinant < 1.0F) return {sums.w[n] / sums.near[n], 1.0F / std::sqrt(sums.near[n])};
-  const float cofactor = A(1, 1) * A(2, 2) - A(1, 2) * A(2, 1);
-  A.col(0) = Eigen::Vector3f(sums.w[n], sums.uw[n], sums.vw[n]);
-  return {A.determinant() / determinant, std::sqrt(cofactor / determinant)};
-}
-
-float median_of(float* first, float* last) {
-  if (first == last) return 0.0F;
-  float* const middle = first + (last - first) / 2;
-  std::nth_element(first, middle, last);
-  return *middle;
-}
-
-/// Medians over pairs of neighbours of the label in the window about a pixel.
-void find_slope(const RimmedImages& images, int row, int column, std::size_t n,
-                WindowSlopes& slopes) {
-  constexpr int kSide = 2 * kReach_px + 1;
-  std::array<float, kSide * kSide> across, down;
-  float *end_across = across.data(), *end_down = down.data();
-  const float own = images.labels(row, column);
-  for (int y = row - kReach_px; y <= row + kReach_px; ++y) {
-    const float *label = images.labels[y], *w = images.inverse[y];
-    const float *label_below = images.labels[y + 1], *w_below = images.inverse[y + 1];
-    for (int x = column - kReach_px; x <= column + kReach_px; ++x) {
-      if (label[x] != own) continue;
-      if (x < column + kReach_px && label[x + 1] == own) *end_across++ = w[x + 1] - w[x];
-      if (y < row + kReach_px && label_below[x] == own) *end_down++ = w_below[x] - w[x];
-    }
+MAPSCORE_WIDE_VECTORS
+PlaneFits solve(const PlaneSums& sums) {
+  PlaneFits fits{sums};
+  for (std::size_t n = 0; n < kFitted; ++n) {
+    const float near = sums.near[n], u = sums.u[n], v = sums.v[n];
+    const float uu = sums.uu[n], uv = sums.uv[n], vv = sums.vv[n];
+    const float cofactor = uu * vv - uv * uv;
+    const auto determinant_with = [&](float first, float second, float third) {
+      return first * cofactor - u * (second * vv - uv * third) + v * (second * uv - uu * third);
+    };
+    const float determinant = determinant_with(near, u, v);
+    const float numerator = determinant_with(sums.w[n], sums.uw[n], sums.vw[n]);
+    const bool is_line = determinant < 1.0F;
+    fits.rise[n] = (is_line ? sums.w[n] : numerator) / (is_line ? near : determinant);
+    fits.variance[n] = (is_line ? 1.0F : cofactor) / (is_line ? near : determinant);
   }
-  slopes.du[n] = median_of(across.data(), end_across);
-  slopes.dv[n] = median_of(down.data(), end_down);
+  return fits;
+}
+
+/// The rises from each pixel of the label `own` to its neighbour `right` columns and `down` rows
+/// on, in the windows about kFitted pixels.
+MAPSCORE_WIDE_VECTORS
+void find_rises(const RimmedImages& images, int row, int column, const Fitted& own, int right,
+                int down, WindowValues& rises) {
+  std::size_t place = 0;
+  rises.counts = {};
+  for (int y = -kReach_px; y <= kReach_px - down; ++y)
+    for (int x = -kReach_px; x <= kReach_px - right; ++x, ++place) {
+      const int next_row = row + y + down, next_column = column + x + right;
+      const float* const label = images.labels[row + y] + column + x;
+      const float* const w = images.inverse[row + y] + column + x;
+      const float* const next_label = images.labels[next_row] + next_column;
+      const float* const next_w = images.inverse[next_row] + next_column;
+      float* const __restrict rise = rises.at[place].data();
+      for (std::size_t n = 0; n < kFitted; ++n) {
+        const float by = next_w[n] - w[n], label_here = label[n], label_next = next_label[n];
+        const bool is_pair = (label_here == own[n]) & (label_next == own[n]);
+        rise[n] = is_pair ? by : WindowValues::kNone;
+        rises.counts[n] += is_pair ? 1 : 0;
+      }
+    }
+}
+
+/// Medians over pairs of neighbours of the label `own` in the windows about kFitted pixels; 0 where
+/// no pixel has it.
+WindowSlopes find_slopes(const RimmedImages& images, int row, int column, const Fitted& own) {
+  WindowSlopes slopes;
+  WindowValues rises;
+  find_rises(images, row, column, own, 1, 0, rises);
+  slopes.du = medians_of(rises);
+  find_rises(images, row, column, own, 0, 1, rises);
+  slopes.dv = medians_of(rises);
+  return slopes;
 }
 
 /// A row is fitted in blocks of kFitted pixels; the last block reaches beyond the image.
@@ -161,23 +220,23 @@ cv::Mat1f fit_planes(const cv::Mat1f& inverse, float noise, const Limits& limits
       const float* const label = images.labels[row] + column;
       if (std::all_of(label, label + lanes, [](float own) { return own == 0.0F; })) continue;
       const Fitted within = bands_about(images.inverse[row] + column, noise, limits.band_m);
-      const PlaneSums level = sums_about(images, row, column, within, {});
-      PlaneSums sloped;
-      WindowSlopes slopes;
-      bool any_slopes = false;
+      const PlaneFits level = solve(sums_about<false>(images, row, column, within, {}));
+      PlaneFits sloped;
+      Fitted may_slope;  // the labels of pixels that are on no level surface
+      may_slope.fill(kNoLabel);
       for (std::size_t n = 0; n < lanes; ++n)
-        if (label[n] != 0.0F && !is_on_surface(level, n)) {
-          find_slope(images, row, column + static_cast<int>(n), n, slopes);
-          any_slopes = true;
-        }
-      if (any_slopes) sloped = sums_about(images, row, column, within, slopes);
+        if (label[n] != 0.0F && !level.is_on_surface(n)) may_slope[n] = label[n];
+      if (std::ranges::any_of(may_slope, [](float own) { return own != kNoLabel; })) {
+        const WindowSlopes slopes = find_slopes(images, row, column, may_slope);
+        sloped = solve(sums_about<true>(images, row, column, within, slopes));
+      }
       for (std::size_t n = 0; n < lanes; ++n) {
         if (label[n] == 0.0F) continue;
-        const PlaneSums& sums = is_on_surface(level, n) ? level : sloped;
+        const PlaneFits& fit = level.is_on_surface(n) ? level : sloped;
         const int at = u + static_cast<int>(n);
-        const PlaneAtPixel plane = at_pixel(sums, n);
-        const float w = inverse(v, at) + plane.rise;
-        if (is_on_surface(sums, n) && noise * plane.error <= limits.error_m * w * w)
+        const float w = inverse(v, at) + fit.rise[n];
+        const float error = noise * std::sqrt(fit.variance[n]);
+        if (fit.is_on_surface(n) && error <= limits.error_m * w * w)
           settled(v, at) = w;
         else
           labels(v, at) = 0;

@@ -3,6 +3,8 @@
 
 #include "core/segmentation/edge_aligned/unseen_occluders.hpp"
 
+#include "core/wide_vectors.hpp"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -23,6 +25,42 @@ constexpr double kRunsOnUntil = 1.05;         // and one that does ends nearer t
 constexpr std::array kBesideRim_px{1, 4, 7};  // where masks are compared; two of three must agree
 constexpr int kHoleRim_px = 11;               // near holes leave out 4 pixels at their rims
 
+/// Pixels of the depth image one after the other, along a row or a column.
+struct PixelRun {
+  int u, v;  ///< of the first
+  bool in_row;
+  int count;
+};
+
+/// Finds the pixels of the colour image, row-major, that hold what lies at a depth z_m in each
+/// pixel of a run; -1 beyond the image.
+MAPSCORE_WIDE_VECTORS
+void find_cells_at(const PixelRun& run, double z_m, const Calibration& calibration,
+                   int* __restrict cells) {
+  const CameraModel &color = calibration.color, &depth = calibration.depth;
+  const Eigen::Matrix3d R = calibration.T_color_depth.linear();
+  const Eigen::Vector3d t = calibration.T_color_depth.translation();
+  const double xx = R(0, 0), xy = R(0, 1), xz = R(0, 2), yx = R(1, 0), yy = R(1, 1), yz = R(1, 2),
+               zx = R(2, 0), zy = R(2, 1), zz = R(2, 2), tx = t.x(), ty = t.y(), tz = t.z();
+  const double step_x = run.in_row ? 1 / depth.fx_px : 0, step_y = run.in_row ? 0 : 1 / depth.fy_px;
+  const double first_x = (run.u - depth.cx_px) / depth.fx_px;
+  const double first_y = (run.v - depth.cy_px) / depth.fy_px;
+  const double fx = color.fx_px, fy = color.fy_px, cx = color.cx_px + 0.5, cy = color.cy_px + 0.5;
+  const double right = color.width_px, bottom = color.height_px;
+  const int columns = color.width_px;
+  for (int n = 0; n < run.count; ++n) {
+    const double x = first_x + n * step_x, y = first_y + n * step_y;
+    const double X = z_m * (xx * x + xy * y + xz) + tx;
+    const double Y = z_m * (yx * x + yy * y + yz) + ty;
+    const double inverse_z = 1 / (z_m * (zx * x + zy * y + zz) + tz);
+    const double u = fx * X * inverse_z + cx, v = fy * Y * inverse_z + cy;
+    const bool within = (u >= 0) & (v >= 0) & (u < right) & (v < bottom);
+    const int column = static_cast<int>(within ? u : 0.0);
+    const int row = static_cast<int>(within ? v : 0.0);
+    cells[n] = within ? row * columns + column : -1;
+  }
+}
+
 class Occluders {
  public:
   Occluders(const DepthEdges& edges, const cv::Mat1i& cells, const OutlineField& field,
@@ -37,7 +75,7 @@ class Occluders {
   }
 
   /// 255 on what near objects cover in the colour image.
-  [[nodiscard]] cv::Mat1b covered() const {
+  [[nodiscard]] cv::Mat1b covered() {
     const cv::Mat1b& hole = edges_.near_holes;
     cv::Mat1b hit(field_.masks.rows, field_.masks.cols, std::uint8_t{0});
     const int lines = in_rows_ ? hole.rows : hole.cols, length = in_rows_ ? hole.cols : hole.rows;
@@ -138,48 +176,36 @@ class Occluders {
   }
 
   /// Marks what the run [begin, end) of a hole covers.
-  void cover(int line, int begin, int end, cv::Mat1b& hit) const {
-    const auto count = static_cast<std::size_t>(end - begin);
-    std::vector<Eigen::Vector3d> rays;  // at 1 m, in the colour camera's axes
-    for (int n = begin; n < end; ++n) {
-      const cv::Point pixel = place(line, n);
-      rays.emplace_back(mended_.T_color_depth.linear() *
-                        mended_.depth.back_project(pixel.x, pixel.y, 1.0));
-    }
-    std::vector<int> cells(count), far_owners(count);
-    const auto find_cells = [&](double z_m) {
-      std::transform(rays.begin(), rays.end(), cells.begin(), [&](const Eigen::Vector3d& ray) {
-        return cell_of(z_m * ray + mended_.T_color_depth.translation());
-      });
-    };
-    find_cells(mended_.range_max_m);
-    std::transform(cells.begin(), cells.end(), far_owners.begin(),
-                   [&](int cell) { return owner_at(cell); });
+  void cover(int line, int begin, int end, cv::Mat1b& hit) {
+    const cv::Point first = place(line, begin);
+    const PixelRun run{first.x, first.y, in_rows_, end - begin};
+    find_owners(run, mended_.range_max_m, far_owners_);
     for (const double depth : kNearDepths) {
-      find_cells(depth * mended_.range_min_m);
-      const int middle = owner_at(cells[count / 2]);
-      const auto held = static_cast<double>(std::count_if(
-          cells.begin(), cells.end(), [&](int cell) { return owner_at(cell) == middle; }));
-      const int whole = held >= kHeld * static_cast<double>(count) ? middle : 0;
-      for (std::size_t n = 0; n < count; ++n) {
-        const int owner = owner_at(cells[n]);
-        if (owner != 0 && (owner == far_owners[n] || owner == whole)) hit[0][cells[n]] = 255;
+      find_owners(run, depth * mended_.range_min_m, owners_);
+      const std::uint16_t middle = owners_[owners_.size() / 2];
+      const auto held = static_cast<double>(std::ranges::count(owners_, middle));
+      const int whole = held >= kHeld * run.count ? middle : 0;
+      for (std::size_t n = 0; n < owners_.size(); ++n) {
+        const int owner = owners_[n];
+        if (owner != 0 && (owner == far_owners_[n] || owner == whole)) hit[0][run_cells_[n]] = 255;
       }
     }
   }
 
-  /// The colour pixel that a point in the colour camera's frame lies in; -1 beyond the image.
-  [[nodiscard]] int cell_of(const Eigen::Vector3d& point) const {
-    const Eigen::Vector2d at = mended_.color.project(point);
-    const double u = at.x() + 0.5, v = at.y() + 0.5;
-    const cv::Size image = field_.masks.size();
-    const bool within = u >= 0 && v >= 0 && u < image.width && v < image.height;
-    return within ? static_cast<int>(v) * image.width + static_cast<int>(u) : -1;
+  /// Finds whose mask holds each pixel of a run if it lies at a depth; its place is in run_cells_.
+  void find_owners(const PixelRun& run, double z_m, std::vector<std::uint16_t>& owners) {
+    run_cells_.resize(static_cast<std::size_t>(run.count));
+    find_cells_at(run, z_m, mended_, run_cells_.data());
+    owners.resize(run_cells_.size());
+    std::ranges::transform(run_cells_, owners.begin(), [&](int cell) { return owner_at(cell); });
   }
 
   /// Whose mask holds a cell, as large as its object is; 0 for none.
-  [[nodiscard]] int owner_at(int cell) const {
-    return cell >= 0 && field_.mask_distance[0][cell] < offset_px_ ? field_.masks[0][cell] : 0;
+  [[nodiscard]] std::uint16_t owner_at(int cell) const {
+    const int known = std::max(cell, 0);
+    const std::uint16_t owner = field_.masks[0][known];
+    const bool holds = (cell >= 0) & (field_.mask_distance[0][known] < offset_px_);
+    return holds ? owner : std::uint16_t{0};
   }
 
   const DepthEdges& edges_;
@@ -188,6 +214,8 @@ class Occluders {
   float offset_px_;
   Calibration mended_;
   bool in_rows_ = true;  ///< the baseline
+  std::vector<int> run_cells_;
+  std::vector<std::uint16_t> owners_, far_owners_;
 };
 
 }  // namespace
@@ -195,7 +223,7 @@ class Occluders {
 cv::Mat1b unseen_occluders(const DepthEdges& edges, const cv::Mat1i& cells,
                            const OutlineField& field, const OutlineAlignment& alignment,
                            const Calibration& believed) {
-  const Occluders occluders(edges, cells, field, alignment, believed);
+  Occluders occluders(edges, cells, field, alignment, believed);
   cv::Mat1b hidden(cells.size(), std::uint8_t{0});
   if (!(believed.range_min_m > 0)) return hidden;
   occluders.mark_beside_view(hidden);

@@ -3,10 +3,12 @@
 
 #include "core/segmentation/edge_aligned/unseen_occluders.hpp"
 
+#include "core/geometry/pose.hpp"
 #include "core/random_stream.hpp"
 #include "plate_scene.hpp"
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -130,6 +132,80 @@ TEST(UnseenOccluders, DoNotHideTheSurfaceThatRunsOn) {
   const cv::Mat1b hidden = unseen_occluders(edges, cells, field, {}, camera);
   EXPECT_GT(cv::countNonZero(hidden), 0);
   EXPECT_EQ(cv::countNonZero(hidden.colRange(196, 201)), 0);
+}
+
+/// 255 on the colour pixels that a hole of an exact image covers, rows along the baseline: pixel by
+/// pixel as the definition says.
+cv::Mat1b plainly_covered(const cv::Mat1b& hole, const OutlineField& field,
+                          const Calibration& camera) {
+  cv::Mat1b covered(field.masks.size(), std::uint8_t{0});
+  const auto place_of = [&](int v, int u, double z_m) {
+    const Eigen::Vector2d at =
+        camera.color.project(camera.T_color_depth * camera.depth.back_project(u, v, z_m));
+    const cv::Point place(static_cast<int>(std::floor(at.x() + 0.5)),
+                          static_cast<int>(std::floor(at.y() + 0.5)));
+    return place.inside(cv::Rect({0, 0}, field.masks.size())) ? place : cv::Point(-1, -1);
+  };
+  const auto owner_of = [&](int v, int u, double z_m) {
+    const cv::Point place = place_of(v, u, z_m);
+    return place.x >= 0 && field.mask_distance(place) < 0 ? field.masks(place) : 0;
+  };
+  for (int v = 0; v < hole.rows; ++v)
+    for (int u = 0, begin = 0; u < hole.cols; ++u) {
+      if (hole(v, u) == 0) begin = u + 1;
+      if (hole(v, u) == 0 || (u + 1 < hole.cols && hole(v, u + 1) != 0)) continue;
+      for (const double share : {1.0, 0.85, 0.7, 0.6, 0.5}) {
+        const double z_m = share * camera.range_min_m;
+        const int middle = owner_of(v, (begin + u + 1) / 2, z_m);
+        int held = 0;
+        for (int at = begin; at <= u; ++at) held += owner_of(v, at, z_m) == middle ? 1 : 0;
+        for (int at = begin; at <= u; ++at) {
+          const int owner = owner_of(v, at, z_m);
+          if (owner != 0 && (owner == owner_of(v, at, camera.range_max_m) ||
+                             (owner == middle && held >= 0.8 * (u + 1 - begin))))
+            covered(place_of(v, at, z_m)) = 255;
+        }
+      }
+    }
+  cv::dilate(covered, covered, cv::Mat1b(3, 3, std::uint8_t{1}));
+  return covered;
+}
+
+/// Holes of many widths, some with masks that hold them at any depth, some with thin ones.
+TEST(UnseenOccluders, CoverWhatEachPixelOfAHoleCovers) {
+  Calibration camera = PlateScene({}).truth();
+  camera.T_color_depth.linear() = exp_rotation({0.01, -0.02, 0.03});
+  RandomStream random(11, "holes", {});
+  const auto below = [&](int end) { return static_cast<int>(random.uniform() * end); };
+  int covered_pixels = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    DepthEdges edges;
+    edges.inverse_depth = cv::Mat1f(240, 320, 0.5F);
+    edges.right = edges.down = cv::Mat1f(240, 320, 1.0F);
+    OutlineField field;
+    field.masks = cv::Mat1w(240, 320, std::uint16_t{0});
+    cv::Mat1b holes(240, 320, std::uint8_t{0});
+    for (int n = 1; n < 6; ++n) {
+      const cv::Rect mask(below(250), below(150), 10 + below(60), 90);
+      field.masks(mask).setTo(n);
+      holes(cv::Rect(below(250), below(150), 3 + below(60), 90)).setTo(255);
+    }
+    field.mask_distance = cv::Mat1f(240, 320, 3.0F);
+    field.mask_distance.setTo(-3.0F, field.masks != 0);
+    edges.inverse_depth.setTo(0.0F, holes);
+    cv::Mat1i cells(240, 320);
+    for (int v = 0; v < 240; ++v)
+      for (int u = 0; u < 320; ++u) cells(v, u) = holes(v, u) == 0 ? v * 320 + u : -1;
+    edges.near_holes = cv::Mat1b(240, 320, std::uint8_t{0});
+    cv::Mat1b expected = unseen_occluders(edges, cells, field, {}, camera);
+    edges.near_holes = holes;
+    const cv::Mat1b covered = plainly_covered(holes, field, camera);
+    expected.setTo(255, covered & (holes == 0));
+    const cv::Mat1b hidden = unseen_occluders(edges, cells, field, {}, camera);
+    EXPECT_EQ(cv::countNonZero(hidden != expected), 0) << trial;
+    covered_pixels += cv::countNonZero(covered & (holes == 0));
+  }
+  EXPECT_GT(covered_pixels, 20 * 300);
 }
 
 }  // namespace
