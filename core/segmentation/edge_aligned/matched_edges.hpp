@@ -27,9 +27,17 @@ struct EdgeColumns {
   std::vector<std::uint8_t> way;
 };
 
+/// Edges at places of the colour image, px, in columns.
+struct PlacedEdges {
+  std::vector<float> u, v, outward_u, outward_v, strength;
+
+  void clear();
+  void push_back(const Eigen::Vector2f& at, const Eigen::Vector2f& outward, float edge_strength);
+};
+
 /// Edges after a motion, matched with the outlines that they lie on there. What needs no branches
-/// is done for many edges at once, and match_at for the few that lie near an outline. One thread at
-/// a time.
+/// is done for many edges at once, and match_at for the few that may lie on a border of two masks.
+/// One thread at a time.
 class MatchedEdges {
  public:
   explicit MatchedEdges(const OutlineField& field) : field_(field) {}  ///< must outlive it
@@ -46,29 +54,54 @@ class MatchedEdges {
   void for_each(const EdgeColumns& edges, const OutlineAlignment& a, const Projection& project,
                 float sigma_px, auto&& use) {
     move(edges, a, project);
-    find_distances(3 * sigma_px + std::abs(a.offset_px));
-    for (std::size_t n = 0; n < is_near_.size(); ++n) {
-      if (is_near_[n] == 0) continue;
-      const BetweenPixels distance(value_[n], {slope_u_[n], slope_v_[n]});
-      const Match match{match_at(field_, {u_[n], v_[n]}, {edges.outward_u[n], edges.outward_v[n]},
-                                 edges.strength[n], distance, a.offset_px, sigma_px),
-                        x_[n],
-                        y_[n],
-                        z_[n],
-                        u_[n],
-                        v_[n]};
-      if (match.weight > 0) use(n, match);
-    }
+    match_moved(edges, a.offset_px, sigma_px, [&](std::size_t n, const EdgeMatch& match) {
+      use(n, Match{match, x_[n], y_[n], z_[n], u_[n], v_[n]});
+    });
+  }
+
+  /// The same of edges that `shift` moves in the image: use(n, EdgeMatch).
+  void for_each_shifted(const PlacedEdges& edges, const Eigen::Vector2f& shift, float offset_px,
+                        float sigma_px, auto&& use) {
+    move(edges, shift);
+    match_moved(edges, offset_px, sigma_px, use);
   }
 
  private:
   void move(const EdgeColumns& edges, const OutlineAlignment& a, const Projection& project);
-  void find_distances(float within_px);
+  void move(const PlacedEdges& edges, const Eigen::Vector2f& shift);
+
+  void match_moved(const auto& edges, float offset_px, float sigma_px, auto&& use) {
+    match_at_once(edges.outward_u, edges.outward_v, edges.strength, offset_px, sigma_px);
+    const bool any_borders = !field_.near_borders.empty();
+    for (std::size_t n = 0; n < is_near_.size(); ++n) {
+      if (is_near_[n] == 0) continue;
+      EdgeMatch match;
+      if (any_borders && distance_[n] < 0) {
+        match = match_at(field_, {u_[n], v_[n]}, {edges.outward_u[n], edges.outward_v[n]},
+                         edges.strength[n], {distance_[n], {slope_u_[n], slope_v_[n]}}, offset_px,
+                         sigma_px);
+      } else {
+        match.residual = distance_[n] - offset_px;
+        if (std::abs(match.residual) > 3 * sigma_px) continue;
+        match.weight = full_weight_[n] * std::exp(exponent_[n]);
+        match.distance = distance_[n];
+        match.facing = facing_[n];
+        match.gradient = {slope_u_[n], slope_v_[n]};
+      }
+      if (match.weight > 0) use(n, match);
+    }
+  }
+
+  /// Fills the columns of matches for all moved edges, as if there were no borders of two masks.
+  void match_at_once(const std::vector<float>& outward_u, const std::vector<float>& outward_v,
+                     const std::vector<float>& strength, float offset_px, float sigma_px);
 
   const OutlineField& field_;
-  std::vector<float> x_, y_, z_, u_, v_;          ///< as in Match
-  std::vector<float> value_, slope_u_, slope_v_;  ///< of the field's distance there, px
-  Marks is_near_;                                 ///< 1 where the distance is within reach
+  std::vector<float> x_, y_, z_, u_, v_;             ///< as in Match
+  std::vector<float> distance_, slope_u_, slope_v_;  ///< of the field there, px
+  std::vector<float> facing_;                        ///< as in EdgeMatch; so is the weight,
+  std::vector<float> full_weight_, exponent_;        ///< full_weight * exp(exponent)
+  Marks is_near_;                                    ///< 1 where the distance is within reach
 };
 
 }  // namespace mapscore

@@ -4,6 +4,7 @@
 #include "core/segmentation/edge_aligned/outline_shifts.hpp"
 
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
+#include "core/segmentation/edge_aligned/matched_edges.hpp"
 
 #include <algorithm>
 #include <array>
@@ -122,39 +123,52 @@ class ShiftFinder {
 
   void gather(int row, int column) {
     near_.clear();
+    near_edges_.clear();
     for (int i = std::max(0, row - 2); i <= std::min(rows_ - 1, row + 1); ++i)
       for (int j = std::max(0, column - 2); j <= std::min(columns_ - 1, column + 1); ++j)
         for (PlacedEdge& edge : cell(i, j)) {
           const float weight = support(edge.at.x() - static_cast<float>(column * kPitch),
                                        edge.at.y() - static_cast<float>(row * kPitch));
-          if (weight > 0) near_.push_back({&edge, weight});
+          if (weight <= 0) continue;
+          near_.push_back({&edge, weight});
+          near_edges_.push_back(edge.at, edge.outward, edge.strength);
         }
   }
 
-  [[nodiscard]] EdgeMatch match(const PlacedEdge& edge, const Eigen::Vector2f& shift,
-                                float sigma) const {
-    return match_edge(field_, edge.at + shift, edge.outward, edge.strength, offset_px_, sigma);
-  }
-
-  [[nodiscard]] float score(const Eigen::Vector2f& shift, float sigma) const {
+  [[nodiscard]] float score(const Eigen::Vector2f& shift, float sigma) {
     float sum = 0;
-    for (const NearEdge& near : near_) sum += near.support * match(*near.edge, shift, sigma).weight;
+    matched_.for_each_shifted(
+        near_edges_, shift, offset_px_, sigma,
+        [&](std::size_t n, const EdgeMatch& m) { sum += near_[n].support * m.weight; });
     return sum;
   }
 
   /// Scores of all tried shifts. An edge lies near up to nine nodes, so what it weighs is kept.
   [[nodiscard]] std::vector<float> scores_of_tried() {
+    try_new();
     std::vector<float> sums(tried_.size(), 0.0F);
     for (const NearEdge& near : near_) {
-      if (near.edge->tried == 0) {
-        near.edge->tried = weights_.size();
-        for (const Eigen::Vector2f& shift : tried_)
-          weights_.push_back(match(*near.edge, shift, kWide_px).weight);
-      }
       const float* const weights = weights_.data() + near.edge->tried;
       for (std::size_t n = 0; n < sums.size(); ++n) sums[n] += near.support * weights[n];
     }
     return sums;
+  }
+
+  /// Finds what those edges weigh at all tried shifts of which it is not known.
+  void try_new() {
+    std::vector<std::size_t> places;
+    new_edges_.clear();
+    for (const NearEdge& near : near_) {
+      if (near.edge->tried != 0) continue;
+      near.edge->tried = weights_.size();
+      places.push_back(weights_.size());
+      weights_.resize(weights_.size() + tried_.size());
+      new_edges_.push_back(near.edge->at, near.edge->outward, near.edge->strength);
+    }
+    for (std::size_t k = 0; k < tried_.size(); ++k)
+      matched_.for_each_shifted(
+          new_edges_, tried_[k], offset_px_, kWide_px,
+          [&](std::size_t n, const EdgeMatch& m) { weights_[places[n] + k] = m.weight; });
   }
 
   [[nodiscard]] Eigen::Vector2f shift_of(float length) {
@@ -167,9 +181,9 @@ class ShiftFinder {
     const Eigen::Vector2f fallback = gained(near, 1.08F) ? near : none;
     if (unshifted > kGood * length) return fallback;
     Eigen::Vector2f best = none;
-    const float unshifted_wide = score(none, kWide_px);
-    float most = unshifted_wide;
     const std::vector<float> scores = scores_of_tried();
+    const float unshifted_wide = scores[scores.size() / 2];  // the middle of the disc that is tried
+    float most = unshifted_wide;
     for (std::size_t n = 0; n < tried_.size(); ++n) {
       const float value =
           scores[n] - kCostAtSearch * length * tried_[n].squaredNorm() / (kSearch_px * kSearch_px);
@@ -182,17 +196,17 @@ class ShiftFinder {
   }
 
   /// Gauss-Newton about a shift, pulled weakly to none.
-  [[nodiscard]] Eigen::Vector2f refined(Eigen::Vector2f shift, float length) const {
+  [[nodiscard]] Eigen::Vector2f refined(Eigen::Vector2f shift, float length) {
     const Eigen::Vector2f start = shift;
     for (int step = 0; step < 5; ++step) {
       Eigen::Matrix2f H = Eigen::Matrix2f::Identity() * (0.02F * length);
       Eigen::Vector2f b = -0.02F * length * (shift - start);
-      for (const NearEdge& near : near_) {
-        const EdgeMatch m = match(*near.edge, shift, kFine_px);
-        const float weight = near.support * m.weight;
-        H += weight * m.gradient * m.gradient.transpose();
-        b -= weight * m.residual * m.gradient;
-      }
+      matched_.for_each_shifted(near_edges_, shift, offset_px_, kFine_px,
+                                [&](std::size_t n, const EdgeMatch& m) {
+                                  const float weight = near_[n].support * m.weight;
+                                  H += weight * m.gradient * m.gradient.transpose();
+                                  b -= weight * m.residual * m.gradient;
+                                });
       shift += H.inverse() * b;
     }
     return shift;
@@ -203,6 +217,8 @@ class ShiftFinder {
   int rows_, columns_;
   std::vector<std::vector<PlacedEdge>> cells_;
   std::vector<NearEdge> near_;
+  PlacedEdges near_edges_, new_edges_;
+  MatchedEdges matched_{field_};
   std::vector<Eigen::Vector2f> tried_ = tried_shifts();
   std::vector<float> weights_{0.0F};  ///< of edges at all tried shifts; the first is nobody's
 };
