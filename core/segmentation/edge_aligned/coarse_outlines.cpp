@@ -6,27 +6,29 @@
 #include "core/wide_vectors.hpp"
 
 namespace mapscore {
-namespace {
+CoarseOutlines::CoarseOutlines(const EdgeColumns& edges, const OutlineField& field,
+                               const Projection& project)
+    : edges_(edges), field_(field), project_(project), cells_(edges.x.size()) {
+  for (const cv::Mat1b& map : field.coarse) maps_.insert(maps_.end(), map[0], map[0] + map.total());
+  maps_.push_back(0);
+  for (const std::uint8_t way : edges.way)
+    map_.push_back(way * static_cast<int>(field.coarse[0].total()));
+}
 
-struct CoarseColumns {
-  const float *x, *y, *z;
-  const int* map;
-  int count;
-};
-
-/// The cells of maps of `size` that edges fall into after a motion, as their places in the maps
-/// behind each other; `beyond` for those outside.
 MAPSCORE_WIDE_VECTORS
-void find_cells(const CoarseColumns& edges, const Eigen::Matrix3f& R, const Eigen::Vector3f& t,
-                const Projection& project, const cv::Size& size, int beyond, int* cells) {
-  const int count = edges.count, columns = size.width;
-  const float *xs = edges.x, *ys = edges.y, *zs = edges.z;
-  const int* maps = edges.map;
-  const float right = static_cast<float>(columns), bottom = static_cast<float>(size.height);
-  const float fx = project.fx, fy = project.fy, cx = project.cx, cy = project.cy;
+void CoarseOutlines::find_cells(const Eigen::Matrix3f& R, const Eigen::Vector3f& t) {
+  const int count = static_cast<int>(cells_.size()), columns = field_.coarse[0].cols;
+  const int beyond = static_cast<int>(maps_.size()) - 1;
+  const float *xs = edges_.x.data(), *ys = edges_.y.data(), *zs = edges_.z.data();
+  const int* maps = map_.data();
+  int* const cells = cells_.data();
+  const float right = static_cast<float>(columns),
+              bottom = static_cast<float>(field_.coarse[0].rows);
+  const float fx = project_.fx, fy = project_.fy, cx = project_.cx, cy = project_.cy;
   const float xx = R(0, 0), xy = R(0, 1), xz = R(0, 2), yx = R(1, 0), yy = R(1, 1), yz = R(1, 2),
               zx = R(2, 0), zy = R(2, 1), zz = R(2, 2), tx = t.x(), ty = t.y(), tz = t.z();
   constexpr float kCells = 1.0F / OutlineField::kCell_px;
+  MAPSCORE_NO_OVERLAPS
   for (int n = 0; n < count; ++n) {
     const float x = xs[n], y = ys[n], z = zs[n];
     const float X = xx * x + xy * y + xz * z + tx;
@@ -40,22 +42,8 @@ void find_cells(const CoarseColumns& edges, const Eigen::Matrix3f& R, const Eige
   }
 }
 
-}  // namespace
-
-CoarseOutlines::CoarseOutlines(const EdgeColumns& edges, const OutlineField& field,
-                               const Projection& project)
-    : edges_(edges), field_(field), project_(project), cells_(edges.x.size()) {
-  for (const cv::Mat1b& map : field.coarse) maps_.insert(maps_.end(), map[0], map[0] + map.total());
-  maps_.push_back(0);
-  for (const std::uint8_t way : edges.way)
-    map_.push_back(way * static_cast<int>(field.coarse[0].total()));
-}
-
 float CoarseOutlines::score(const Eigen::Matrix3f& R, const Eigen::Vector3f& t) {
-  const CoarseColumns columns{edges_.x.data(), edges_.y.data(), edges_.z.data(), map_.data(),
-                              static_cast<int>(map_.size())};
-  find_cells(columns, R, t, project_, field_.coarse[0].size(), static_cast<int>(maps_.size()) - 1,
-             cells_.data());
+  find_cells(R, t);
   float sum = 0;
   for (std::size_t n = 0; n < cells_.size(); ++n)
     sum += edges_.strength[n] * static_cast<float>(maps_[static_cast<std::size_t>(cells_[n])]);

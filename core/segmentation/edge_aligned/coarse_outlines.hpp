@@ -23,12 +23,15 @@ class CoarseOutlines {
   [[nodiscard]] float score(const Eigen::Matrix3f& R, const Eigen::Vector3f& t);
 
  private:
+  /// Finds the cells of the maps that edges fall into after a motion, and the 0 for those outside.
+  void find_cells(const Eigen::Matrix3f& R, const Eigen::Vector3f& t);
+
   const EdgeColumns& edges_;
   const OutlineField& field_;
   Projection project_;
   std::vector<int> map_;            ///< where the map of an edge's way begins
   std::vector<std::uint8_t> maps_;  ///< of all ways, behind each other, and a 0
-  std::vector<int> cells_;
+  std::vector<int> cells_;          ///< places in `maps_`, of each edge
 };
 
 }  // namespace mapscore
