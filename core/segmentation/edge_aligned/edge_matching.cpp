@@ -15,8 +15,8 @@ constexpr float kLeastSlope = 0.3F;  // of the distance, where it tells which ou
 /// 0 beyond the image.
 std::uint16_t owner_at(const cv::Mat1w& owners, const Eigen::Vector2f& at) {
   const float u = at.x() + 0.5F, v = at.y() + 0.5F;
-  const bool inside =
-      u >= 0 && v >= 0 && u < static_cast<float>(owners.cols) && v < static_cast<float>(owners.rows);
+  const bool inside = u >= 0 && v >= 0 && u < static_cast<float>(owners.cols) &&
+                      v < static_cast<float>(owners.rows);
   return inside ? owners(static_cast<int>(v), static_cast<int>(u)) : std::uint16_t{0};
 }
 
