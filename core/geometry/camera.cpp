@@ -12,15 +12,16 @@ namespace mapscore {
 namespace {
 
 constexpr double kMostApart_m = 10.0;  // of what one robot carries
+constexpr double kLongest_px = 1e6;    // of a focal length: a pixel is .2 seconds of arc wide
 
 void check(const CameraModel& camera, const std::string& name) {
   if (camera.width_px < 1 || camera.height_px < 1)
     throw Error(name + " camera: has " + std::to_string(camera.width_px) + " x " +
                 std::to_string(camera.height_px) + " pixels; give at least one");
-  const auto length = [](double focal) { return focal > 0.0 && std::isfinite(focal); };
+  const auto length = [](double focal) { return focal > 0.0 && focal <= kLongest_px; };
   if (!length(camera.fx_px) || !length(camera.fy_px))
     throw Error(name + " camera: focal lengths " + std::to_string(camera.fx_px) + " and " +
-                std::to_string(camera.fy_px) + " pixels; both must be positive");
+                std::to_string(camera.fy_px) + " pixels; both must be positive, at most a million");
   if (!std::isfinite(camera.cx_px) || !std::isfinite(camera.cy_px))
     throw Error(name + " camera: its principal point is not finite; give it in pixels");
 }

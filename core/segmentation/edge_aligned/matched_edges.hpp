@@ -92,15 +92,16 @@ class MatchedEdges {
     }
   }
 
-  /// Fills the columns of matches for all moved edges, as if there were no borders of two masks.
+  /// Fills the columns of matches for all moved edges, as if there were no borders of two masks:
+  /// the formula of match_at, which a test holds equal.
   void match_at_once(const std::vector<float>& outward_u, const std::vector<float>& outward_v,
                      const std::vector<float>& strength, float offset_px, float sigma_px);
 
   const OutlineField& field_;
   std::vector<float> x_, y_, z_, u_, v_;             ///< as in Match
   std::vector<float> distance_, slope_u_, slope_v_;  ///< of the field there, px
-  std::vector<float> facing_;                        ///< as in EdgeMatch; so is the weight,
-  std::vector<float> full_weight_, exponent_;        ///< full_weight * exp(exponent)
+  std::vector<float> facing_;                        ///< as in EdgeMatch
+  std::vector<float> full_weight_, exponent_;        ///< the weight is full_weight * exp(exponent)
   Marks is_near_;                                    ///< 1 where the distance is within reach
 };
 

@@ -26,7 +26,7 @@ constexpr int kShiftSearch = 15, kShiftStep = 3;   // px, of the shifts that are
 constexpr float kSearch_px = kShiftSearch;
 constexpr float kCostAtSearch = 0.15F;  // of the outline, for the largest shift
 
-struct PlacedEdge {
+struct ShiftedEdge {
   Eigen::Vector2f at, outward;
   float strength;
   std::size_t tried =
@@ -89,11 +89,11 @@ class ShiftFinder {
 
  private:
   struct NearEdge {
-    PlacedEdge* edge;
+    ShiftedEdge* edge;
     float support;
   };
 
-  std::vector<PlacedEdge>& cell(int row, int column) {
+  std::vector<ShiftedEdge>& cell(int row, int column) {
     return cells_[static_cast<std::size_t>(row * columns_ + column)];
   }
 
@@ -126,7 +126,7 @@ class ShiftFinder {
     near_edges_.clear();
     for (int i = std::max(0, row - 2); i <= std::min(rows_ - 1, row + 1); ++i)
       for (int j = std::max(0, column - 2); j <= std::min(columns_ - 1, column + 1); ++j)
-        for (PlacedEdge& edge : cell(i, j)) {
+        for (ShiftedEdge& edge : cell(i, j)) {
           const float weight = support(edge.at.x() - static_cast<float>(column * kPitch),
                                        edge.at.y() - static_cast<float>(row * kPitch));
           if (weight <= 0) continue;
@@ -182,7 +182,7 @@ class ShiftFinder {
     if (unshifted > kGood * length) return fallback;
     Eigen::Vector2f best = none;
     const std::vector<float> scores = scores_of_tried();
-    const float unshifted_wide = scores[scores.size() / 2];  // the middle of the disc that is tried
+    const float unshifted_wide = scores[none_tried_];
     float most = unshifted_wide;
     for (std::size_t n = 0; n < tried_.size(); ++n) {
       const float value =
@@ -215,11 +215,14 @@ class ShiftFinder {
   const OutlineField& field_;
   float offset_px_;
   int rows_, columns_;
-  std::vector<std::vector<PlacedEdge>> cells_;
+  std::vector<std::vector<ShiftedEdge>> cells_;
   std::vector<NearEdge> near_;
-  PlacedEdges near_edges_, new_edges_;
+  PlacedEdges near_edges_;  ///< those of near_, in its order
+  PlacedEdges new_edges_;   ///< those of them that no shift was tried of
   MatchedEdges matched_{field_};
   std::vector<Eigen::Vector2f> tried_ = tried_shifts();
+  std::size_t none_tried_ =
+      static_cast<std::size_t>(std::ranges::find(tried_, Eigen::Vector2f(0, 0)) - tried_.begin());
   std::vector<float> weights_{0.0F};  ///< of edges at all tried shifts; the first is nobody's
 };
 

@@ -37,9 +37,10 @@ struct PlaneSums {
   Fitted labelled{}, near{}, u{}, v{}, uu{}, uv{}, vv{}, w{}, uw{}, vw{};
 };
 
-/// Sums over a window's pixels, at most 81, at places of one number; coordinates are counted from
-/// the window's corner, so that none is negative.
+/// Sums over a window's pixels, side by side in one number; coordinates are counted from the
+/// window's corner, so that none is negative.
 struct PackedSums {
+  static_assert(kReach_px == 4, "sums over 81 pixels fit the bits that each has");
   static constexpr unsigned kU = 7, kV = 16, kLabelled = 25;  // after the number of near pixels
   static constexpr unsigned kVV = 10, kUV = 20;               // after the squares of u
   std::array<std::uint32_t, kFitted> places{}, squares{};
@@ -129,22 +130,23 @@ struct PlaneFits {
   }
 };
 
-/// The mean where all pixels lie in a line.
+/// Least squares; where all pixels lie in a line, their mean. Undefined without any pixel.
 MAPSCORE_WIDE_VECTORS
 PlaneFits solve(const PlaneSums& sums) {
   PlaneFits fits{sums};
   for (std::size_t n = 0; n < kFitted; ++n) {
-    const float near = sums.near[n], u = sums.u[n], v = sums.v[n];
+    const float near = sums.near[n], u = sums.u[n], v = sums.v[n], sum_w = sums.w[n];
     const float uu = sums.uu[n], uv = sums.uv[n], vv = sums.vv[n];
     const float cofactor = uu * vv - uv * uv;
     const auto determinant_with = [&](float first, float second, float third) {
       return first * cofactor - u * (second * vv - uv * third) + v * (second * uv - uu * third);
     };
     const float determinant = determinant_with(near, u, v);
-    const float numerator = determinant_with(sums.w[n], sums.uw[n], sums.vw[n]);
+    const float numerator = determinant_with(sum_w, sums.uw[n], sums.vw[n]);
     const bool is_line = determinant < 1.0F;
-    fits.rise[n] = (is_line ? sums.w[n] : numerator) / (is_line ? near : determinant);
-    fits.variance[n] = (is_line ? 1.0F : cofactor) / (is_line ? near : determinant);
+    const float rise_times = is_line ? sum_w : numerator, times = is_line ? near : determinant;
+    fits.rise[n] = rise_times / times;
+    fits.variance[n] = (is_line ? 1.0F : cofactor) / times;
   }
   return fits;
 }
@@ -154,6 +156,7 @@ PlaneFits solve(const PlaneSums& sums) {
 MAPSCORE_WIDE_VECTORS
 void find_rises(const RimmedImages& images, int row, int column, const Fitted& own, int right,
                 int down, WindowValues& rises) {
+  static_assert(2 * kReach_px * (2 * kReach_px + 1) == WindowValues::kPlaces);
   std::size_t place = 0;
   rises.counts = {};
   for (int y = -kReach_px; y <= kReach_px - down; ++y)
@@ -166,7 +169,8 @@ void find_rises(const RimmedImages& images, int row, int column, const Fitted& o
       float* const __restrict rise = rises.at[place].data();
       for (std::size_t n = 0; n < kFitted; ++n) {
         const float by = next_w[n] - w[n], label_here = label[n], label_next = next_label[n];
-        const bool is_pair = (label_here == own[n]) & (label_next == own[n]);
+        const float label_own = own[n];
+        const bool is_pair = (label_here == label_own) & (label_next == label_own);
         rise[n] = is_pair ? by : WindowValues::kNone;
         rises.counts[n] += is_pair ? 1 : 0;
       }

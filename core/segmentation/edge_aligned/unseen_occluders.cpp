@@ -25,35 +25,38 @@ constexpr double kRunsOnUntil = 1.05;         // and one that does ends nearer t
 constexpr std::array kBesideRim_px{1, 4, 7};  // where masks are compared; two of three must agree
 constexpr int kHoleRim_px = 11;               // near holes leave out 4 pixels at their rims
 
-/// Pixels of the depth image one after the other, along a row or a column.
-struct PixelRun {
-  int u, v;  ///< of the first
+/// Rays of depth pixels beside each other in a row or a column, 1 m before their camera: the
+/// coordinate along that line, and the one across it, which is the same for all.
+struct RunOfRays {
+  const double* along;
+  double across;
   bool in_row;
   int count;
 };
 
-/// Finds the pixels of the colour image, row-major, that hold what lies at a depth z_m in each
-/// pixel of a run; -1 beyond the image.
+/// Finds the pixels of the colour image, row-major, that hold what lies at a depth z_m on each ray;
+/// -1 beyond the image. Rounds as CameraModel::project, so that what lies on the border of two
+/// pixels falls into the same.
 MAPSCORE_WIDE_VECTORS
-void find_cells_at(const PixelRun& run, double z_m, const Calibration& calibration,
+void find_cells_at(const RunOfRays& rays, double z_m, const Calibration& calibration,
                    int* __restrict cells) {
-  const CameraModel &color = calibration.color, &depth = calibration.depth;
   const Eigen::Matrix3d R = calibration.T_color_depth.linear();
   const Eigen::Vector3d t = calibration.T_color_depth.translation();
-  const double xx = R(0, 0), xy = R(0, 1), xz = R(0, 2), yx = R(1, 0), yy = R(1, 1), yz = R(1, 2),
-               zx = R(2, 0), zy = R(2, 1), zz = R(2, 2), tx = t.x(), ty = t.y(), tz = t.z();
-  const double step_x = run.in_row ? 1 / depth.fx_px : 0, step_y = run.in_row ? 0 : 1 / depth.fy_px;
-  const double first_x = (run.u - depth.cx_px) / depth.fx_px;
-  const double first_y = (run.v - depth.cy_px) / depth.fy_px;
-  const double fx = color.fx_px, fy = color.fy_px, cx = color.cx_px + 0.5, cy = color.cy_px + 0.5;
+  const Eigen::Vector3d first = R.col(rays.in_row ? 0 : 1);
+  const Eigen::Vector3d other = R.col(rays.in_row ? 1 : 0) * rays.across, ahead = R.col(2);
+  const double ax = first.x(), ay = first.y(), az = first.z(), bx = other.x(), by = other.y(),
+               bz = other.z(), cx = ahead.x(), cy = ahead.y(), cz = ahead.z(), tx = t.x(),
+               ty = t.y(), tz = t.z();
+  const CameraModel& color = calibration.color;
+  const double fx = color.fx_px, fy = color.fy_px, middle_u = color.cx_px, middle_v = color.cy_px;
   const double right = color.width_px, bottom = color.height_px;
-  const int columns = color.width_px;
-  for (int n = 0; n < run.count; ++n) {
-    const double x = first_x + n * step_x, y = first_y + n * step_y;
-    const double X = z_m * (xx * x + xy * y + xz) + tx;
-    const double Y = z_m * (yx * x + yy * y + yz) + ty;
-    const double inverse_z = 1 / (z_m * (zx * x + zy * y + zz) + tz);
-    const double u = fx * X * inverse_z + cx, v = fy * Y * inverse_z + cy;
+  const int columns = color.width_px, count = rays.count;
+  const double* const along = rays.along;
+  for (int n = 0; n < count; ++n) {
+    const double X = z_m * (ax * along[n] + bx + cx) + tx;
+    const double Y = z_m * (ay * along[n] + by + cy) + ty;
+    const double Z = z_m * (az * along[n] + bz + cz) + tz;
+    const double u = fx * X / Z + middle_u + 0.5, v = fy * Y / Z + middle_v + 0.5;
     const bool within = (u >= 0) & (v >= 0) & (u < right) & (v < bottom);
     const int column = static_cast<int>(within ? u : 0.0);
     const int row = static_cast<int>(within ? v : 0.0);
@@ -72,6 +75,11 @@ class Occluders {
         mended_(alignment.corrected(believed)) {
     const Eigen::Vector3d& t = mended_.T_color_depth.translation();
     in_rows_ = std::abs(t.x()) >= std::abs(t.y());
+    const int length = in_rows_ ? edges.near_holes.cols : edges.near_holes.rows;
+    for (int n = 0; n < length; ++n) {
+      const Eigen::Vector3d ray = ray_of(place(0, n));
+      along_.push_back(in_rows_ ? ray.x() : ray.y());
+    }
   }
 
   /// 255 on what near objects cover in the colour image.
@@ -147,6 +155,11 @@ class Occluders {
     return in_rows_ ? cv::Point(n, line) : cv::Point(line, n);
   }
 
+  /// The ray of a depth pixel, 1 m before its camera.
+  [[nodiscard]] Eigen::Vector3d ray_of(const cv::Point& pixel) const {
+    return mended_.depth.back_project(pixel.x, pixel.y, 1.0);
+  }
+
   /// Whether the run [begin, end) of a hole may be a projector's shadow. Something near would
   /// cover, in the colour image, the surface on the side that the colour camera sees past it, but
   /// no more of it than a reach: the mask there is the same as beyond.
@@ -177,8 +190,9 @@ class Occluders {
 
   /// Marks what the run [begin, end) of a hole covers.
   void cover(int line, int begin, int end, cv::Mat1b& hit) {
-    const cv::Point first = place(line, begin);
-    const PixelRun run{first.x, first.y, in_rows_, end - begin};
+    const Eigen::Vector3d first = ray_of(place(line, begin));
+    const RunOfRays run{along_.data() + begin, in_rows_ ? first.y() : first.x(), in_rows_,
+                        end - begin};
     find_owners(run, mended_.range_max_m, far_owners_);
     for (const double depth : kNearDepths) {
       find_owners(run, depth * mended_.range_min_m, owners_);
@@ -193,7 +207,7 @@ class Occluders {
   }
 
   /// Finds whose mask holds each pixel of a run if it lies at a depth; its place is in run_cells_.
-  void find_owners(const PixelRun& run, double z_m, std::vector<std::uint16_t>& owners) {
+  void find_owners(const RunOfRays& run, double z_m, std::vector<std::uint16_t>& owners) {
     run_cells_.resize(static_cast<std::size_t>(run.count));
     find_cells_at(run, z_m, mended_, run_cells_.data());
     owners.resize(run_cells_.size());
@@ -213,8 +227,9 @@ class Occluders {
   const OutlineField& field_;
   float offset_px_;
   Calibration mended_;
-  bool in_rows_ = true;  ///< the baseline
-  std::vector<int> run_cells_;
+  bool in_rows_ = true;         ///< the baseline
+  std::vector<double> along_;   ///< coordinates of rays along the baseline, at 1 m
+  std::vector<int> run_cells_;  ///< of a run of a hole at a depth, and whose masks hold them
   std::vector<std::uint16_t> owners_, far_owners_;
 };
 

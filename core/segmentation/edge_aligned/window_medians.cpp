@@ -21,6 +21,7 @@ struct Brackets {
   Counts below, until;  ///< how many values are less than low, and at most high
 };
 
+/// The least and the largest value of each window.
 MAPSCORE_WIDE_VECTORS
 Brackets all_values(const WindowValues& values) {
   Brackets brackets;
@@ -62,8 +63,8 @@ Split split_at(const WindowValues& values, const Row& pivots) {
   return split;
 }
 
-/// Where the medians may lie, were the values spread evenly, or half-way; never the highest, so
-/// that each split leaves fewer.
+/// Where the medians may lie, were the values spread evenly, or half-way. Never at the highest
+/// while others are left, so that each split leaves at least one value fewer.
 Row pivots_of(const Brackets& brackets, const Counts& ranks, bool half_way) {
   Row pivots;
   for (std::size_t n = 0; n < kWindows; ++n) {
@@ -95,7 +96,7 @@ WindowValues::Row medians_of(const WindowValues& values) {
         high[n] = split.largest[n], until[n] = split.count[n];
       else
         low[n] = split.least[n], below[n] = split.count[n];
-      if (until[n] == ranks[n] + 1) low[n] = high[n];
+      if (until[n] == ranks[n] + 1) low[n] = high[n];  // found: the bracket stays closed
       if (below[n] == ranks[n]) high[n] = low[n];
     }
   }

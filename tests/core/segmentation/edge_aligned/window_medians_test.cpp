@@ -21,12 +21,14 @@ TEST(WindowMedians, EqualTheMiddleOfTheSortedValues) {
     WindowValues values;
     values.counts.fill(0);
     std::vector<std::vector<float>> all(WindowValues::kWindows);
-    const double filled = trial % 10 == 0 ? 0.02 : random.uniform();
+    const double filled = trial % 10 == 0 ? 0.02 : trial % 10 == 1 ? 1.0 : random.uniform();
+    const bool all_equal = trial % 20 == 3;
     for (std::size_t place = 0; place < WindowValues::kPlaces; ++place)
       for (std::size_t n = 0; n < WindowValues::kWindows; ++n) {
         auto value = static_cast<float>(random.normal());
         if (trial % 3 == 1) value = std::round(value);
         if (trial % 3 == 2 && random.uniform() < 0.1) value *= 1e6F;
+        if (all_equal) value = 0.5F;
         const bool has_value = random.uniform() < filled;
         values.at[place][n] = has_value ? value : WindowValues::kNone;
         if (!has_value) continue;
