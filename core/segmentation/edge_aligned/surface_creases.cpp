@@ -29,6 +29,14 @@ inline float most(float a, float b) {
   return a > b ? a : b;
 }
 
+/// What belongs to the farthest of 2, 3 or 4 pixels that a surface reaches: the third and the
+/// fourth where their continuity is 1. By value too: what only one branch reads does not become
+/// vectors.
+inline float farthest(float third, float fourth, float at_2, float at_3, float at_4) {
+  const float near = third < 1.0F ? at_2 : at_3;
+  return fourth < 1.0F ? near : at_4;
+}
+
 /// Some pixels beside each other, and those before and after them along the lines that are looked
 /// at: [kBefore] is their own. `on`: continuity to the next along the line.
 struct Lines {
@@ -51,10 +59,10 @@ void find_turns(const Lines& lines, float noise, int count, float* __restrict tu
                 before4 = least(before3, on0[n]);
     const float after2 = least(on5[n], on6[n]), after3 = least(after2, on7[n]),
                 after4 = least(after3, on8[n]);
-    const float before = before4 < 1.0F ? before3 < 1.0F ? w2[n] : w1[n] : w0[n];
-    const float after = after4 < 1.0F ? after3 < 1.0F ? w7[n] : w8[n] : w9[n];
-    const float over_before = before4 < 1.0F ? before3 < 1.0F ? 1.0F / 2 : 1.0F / 3 : 1.0F / 4;
-    const float over_after = after4 < 1.0F ? after3 < 1.0F ? 1.0F / 2 : 1.0F / 3 : 1.0F / 4;
+    const float before = farthest(before3, before4, w2[n], w1[n], w0[n]);
+    const float after = farthest(after3, after4, w7[n], w8[n], w9[n]);
+    const float over_before = farthest(before3, before4, 1.0F / 2, 1.0F / 3, 1.0F / 4);
+    const float over_after = farthest(after3, after4, 1.0F / 2, 1.0F / 3, 1.0F / 4);
     const float turn = (after - q) * over_after - (p - before) * over_before;
     const float sigma = most(kGrain_m * p * p, noise);
     const float sure = kTurnSigmas * sigma * (over_before + over_after);

@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the mapscore authors
+# SPDX-License-Identifier: MIT
+"""Whether the compiler has made vectors of each function marked MAPSCORE_WIDE_VECTORS.
+
+A loop that it gives up on, for a branch or for arrays that may overlap, gives the same results and no warning, only
+more slowly. `wide_loops.py PROGRAM` looks into the machine code of each clone; `--list` prints how many instructions
+of each compute with vectors.
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+from collections import Counter
+
+CLONE = re.compile(r"^[0-9a-f]+ <(.*) \[clone \.arch_x86_64_(v[34])\]>:$")
+COMPUTES = re.compile(r"\tv(?!mov|pmov|xor|pxor|zero|broadcast|pbroadcast)\w+ .*%[yz]mm")
+COPIES = {"void look_up<float>", "void look_up<unsigned short>"}  # no more than the C library's copies
+
+
+def instructions_by_clone(program):
+    """How many instructions compute with vectors, by (declaration, architecture)."""
+    listing = subprocess.Popen(["objdump", "-d", "-C", "--no-show-raw-insn", program],
+                               stdout=subprocess.PIPE, text=True)
+    counts, clone = Counter(), None
+    for line in listing.stdout:
+        if line.endswith(">:\n"):
+            match = CLONE.match(line)
+            clone = match.groups() if match else None
+            if clone:
+                counts[clone] += 0
+        elif clone and COMPUTES.search(line):
+            counts[clone] += 1
+    if listing.wait() != 0:
+        sys.exit(f"objdump does not read {program}")
+    return counts
+
+
+def name_of(declaration):
+    return declaration.replace("(anonymous namespace)::", "").replace("mapscore::", "").split("(")[0]
+
+
+def marked_functions(root):
+    """How many functions of core are marked."""
+    sources = [path for path in (root / "core").rglob("*.[ch]pp") if path.name != "wide_vectors.hpp"]
+    return sum(path.read_text().count("MAPSCORE_WIDE_VECTORS") for path in sources)
+
+
+def main():
+    counts = instructions_by_clone(sys.argv[-1])
+    if "--list" in sys.argv:
+        for (declaration, architecture), count in sorted(counts.items()):
+            print(f"{count:6} {architecture} {name_of(declaration)}")
+    marked = marked_functions(pathlib.Path(__file__).resolve().parents[2])
+    for architecture in ("v3", "v4"):
+        found = sum(a == architecture for _, a in counts)
+        if found < marked:
+            sys.exit(f"{found} functions for {architecture}, but {marked} are marked: does the program have all?")
+    narrow = [f"{name_of(declaration)} for {architecture}" for (declaration, architecture), count in sorted(counts.items())
+              if count == 0 and name_of(declaration) not in COPIES]
+    if narrow:
+        sys.exit("no vectors in " + ", ".join(narrow) + ": -fopt-info-vec-missed says why")
+    print(f"{len(counts)} clones of {marked} marked functions compute with vectors")
+
+
+if __name__ == "__main__":
+    main()
