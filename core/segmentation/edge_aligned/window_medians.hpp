@@ -16,8 +16,7 @@ struct WindowValues {
   static constexpr float kNone = 1e30F;  ///< larger than any value
 
   using Row = std::array<float, kWindows>;
-  std::array<Row, kPlaces> at;       ///< by place, of each window; kNone where it has none
-  std::array<int, kWindows> counts;  ///< of each window's values
+  std::array<Row, kPlaces> at;  ///< by place, of each window; kNone where it has none
 };
 
 /// The middle value of each window, the larger of two; 0 of a window without values. All windows
