@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,13 +18,13 @@ constexpr double kNearRange = 1.3;  // in least ranges, of a surface that runs o
 
 struct Hole {
   bool above = false, below = false, beside_near = false;  ///< reaches a border, or something near
-};
 
-std::uint8_t kind_of(const Hole& hole) {
-  if (hole.beside_near) return kNearHole;
-  if (!hole.below) return 0;
-  return hole.above ? kOpenHole : kNearHole;
-}
+  [[nodiscard]] std::uint8_t kind() const {
+    if (beside_near) return kNearHole;
+    if (!below) return 0;
+    return above ? kOpenHole : kNearHole;
+  }
+};
 
 cv::Mat1b square_px(int edge_px) {
   return cv::Mat1b(edge_px, edge_px, std::uint8_t{1});
@@ -48,12 +49,17 @@ cv::Mat1b near_holes(const cv::Mat1f& inverse_depth, double range_min_m) {
     hole_at(0, u).above = true;
     hole_at(hole.rows - 1, u).below = true;
   }
-  for (int v = 0; v < hole.rows; ++v)
+  std::vector<cv::Point> rims;
+  cv::findNonZero(beside_near & hole, rims);
+  for (const cv::Point& rim : rims) hole_at(rim.y, rim.x).beside_near = true;
+  std::vector<std::uint8_t> kinds(holes.size());
+  std::ranges::transform(holes, kinds.begin(), &Hole::kind);
+  for (int v = 0; v < hole.rows; ++v) {
+    const int* const component = components[v];
+    std::uint8_t* const kind = wide[v];
     for (int u = 0; u < hole.cols; ++u)
-      if (beside_near(v, u) != 0) hole_at(v, u).beside_near = true;
-  for (int v = 0; v < hole.rows; ++v)
-    for (int u = 0; u < hole.cols; ++u)
-      if (wide(v, u) != 0) wide(v, u) = kind_of(hole_at(v, u));
+      if (kind[u] != 0) kind[u] = kinds[static_cast<std::size_t>(component[u])];
+  }
   return wide;
 }
 

@@ -64,14 +64,44 @@ void find_cells_at(const RunOfRays& rays, double z_m, const Calibration& calibra
   }
 }
 
+/// The owners of pixels of an image, by their place; 0 beyond the image.
+MAPSCORE_WIDE_VECTORS
+void look_up_owners(const int* owner_of, const int* cells, int count, int* __restrict owners) {
+  for (int n = 0; n < count; ++n) {
+    const int owner = owner_of[cells[n] < 0 ? 0 : cells[n]];
+    owners[n] = cells[n] < 0 ? 0 : owner;
+  }
+}
+
+/// Whose mask holds each pixel when it is as large as its object.
+MAPSCORE_WIDE_VECTORS
+void keep_within(const std::uint16_t* masks, const float* distance, float offset_px, int count,
+                 int* __restrict owners) {
+  for (int n = 0; n < count; ++n) {
+    const int mask = masks[n];
+    owners[n] = distance[n] < offset_px ? mask : 0;
+  }
+}
+
+/// Keeps the pixels of a run that something near covers: those whose owner is also that of what
+/// lies far behind, or is `whole`. The others become -1.
+MAPSCORE_WIDE_VECTORS
+void keep_covered(const int* owners, const int* far_owners, int whole, int count,
+                  int* __restrict cells) {
+  for (int n = 0; n < count; ++n) {
+    const int owner = owners[n];
+    const bool is_covered = (owner != 0) & ((owner == far_owners[n]) | (owner == whole));
+    cells[n] = is_covered ? cells[n] : -1;
+  }
+}
+
 class Occluders {
  public:
   Occluders(const DepthEdges& edges, const cv::Mat1i& cells, const OutlineField& field,
             const OutlineAlignment& alignment, const Calibration& believed)
       : edges_(edges),
         cells_(cells),
-        field_(field),
-        offset_px_(alignment.offset_px),
+        owners_(field.masks.size()),
         mended_(alignment.corrected(believed)) {
     const Eigen::Vector3d& t = mended_.T_color_depth.translation();
     in_rows_ = std::abs(t.x()) >= std::abs(t.y());
@@ -80,12 +110,15 @@ class Occluders {
       const Eigen::Vector3d ray = ray_of(place(0, n));
       along_.push_back(in_rows_ ? ray.x() : ray.y());
     }
+    for (int v = 0; v < owners_.rows; ++v)
+      keep_within(field.masks[v], field.mask_distance[v], alignment.offset_px, owners_.cols,
+                  owners_[v]);
   }
 
   /// 255 on what near objects cover in the colour image.
   [[nodiscard]] cv::Mat1b covered() {
     const cv::Mat1b& hole = edges_.near_holes;
-    cv::Mat1b hit(field_.masks.rows, field_.masks.cols, std::uint8_t{0});
+    cv::Mat1b hit(owners_.size(), std::uint8_t{0});
     const int lines = in_rows_ ? hole.rows : hole.cols, length = in_rows_ ? hole.cols : hole.rows;
     for (int line = 0; line < lines; ++line) {
       const auto is_hole = [&](int n) { return hole(place(line, n)) != 0; };
@@ -193,44 +226,37 @@ class Occluders {
     const Eigen::Vector3d first = ray_of(place(line, begin));
     const RunOfRays run{along_.data() + begin, in_rows_ ? first.y() : first.x(), in_rows_,
                         end - begin};
-    find_owners(run, mended_.range_max_m, far_owners_);
+    find_owners(run, mended_.range_max_m, run_far_owners_);
     for (const double depth : kNearDepths) {
-      find_owners(run, depth * mended_.range_min_m, owners_);
-      const std::uint16_t middle = owners_[owners_.size() / 2];
-      const auto held = static_cast<double>(std::ranges::count(owners_, middle));
+      find_owners(run, depth * mended_.range_min_m, run_owners_);
+      const int middle = run_owners_[run_owners_.size() / 2];
+      const auto held = static_cast<double>(std::ranges::count(run_owners_, middle));
       const int whole = held >= kHeld * run.count ? middle : 0;
-      for (std::size_t n = 0; n < owners_.size(); ++n) {
-        const int owner = owners_[n];
-        if (owner != 0 && (owner == far_owners_[n] || owner == whole)) hit[0][run_cells_[n]] = 255;
-      }
+      keep_covered(run_owners_.data(), run_far_owners_.data(), whole, run.count, run_cells_.data());
+      for (const int cell : run_cells_)
+        if (cell >= 0) hit[0][cell] = 255;
     }
   }
 
   /// Finds whose mask holds each pixel of a run if it lies at a depth; its place is in run_cells_.
-  void find_owners(const RunOfRays& run, double z_m, std::vector<std::uint16_t>& owners) {
+  void find_owners(const RunOfRays& run, double z_m, std::vector<int>& owners) {
     run_cells_.resize(static_cast<std::size_t>(run.count));
     find_cells_at(run, z_m, mended_, run_cells_.data());
     owners.resize(run_cells_.size());
-    std::ranges::transform(run_cells_, owners.begin(), [&](int cell) { return owner_at(cell); });
+    look_up_owners(owners_[0], run_cells_.data(), run.count, owners.data());
   }
 
   /// Whose mask holds a cell, as large as its object is; 0 for none.
-  [[nodiscard]] std::uint16_t owner_at(int cell) const {
-    const int known = std::max(cell, 0);
-    const std::uint16_t owner = field_.masks[0][known];
-    const bool holds = (cell >= 0) & (field_.mask_distance[0][known] < offset_px_);
-    return holds ? owner : std::uint16_t{0};
-  }
+  [[nodiscard]] int owner_at(int cell) const { return cell < 0 ? 0 : owners_[0][cell]; }
 
   const DepthEdges& edges_;
   const cv::Mat1i& cells_;
-  const OutlineField& field_;
-  float offset_px_;
+  cv::Mat1i owners_;  ///< by pixel of the colour image, of masks as large as their objects
   Calibration mended_;
   bool in_rows_ = true;         ///< the baseline
   std::vector<double> along_;   ///< coordinates of rays along the baseline, at 1 m
   std::vector<int> run_cells_;  ///< of a run of a hole at a depth, and whose masks hold them
-  std::vector<std::uint16_t> owners_, far_owners_;
+  std::vector<int> run_owners_, run_far_owners_;
 };
 
 }  // namespace
