@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the mapscore authors
 # SPDX-License-Identifier: MIT
-"""Whether the compiler has made vectors of each function marked MAPSCORE_WIDE_VECTORS.
+"""Whether the compiler has made vectors in each function marked MAPSCORE_WIDE_VECTORS.
 
 A loop that it gives up on, for a branch or for arrays that may overlap, gives the same results and no warning, only
-more slowly. `wide_loops.py PROGRAM` looks into the machine code of each clone; `--list` prints how many instructions
-of each compute with vectors.
+more slowly. This looks into the machine code of each function's clones.
 """
 
+import argparse
 import pathlib
 import re
 import subprocess
@@ -48,8 +48,13 @@ def marked_functions(root):
 
 
 def main():
-    counts = instructions_by_clone(sys.argv[-1])
-    if "--list" in sys.argv:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("program", help="built by GCC for x86-64, with its symbols")
+    parser.add_argument("--list", action="store_true",
+                        help="print how many instructions of each clone compute with vectors")
+    options = parser.parse_args()
+    counts = instructions_by_clone(options.program)
+    if options.list:
         for (declaration, architecture), count in sorted(counts.items()):
             print(f"{count:6} {architecture} {name_of(declaration)}")
     marked = marked_functions(pathlib.Path(__file__).resolve().parents[2])
