@@ -16,13 +16,17 @@ from collections import Counter
 
 CLONE = re.compile(r"^[0-9a-f]+ <(.*) \[clone \.arch_x86_64_(v[34])\]>:$")
 COMPUTES = re.compile(r"\tv(?!mov|pmov|xor|pxor|zero|broadcast|pbroadcast)\w+ .*%[yz]mm")
+MARKED = re.compile(r"^(?:template.*\n)?MAPSCORE_WIDE_VECTORS\s[^;{(]*?(\w+)\(", re.MULTILINE)
 COPIES = {"void look_up<float>", "void look_up<unsigned short>"}  # no more than the C library's copies
 
 
 def instructions_by_clone(program):
     """How many instructions compute with vectors, by (declaration, architecture)."""
-    listing = subprocess.Popen(["objdump", "-d", "-C", "--no-show-raw-insn", program],
-                               stdout=subprocess.PIPE, text=True)
+    try:
+        listing = subprocess.Popen(["objdump", "-d", "-C", "--no-show-raw-insn", program],
+                                   stdout=subprocess.PIPE, text=True)
+    except FileNotFoundError:
+        sys.exit("objdump is missing: install binutils")
     counts, clone = Counter(), None
     for line in listing.stdout:
         if line.endswith(">:\n"):
@@ -38,13 +42,17 @@ def instructions_by_clone(program):
 
 
 def name_of(declaration):
+    """`void look_up<float>` of its declaration in the listing."""
     return declaration.replace("(anonymous namespace)::", "").replace("mapscore::", "").split("(")[0]
 
 
 def marked_functions(root):
-    """How many functions of core are marked."""
-    sources = [path for path in (root / "core").rglob("*.[ch]pp") if path.name != "wide_vectors.hpp"]
-    return sum(path.read_text().count("MAPSCORE_WIDE_VECTORS") for path in sources)
+    """How many functions of each name are marked."""
+    names = Counter()
+    for path in root.glob("*/**/*.[ch]pp"):
+        if path.relative_to(root).parts[0] in ("core", "eval", "sim", "files"):
+            names.update(MARKED.findall(path.read_text()))
+    return names
 
 
 def main():
@@ -58,15 +66,18 @@ def main():
         for (declaration, architecture), count in sorted(counts.items()):
             print(f"{count:6} {architecture} {name_of(declaration)}")
     marked = marked_functions(pathlib.Path(__file__).resolve().parents[2])
-    for architecture in ("v3", "v4"):
-        found = sum(a == architecture for _, a in counts)
-        if found < marked:
-            sys.exit(f"{found} functions for {architecture}, but {marked} are marked: does the program have all?")
-    narrow = [f"{name_of(declaration)} for {architecture}" for (declaration, architecture), count in sorted(counts.items())
+    found = Counter((re.findall(r"\w+", name_of(declaration).split("<")[0])[-1], architecture)
+                    for declaration, architecture in counts)
+    missing = [f"{name} for {architecture}" for name, count in sorted(marked.items())
+               for architecture in ("v3", "v4") if found[name, architecture] < count]
+    if missing:
+        sys.exit("the program lacks " + ", ".join(missing))
+    narrow = [f"{name_of(declaration)} for {architecture}"
+              for (declaration, architecture), count in sorted(counts.items())
               if count == 0 and name_of(declaration) not in COPIES]
     if narrow:
         sys.exit("no vectors in " + ", ".join(narrow) + ": -fopt-info-vec-missed says why")
-    print(f"{len(counts)} clones of {marked} marked functions compute with vectors")
+    print(f"{len(counts)} clones of {marked.total()} marked functions compute with vectors")
 
 
 if __name__ == "__main__":

@@ -29,9 +29,9 @@ inline float most(float a, float b) {
   return a > b ? a : b;
 }
 
-/// What belongs to the farthest of 2, 3 or 4 pixels that a surface reaches: the third and the
-/// fourth where their continuity is 1. By value too: what only one branch reads does not become
-/// vectors.
+/// Of the second, third and fourth pixel from one, what belongs to the farthest that its surface
+/// reaches: the fourth where `fourth`, the continuity up to it, is 1, else the third where `third`
+/// is. By value too: what is read in one branch only does not become vectors.
 inline float farthest(float third, float fourth, float at_2, float at_3, float at_4) {
   const float near = third < 1.0F ? at_2 : at_3;
   return fourth < 1.0F ? near : at_4;

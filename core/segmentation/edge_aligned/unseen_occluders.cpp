@@ -253,10 +253,11 @@ class Occluders {
   const cv::Mat1i& cells_;
   cv::Mat1i owners_;  ///< by pixel of the colour image, of masks as large as their objects
   Calibration mended_;
-  bool in_rows_ = true;         ///< the baseline
-  std::vector<double> along_;   ///< coordinates of rays along the baseline, at 1 m
-  std::vector<int> run_cells_;  ///< of a run of a hole at a depth, and whose masks hold them
-  std::vector<int> run_owners_, run_far_owners_;
+  bool in_rows_ = true;        ///< the baseline
+  std::vector<double> along_;  ///< coordinates of rays along the baseline, at 1 m
+  // Of a run of a hole at a depth: pixels of the colour image, at last those that are covered, and
+  // whose masks hold them.
+  std::vector<int> run_cells_, run_owners_, run_far_owners_;
 };
 
 }  // namespace

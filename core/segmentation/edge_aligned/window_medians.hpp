@@ -8,7 +8,7 @@
 
 namespace mapscore {
 
-/// Values of windows about kWindows pixels in a row, for their medians. A window need not have a
+/// Values of the windows about kWindows pixels, for their medians. A window need not have a
 /// value at each of its places.
 struct WindowValues {
   static constexpr std::size_t kWindows = 16;
