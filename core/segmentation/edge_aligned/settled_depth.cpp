@@ -69,9 +69,8 @@ Fitted bands_about(const float* here, float noise, float band_m) {
   return within;
 }
 
-/// Fits planes about pixels: level ones to kSettledAtOnce beside each other, then sloped
-/// ones to those that are on no level surface, kSettledAtOnce at once from wherever they
-/// are.
+/// Fits planes about pixels: level ones to pixels beside each other, then sloped ones to those that
+/// are on no level surface, wherever they are.
 class PlaneFitter {
  public:
   PlaneFitter(const cv::Mat1f& inverse, const cv::Mat1w& labels, float noise, const Limits& limits)
