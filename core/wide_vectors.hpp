@@ -33,15 +33,19 @@ namespace mapscore {
 /// The pixels of a row that a wide loop has marked with 1, the others with 0.
 using Marks = std::vector<std::uint8_t>;
 
-/// Calls use(n) with each place n that is marked, in order; quick where few are.
-void for_each_marked(const Marks& marks, auto&& use) {
-  const std::uint8_t *const begin = marks.data(), *const end = begin + marks.size();
-  for (const std::uint8_t* from = begin; from != end; ++from) {
+/// Calls use(n) with each of `count` places n that is marked with 1, in order; quick where few are.
+void for_each_marked(const std::uint8_t* marks, int count, auto&& use) {
+  const std::uint8_t* const end = marks + count;
+  for (const std::uint8_t* from = marks; from != end; ++from) {
     from = static_cast<const std::uint8_t*>(
         std::memchr(from, 1, static_cast<std::size_t>(end - from)));
     if (from == nullptr) return;
-    use(static_cast<int>(from - begin));
+    use(static_cast<int>(from - marks));
   }
+}
+
+void for_each_marked(const Marks& marks, auto&& use) {
+  for_each_marked(marks.data(), static_cast<int>(marks.size()), use);
 }
 
 }  // namespace mapscore

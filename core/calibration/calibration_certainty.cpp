@@ -193,9 +193,13 @@ CalibrationCertainty certainty_of(const std::deque<OutlineEvidence>& frames,
                                   const CalibrationCorrection& correction, float sigma_px,
                                   const Numbers& free, const Numbers& pixels) {
   CalibrationCertainty certainty;
-  const PooledEquations pool = pooled(frames, correction, sigma_px);
-  const EstimateChanges changes(pool, derivative_of(frames, correction, sigma_px, free, pixels),
-                                free);
+  PooledEquations pool = pooled(frames, correction, sigma_px);
+  NumberMatrix derivative = derivative_of(frames, correction, sigma_px, free, pixels);
+  // Where all pixels have a mask, all outlines are borders of two, which do not tell their size.
+  constexpr int kSize = CalibrationCorrection::kMaskSize;
+  const double size_information = start_information(sigma_px)[kSize];
+  pool.normal(kSize, kSize) += size_information, derivative(kSize, kSize) += size_information;
+  const EstimateChanges changes(pool, derivative, free);
   measure_errors(pool, changes, free.sum(), certainty);
   const double least_px = kLeastError * static_cast<double>(sigma_px);
   for (int n = 0; n < CalibrationCorrection::kNumbers; ++n)

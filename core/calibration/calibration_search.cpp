@@ -24,14 +24,6 @@ std::size_t stride_for(const std::deque<OutlineEvidence>& frames, std::size_t mo
   return 1 + edges / most;
 }
 
-/// How far off a start may well be; its inverse squares, in the order of a correction's numbers.
-CalibrationCorrection::Vector start_information() {
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  CalibrationCorrection::Vector sigma;
-  sigma << 5 * kDegree, 5 * kDegree, 5 * kDegree, 0.1, 0.1, 0.1, 0.05, 20, 20, 0.2, 4;
-  return sigma.cwiseAbs2().cwiseInverse();
-}
-
 struct TriedCorrection {
   CalibrationCorrection correction;
   double match = 0;
@@ -53,6 +45,14 @@ std::vector<double> lattice(double most, double step) {
 
 }  // namespace
 
+CalibrationCorrection::Vector start_information(float sigma_px) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  CalibrationCorrection::Vector far;  // that a start may well be off
+  far << 5 * kDegree, 5 * kDegree, 5 * kDegree, 0.1, 0.1, 0.1, 0.05, 20, 20, 0.2, 4;
+  return static_cast<double>(sigma_px * sigma_px) * kEdgesOfAnError *
+         far.cwiseAbs2().cwiseInverse();
+}
+
 CalibrationCorrection refined(const std::deque<OutlineEvidence>& frames, CalibrationCorrection from,
                               float sigma_px, int steps, std::size_t edges,
                               const FreeNumbers& free) {
@@ -66,10 +66,8 @@ CalibrationCorrection refined(const std::deque<OutlineEvidence>& frames, Calibra
         gradient += e.weight * e.residual * e.slope;
       });
     CalibrationCorrection::Matrix H = lower.selfadjointView<Eigen::Lower>();
-    // No `auto`: it would keep a reference to the vector that the call returns.
-    const CalibrationCorrection::Vector pull = static_cast<double>(sigma_px * sigma_px) *
-                                               kEdgesOfAnError / static_cast<double>(stride) *
-                                               start_information();
+    const CalibrationCorrection::Vector pull =
+        start_information(sigma_px) / static_cast<double>(stride);
     H.diagonal() += pull;
     CalibrationCorrection::Vector b = -gradient - pull.cwiseProduct(from.vector());
     b = b.cwiseProduct(free).eval();

@@ -14,6 +14,10 @@ namespace mapscore {
 /// Which numbers of a correction are looked for: 1 or 0.
 using FreeNumbers = CalibrationCorrection::Vector;
 
+/// What a start tells of the numbers of a correction, as the diagonal of normal equations with
+/// residuals of `sigma_px`: next to nothing, but where edges tell nothing it decides.
+[[nodiscard]] CalibrationCorrection::Vector start_information(float sigma_px);
+
 /// Gauss-Newton on the pooled equations with the weights of the last step (Welsch), pulled weakly
 /// to no correction. `edges`: how many are used at most, of all frames together.
 [[nodiscard]] CalibrationCorrection refined(const std::deque<OutlineEvidence>& frames,

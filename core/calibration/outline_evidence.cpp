@@ -146,9 +146,10 @@ double OutlineEvidence::explained(const CalibrationCorrection& correction, float
     if (!(p.z() > kNearest_m)) continue;
     const Eigen::Vector2f at = seen.project(p);
     const EdgeMatch match =
-        match_edge(field_, at, edge.outward, edge.strength, seen.offset_px, sigma_px, kAgainst);
+        match_edge(field_, {at.x(), at.y(), edge.outward.x(), edge.outward.y(), edge.strength},
+                   {seen.offset_px, sigma_px, kAgainst});
     if (match.weight <= 0) continue;
-    const Eigen::Vector2f foot = at - match.distance * match.gradient;
+    const Eigen::Vector2f foot = at - match.distance * match.gradient();
     const int u = static_cast<int>(foot.x() / OutlineField::kCell_px),
               v = static_cast<int>(foot.y() / OutlineField::kCell_px);
     if (foot.x() < 0 || foot.y() < 0 || u >= votes[0].cols || v >= votes[0].rows) continue;
@@ -167,19 +168,20 @@ OutlineEquation OutlineEvidence::equation_of(const Edge& edge, const Seen& seen,
   if (!(p.z() > kNearest_m)) return equation;
   const Eigen::Vector2f at = seen.project(p);
   const EdgeMatch match =
-      match_edge(field_, at, edge.outward, edge.strength, seen.offset_px, sigma_px, kAgainst);
+      match_edge(field_, {at.x(), at.y(), edge.outward.x(), edge.outward.y(), edge.strength},
+                 {seen.offset_px, sigma_px, kAgainst});
   if (match.weight <= 0) return equation;
   equation.weight = static_cast<double>(match.weight);
   equation.residual = static_cast<double>(match.residual);
-  const Eigen::Vector2f inside = at - (match.distance + 1.0F) * match.gradient;
+  const Eigen::Vector2f inside = at - (match.distance + 1.0F) * match.gradient();
   const int u = std::clamp(static_cast<int>(inside.x() + 0.5F), 0, field_.owner.cols - 1),
             v = std::clamp(static_cast<int>(inside.y() + 0.5F), 0, field_.owner.rows - 1);
   equation.object = field_.owner(v, u);
   // The residual changes by `g` with the point in the colour camera, in pixels a metre.
   const double x = static_cast<double>(p.x() / p.z()), y = static_cast<double>(p.y() / p.z());
   const double z = static_cast<double>(p.z());
-  const double gu = static_cast<double>(match.gradient.x() * seen.fx),
-               gv = static_cast<double>(match.gradient.y() * seen.fy);
+  const double gu = static_cast<double>(match.slope_u * seen.fx),
+               gv = static_cast<double>(match.slope_v * seen.fy);
   const Eigen::Vector3d g(gu / z, gv / z, -(gu * x + gv * y) / z);
   const Eigen::Vector3d turned = (p - seen.pivot).cast<double>();
   const Eigen::Vector3d moving = (seen.velocity + seen.spin.cross(p)).cast<double>();
@@ -188,8 +190,8 @@ OutlineEquation OutlineEvidence::equation_of(const Edge& edge, const Seen& seen,
   equation.slope.segment<3>(Axis::turn_x) = turning;
   equation.slope.segment<3>(Axis::shift_x) = g;
   equation.slope[Axis::focal] = gu * x + gv * y;
-  equation.slope[Axis::centre_u] = static_cast<double>(match.gradient.x());
-  equation.slope[Axis::centre_v] = static_cast<double>(match.gradient.y());
+  equation.slope[Axis::centre_u] = static_cast<double>(match.slope_u);
+  equation.slope[Axis::centre_v] = static_cast<double>(match.slope_v);
   equation.slope[Axis::time] = g.dot(moving);
   equation.slope[CalibrationCorrection::kMaskSize] = match.at_border ? 0.0 : -1.0;
   return equation;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <utility>
 
 namespace mapscore {
@@ -23,7 +24,8 @@ constexpr float kReachM = 0.06F;
 /// turns on a lattice.
 constexpr float kRollStep_px = 20.0F, kMostRoll_px = 60.0F;
 constexpr float kRolledStep_px = 8.0F, kRolledReach_px = 16.0F;
-constexpr float kApartPx = 8.0F;  // between the turns that are kept for the fine fit
+constexpr std::size_t kCompared = 80;  // of those that few edges find best, by more
+constexpr float kApartPx = 8.0F;       // between the turns that are kept for the fine fit
 constexpr float kLabelOffset_px = 3.5F;
 
 constexpr float kToldOffset = 0.5F;        // share of the outlines that tells the offset by itself
@@ -77,21 +79,24 @@ std::vector<AlignmentStart> mask_size_starts(Family family) {
   return starts;
 }
 
-std::vector<AlignmentStart> alignment_starts(const EdgeColumns& edges, const OutlineField& field,
-                                             const Projection& project, const CorrectionCost& cost,
-                                             float search_px, bool with_roll) {
-  CoarseOutlines coarse(edges, field, project);
+std::vector<AlignmentStart> alignment_starts(const EdgeColumns& few_edges, const EdgeColumns& edges,
+                                             const OutlineField& field, const Projection& project,
+                                             const CorrectionCost& cost, float search_px,
+                                             bool with_roll) {
+  CoarseOutlines few(few_edges, field, project), all(edges, field, project);
   std::vector<AlignmentStart> starts{AlignmentStart{}};
   const std::vector<AlignmentStart> far = mask_size_starts(Family::turn);
   starts.insert(starts.end(), far.begin(), far.end());
 
   const auto keep_best = [&](std::vector<AlignmentStart> tried, std::size_t most) {
-    for (AlignmentStart& a : tried) {
-      a.score = coarse.score(a.rotation, a.translation);
-      a.score -= cost(a);
+    for (CoarseOutlines* outlines : {&few, &all}) {
+      for (AlignmentStart& a : tried) {
+        a.score = outlines->score(a.rotation, a.translation);
+        a.score -= cost(a);
+      }
+      std::ranges::stable_sort(tried, std::greater(), &AlignmentStart::score);
+      tried.resize(std::min(tried.size(), kCompared));
     }
-    std::stable_sort(tried.begin(), tried.end(),
-                     [](const auto& a, const auto& b) { return a.score > b.score; });
     std::vector<Eigen::Vector3f> kept;  // where a point at 2 m lies, and the roll, all in pixels
     for (const AlignmentStart& a : tried) {
       const Eigen::Vector2f middle = project(a.rotation * Eigen::Vector3f(0, 0, 2) + a.translation);

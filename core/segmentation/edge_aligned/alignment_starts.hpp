@@ -39,12 +39,11 @@ class CorrectionCost {
 
 /// The corrections that a fit starts from: none, which is believed unless something better is
 /// found; none from farther away, with offsets; the best turns up to `search_px` and shifts, and
-/// `with_roll` those of rolled images, by their fit at quarter size less their cost.
-[[nodiscard]] std::vector<AlignmentStart> alignment_starts(const EdgeColumns& edges,
-                                                           const OutlineField& field,
-                                                           const Projection& project,
-                                                           const CorrectionCost& cost,
-                                                           float search_px, bool with_roll);
+/// `with_roll` those of rolled images, by their fit at quarter size less their cost: the best by
+/// `few_edges` are compared by `edges`.
+[[nodiscard]] std::vector<AlignmentStart> alignment_starts(
+    const EdgeColumns& few_edges, const EdgeColumns& edges, const OutlineField& field,
+    const Projection& project, const CorrectionCost& cost, float search_px, bool with_roll);
 
 /// No correction, of masks that are right, too small and too large.
 [[nodiscard]] std::vector<AlignmentStart> mask_size_starts(AlignmentStart::Family family);

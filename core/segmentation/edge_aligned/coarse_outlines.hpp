@@ -19,19 +19,20 @@ class CoarseOutlines {
   /// `edges` and `field` must outlive it.
   CoarseOutlines(const EdgeColumns& edges, const OutlineField& field, const Projection& project);
 
-  /// Share of the outlines that edges lie on where they go from p to R p + t (m).
+  /// Share of the outlines that edges lie on where they go from p to R p + t (m). Sums in kTogether
+  /// lanes, and over these at last, in order.
   [[nodiscard]] float score(const Eigen::Matrix3f& R, const Eigen::Vector3f& t);
 
  private:
-  /// Finds the cells of the maps that edges fall into after a motion, and the 0 for those outside.
-  void find_cells(const Eigen::Matrix3f& R, const Eigen::Vector3f& t);
+  /// Finds what each edge weighs after a motion.
+  void weigh(const Eigen::Matrix3f& R, const Eigen::Vector3f& t);
 
   const EdgeColumns& edges_;
   const OutlineField& field_;
   Projection project_;
-  std::vector<int> map_;            ///< where the map of an edge's way begins
-  std::vector<std::uint8_t> maps_;  ///< of all ways, behind each other, and a 0
-  std::vector<int> cells_;          ///< places in `maps_`, of each edge
+  std::vector<int> cells_;  ///< the field's maps of all ways, side by side in each cell
+  std::vector<int> bits_;   ///< where an edge's way begins in them
+  std::vector<float> weights_;
 };
 
 }  // namespace mapscore

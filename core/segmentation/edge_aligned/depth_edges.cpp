@@ -108,6 +108,12 @@ void go_on(const RowsAbout& rows, float tau, int columns, float* __restrict righ
         (1 ^ (static_cast<int>(right[u - 1] > 0) & static_cast<int>(down[u] > 0))));
 }
 
+/// Keeps by column the last row with a depth.
+MAPSCORE_WIDE_VECTORS
+void keep_last(const float* w, int row, int columns, int* __restrict last) {
+  for (int u = 0; u < columns; ++u) last[u] = w[u] > 0 ? row : last[u];
+}
+
 class EdgeFinder {
  public:
   EdgeFinder(const cv::Mat1w& depth, const Calibration& believed, const DepthEdgeRules& rules)
@@ -119,6 +125,7 @@ class EdgeFinder {
     tau_ = std::max(kLeastStep, kStepSigmas * edges_.noise);
     last_[0] = last_[1] = std::vector<LastStep>(static_cast<std::size_t>(depth.rows));
     last_[2] = last_[3] = std::vector<LastStep>(static_cast<std::size_t>(depth.cols));
+    last_rows_.assign(static_cast<std::size_t>(depth.cols), -1);
     edges_.right.create(depth.size());
     edges_.down.create(depth.size());
   }
@@ -136,10 +143,11 @@ class EdgeFinder {
       for_each_marked(flags, [&](int u) { look_back(v, u); });
       const int last = last_in_row(v, w.cols);
       if (w.cols - last > kWidestGap) beside_hole_in_row(v, last, w.cols);
+      keep_last(w[v], v, w.cols, last_rows_.data());
     }
     if (!w.empty()) edges_.down.row(w.rows - 1).setTo(0);
     for (int u = 0; u < w.cols; ++u) {
-      const int last = last_in_column(u, w.rows);
+      const int last = last_in_column(u);
       if (w.rows - last > kWidestGap) beside_hole_in_column(u, last, w.rows);
     }
     std::erase_if(edges_.steps, [](const DepthEdge& edge) { return edge.strength <= 0; });
@@ -147,23 +155,20 @@ class EdgeFinder {
   }
 
  private:
-  /// The last pixel with a depth before a place of a row, of a column; -1 where there is none.
+  /// The last pixel with a depth before a place of a row, and before this row of a column; -1 where
+  /// there is none.
   [[nodiscard]] int last_in_row(int v, int before) const {
     const float* row = edges_.inverse_depth[v];
     int last = before - 1;
     while (last >= 0 && !(row[last] > 0)) --last;
     return last;
   }
-  [[nodiscard]] int last_in_column(int u, int before) const {
-    int last = before - 1;
-    while (last >= 0 && !(edges_.inverse_depth(last, u) > 0)) --last;
-    return last;
-  }
+  [[nodiscard]] int last_in_column(int u) const { return last_rows_[static_cast<std::size_t>(u)]; }
 
   /// What lies between a pixel with a depth and the ones before it in its row and its column, where
   /// a surface does not plainly go on.
   void look_back(int v, int u) {
-    const int left = last_in_row(v, u), above = last_in_column(u, v);
+    const int left = last_in_row(v, u), above = last_in_column(u);
     if (u - left > kWidestGap) beside_hole_in_row(v, left, u);
     if (left >= 0 && (left != u - 1 || edges_.right(v, left) < 1.0F)) across_row(v, left, u);
     if (v - above > kWidestGap) beside_hole_in_column(u, above, v);
@@ -197,10 +202,14 @@ class EdgeFinder {
       add(u, q - 0.5, w(q, u), Outward::up, strength);
   }
 
+  [[nodiscard]] bool is_near_hole(int v, int u) const {
+    return edges_.near_holes(v / kHoleCell_px, u / kHoleCell_px) == kNearHole;
+  }
+
   /// A hole of a row that begins after column p and ends before q, either perhaps the border.
   void beside_hole_in_row(int v, int p, int q) {
     const cv::Mat1f& w = edges_.inverse_depth;
-    if (edges_.near_holes(v, (p + q) / 2) == kNearHole) {
+    if (is_near_hole(v, (p + q) / 2)) {
       if (may_be_shadow(v, p, q)) add(q - 0.5, v, w(v, q), Outward::left, 1.0F);
       return;
     }
@@ -220,7 +229,7 @@ class EdgeFinder {
 
   void beside_hole_in_column(int u, int p, int q) {
     const cv::Mat1f& w = edges_.inverse_depth;
-    if (edges_.near_holes((p + q) / 2, u) == kNearHole) return;
+    if (is_near_hole((p + q) / 2, u)) return;
     if (p >= 0 && w(p, u) > farthest_) add(u, p + 0.5, w(p, u), Outward::down, 1.0F);
     if (q < w.rows && w(q, u) > farthest_) add(u, q - 0.5, w(q, u), Outward::up, 1.0F);
   }
@@ -254,6 +263,7 @@ class EdgeFinder {
 
   DepthEdgeRules rules_;
   CameraModel camera_;
+  std::vector<int> last_rows_;  ///< by column: of the last pixel with a depth above this row, or -1
   std::array<std::vector<LastStep>, 4> last_;  ///< by Outward and row or column
   float tau_ = 0, farthest_ = 0;
   DepthEdges edges_;

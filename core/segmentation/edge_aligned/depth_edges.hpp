@@ -27,7 +27,7 @@ struct DepthEdge {
 struct DepthEdges {
   cv::Mat1f inverse_depth;       ///< 1 / z in 1/m; 0 where there is no usable depth
   float noise = 0;               ///< standard deviation of inverse_depth, 1/m
-  cv::Mat1b near_holes;          ///< where something nearer than the range may stand
+  cv::Mat1b near_holes;          ///< where something nearer than the range may stand, at half size
   cv::Mat1f right, down;         ///< continuity to the next pixel of the row, of the column: 0 to 1
   std::vector<DepthEdge> steps;  ///< row-major, rows before columns of a pixel
 };

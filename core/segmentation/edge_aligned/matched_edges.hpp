@@ -6,10 +6,8 @@
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
 #include "core/segmentation/edge_aligned/outline_alignment.hpp"
 #include "core/segmentation/edge_aligned/outline_field.hpp"
-#include "core/wide_vectors.hpp"
 
 #include <Eigen/Core>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,6 +16,9 @@ namespace mapscore {
 
 /// Every so-manieth of some edges, at most `most` of them, in columns: many are moved at once.
 struct EdgeColumns {
+  /// Columns hold whole groups of so many, the last filled up with edges of strength 0.
+  static constexpr std::size_t kTogether = 16;
+
   EdgeColumns() = default;
   EdgeColumns(const std::vector<ProjectedEdge>& edges, std::size_t most);
 
@@ -35,74 +36,42 @@ struct PlacedEdges {
   void push_back(const Eigen::Vector2f& at, const Eigen::Vector2f& outward, float edge_strength);
 };
 
-/// Edges after a motion, matched with the outlines that they lie on there. What needs no branches
-/// is done for many edges at once, and match_at for the few that may lie on a border of two masks.
-/// One thread at a time.
+/// Edges after a motion, matched with the outlines that they lie on there, many at once: columns of
+/// what match_edge gives of each. One thread at a time.
 class MatchedEdges {
  public:
   explicit MatchedEdges(const OutlineField& field) : field_(field) {}  ///< must outlive it
 
   static constexpr float kNearest_m = 0.05F;  ///< from the colour camera, of an edge that counts
 
-  struct Match : EdgeMatch {
-    float x, y, z;  ///< X / Z, Y / Z and Z (m) of the moved edge in the colour camera's frame
-    float u, v;     ///< its pixel
-  };
+  /// Matches edges where `a` moves them.
+  void match(const EdgeColumns& edges, const OutlineAlignment& a, const Projection& project,
+             float sigma_px);
 
-  /// Calls use(n, match) with each edge n that has a weight where `a` moves it, in order: the same
-  /// as match_edge gives of each.
-  void for_each(const EdgeColumns& edges, const OutlineAlignment& a, const Projection& project,
-                float sigma_px, auto&& use) {
-    move(edges, a, project);
-    match_moved(edges, a.offset_px, sigma_px, [&](std::size_t n, const EdgeMatch& match) {
-      use(n, Match{match, x_[n], y_[n], z_[n], u_[n], v_[n]});
-    });
+  /// Matches edges that `shift` moves in the image.
+  void match_shifted(const PlacedEdges& edges, const Eigen::Vector2f& shift, float offset_px,
+                     float sigma_px);
+
+  /// Calls use(n) for each edge n that has a weight, in order.
+  void for_each(auto&& use) const {
+    for (std::size_t n = 0; n < weight.size(); ++n)
+      if (weight[n] > 0) use(n);
   }
 
-  /// The same of edges that `shift` moves in the image: use(n, EdgeMatch).
-  void for_each_shifted(const PlacedEdges& edges, const Eigen::Vector2f& shift, float offset_px,
-                        float sigma_px, auto&& use) {
-    move(edges, shift);
-    match_moved(edges, offset_px, sigma_px, use);
-  }
+  std::vector<float> x, y, z;  ///< X / Z, Y / Z and Z (m) in the colour camera's frame, if moved
+  std::vector<float> u, v;     ///< place in the colour image, px
+  std::vector<float> weight, residual, distance, facing, slope_u, slope_v;  ///< as in EdgeMatch
+  std::vector<float> slope_offset;  ///< of the residual with the masks' offset: 0 at borders, or -1
 
  private:
   void move(const EdgeColumns& edges, const OutlineAlignment& a, const Projection& project);
-  void move(const PlacedEdges& edges, const Eigen::Vector2f& shift);
-
-  void match_moved(const auto& edges, float offset_px, float sigma_px, auto&& use) {
-    match_at_once(edges.outward_u, edges.outward_v, edges.strength, offset_px, sigma_px);
-    const bool any_borders = !field_.near_borders.empty();
-    for (std::size_t n = 0; n < is_near_.size(); ++n) {
-      if (is_near_[n] == 0) continue;
-      EdgeMatch match;
-      if (any_borders && distance_[n] < 0) {
-        match = match_at(field_, {u_[n], v_[n]}, {edges.outward_u[n], edges.outward_v[n]},
-                         edges.strength[n], {distance_[n], {slope_u_[n], slope_v_[n]}}, offset_px,
-                         sigma_px);
-      } else {
-        match.residual = distance_[n] - offset_px;
-        if (std::abs(match.residual) > 3 * sigma_px) continue;
-        match.weight = full_weight_[n] * std::exp(exponent_[n]);
-        match.distance = distance_[n];
-        match.facing = facing_[n];
-        match.gradient = {slope_u_[n], slope_v_[n]};
-      }
-      if (match.weight > 0) use(n, match);
-    }
-  }
-
-  /// Fills the columns of matches for all moved edges, as if there were no borders of two masks:
-  /// the formula of match_at, which a test holds equal.
-  void match_at_once(const std::vector<float>& outward_u, const std::vector<float>& outward_v,
-                     const std::vector<float>& strength, float offset_px, float sigma_px);
+  void match_placed(const std::vector<float>& outward_u, const std::vector<float>& outward_v,
+                    const std::vector<float>& strength, const MatchRules& rules);
+  template <bool kHasBorders>
+  void match_all(const float* outward_us, const float* outward_vs, const float* strengths,
+                 const MatchRules& rules);
 
   const OutlineField& field_;
-  std::vector<float> x_, y_, z_, u_, v_;             ///< as in Match
-  std::vector<float> distance_, slope_u_, slope_v_;  ///< of the field there, px
-  std::vector<float> facing_;                        ///< as in EdgeMatch
-  std::vector<float> full_weight_, exponent_;        ///< the weight is full_weight * exp(exponent)
-  Marks is_near_;                                    ///< 1 where the distance is within reach
 };
 
 }  // namespace mapscore

@@ -7,12 +7,15 @@
 #include "core/segmentation/edge_aligned/alignment_starts.hpp"
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
 #include "core/segmentation/edge_aligned/matched_edges.hpp"
+#include "core/segmentation/edge_aligned/outline_equations.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace mapscore {
@@ -20,7 +23,7 @@ namespace {
 
 using Family = AlignmentStart::Family;
 
-constexpr std::size_t kCoarseEdges = 800, kFineEdges = 4000;
+constexpr std::size_t kFewEdges = 200, kCoarseEdges = 800, kFineEdges = 4000;
 constexpr float kSame_px = 0.1F, kSame_m = 0.0004F;  // between starts that are one
 
 constexpr float kLeastScore = 0.15F;     // below, the edges show nothing of the masks,
@@ -29,14 +32,6 @@ constexpr float kLeastLever_px = 40.0F;  // for roll and focal length to be fitt
 constexpr float kPrior = 3.0F;
 constexpr float kLeastPrior = 0.01F;  // of it, where exact edges say nothing of a correction
 
-/// What a fit changes: turns about x and y, in pixels at the image's middle; roll and the logarithm
-/// of the focal length, in pixels as far from it as the focal length; shifts along x and y, m; the
-/// masks' offset, px.
-enum Parameter { kTurnX, kTurnY, kRoll, kFocal, kShiftX, kShiftY, kOffset, kParameters };
-using Parameters = Eigen::Matrix<float, kParameters, 1>;
-/// With a 0 behind them, which makes whole vectors.
-using Padded = Eigen::Matrix<float, kParameters + 1, 1>;
-
 /// How far from the image's middle the outlines' pixels lie, root mean square, as far as this tells
 /// a roll, and a focal length, from turns, the masks' size and the other of the two.
 struct Levers {
@@ -44,22 +39,23 @@ struct Levers {
 };
 
 Levers levers_of(const OutlineField& field, const Projection& project) {
+  const Eigen::Vector2d middle = Eigen::Vector2f(project.cx, project.cy).cast<double>();
   Eigen::Matrix<double, 5, 5> H = Eigen::Matrix<double, 5, 5>::Zero();
   for (std::size_t way = 0; way < 4; ++way) {
     const cv::Mat1f& cells = field.elements[way];
-    const Eigen::Vector2d normal = direction_of(static_cast<Outward>(way)).cast<double>();
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();  // of (1, x, y) from the image's middle
     for (int row = 0; row < cells.rows; ++row)
       for (int column = 0; column < cells.cols; ++column) {
         if (cells(row, column) <= 0) continue;
-        const Eigen::Vector2f at(static_cast<float>(column * OutlineField::kCell_px) + 1.5F,
-                                 static_cast<float>(row * OutlineField::kCell_px) + 1.5F);
-        const Eigen::Vector2d from_middle =
-            (at - Eigen::Vector2f(project.cx, project.cy)).cast<double>();
-        Eigen::Matrix<double, 5, 1> J;
-        J << normal, normal.y() * from_middle.x() - normal.x() * from_middle.y(),
-            normal.dot(from_middle), 1.0;
-        H += static_cast<double>(cells(row, column)) * J * J.transpose();
+        const Eigen::Vector3d at(
+            1.0, static_cast<double>(column * OutlineField::kCell_px) + 1.5 - middle.x(),
+            static_cast<double>(row * OutlineField::kCell_px) + 1.5 - middle.y());
+        moments += static_cast<double>(cells(row, column)) * at * at.transpose();
       }
+    const Eigen::Vector2d n = direction_of(static_cast<Outward>(way)).cast<double>();
+    Eigen::Matrix<double, 5, 3> J;
+    J << n.x(), 0, 0, n.y(), 0, 0, 0, n.y(), -n.x(), 0, n.x(), n.y(), 1, 0, 0;
+    H += J * moments * J.transpose();
   }
   const double length = field.length_px;
   H.diagonal().array() += 1e-9 * length;
@@ -91,6 +87,7 @@ class Aligner {
       projected.push_back(
           {p, direction_of(edge.outward), static_cast<std::uint8_t>(edge.outward), edge.strength});
     }
+    few_ = EdgeColumns(projected, kFewEdges);
     coarse_ = EdgeColumns(projected, kCoarseEdges);
     fine_ = EdgeColumns(projected, kFineEdges);
     votes_.resize(elements_.size(), 0.0F);
@@ -102,8 +99,9 @@ class Aligner {
     Parameters free = Parameters::Ones();
     free[kRoll] = levers.roll_px > kLeastLever_px ? 1.0F : 0.0F;
     free[kFocal] = levers.focal_px > kLeastLever_px ? 1.0F : 0.0F;
-    return fit(alignment_starts(coarse_, field_, project_, cost_, search_px_, free[kRoll] > 0),
-               free);
+    return fit(
+        alignment_starts(few_, coarse_, field_, project_, cost_, search_px_, free[kRoll] > 0),
+        free);
   }
 
   OutlineAlignment fit_size() {
@@ -116,17 +114,22 @@ class Aligner {
   OutlineAlignment fit(const std::vector<AlignmentStart>& starts, const Parameters& free) {
     OutlineAlignment best;
     float most = -1e9F;
-    std::vector<Parameters> tried;
+    std::vector<std::pair<Family, Parameters>> met;
+    const auto is_new = [&](const AlignmentStart& start, Family family) {
+      const Parameters at = parameters_of(start);
+      for (const auto& [other, place] : met)
+        if (other == family && are_same(at, place)) return false;
+      met.emplace_back(family, at);
+      return true;
+    };
     for (AlignmentStart candidate : starts) {
       if (candidate.family != Family::none) {
         const Parameters first = free_of(candidate.family, 0), then = free_of(candidate.family, 1);
-        refine(candidate, 5.0F, 4, coarse_, free.cwiseProduct(first));
+        refine(candidate, 5.0F, 4, few_, free.cwiseProduct(first));
+        if (!is_new(candidate, candidate.family)) continue;
         refine(candidate, 3.0F, 3, coarse_, free.cwiseProduct(then));
       }
-      const Parameters at = parameters_of(candidate);
-      if (std::ranges::any_of(tried, [&](const auto& other) { return are_same(at, other); }))
-        continue;
-      tried.push_back(at);
+      if (!is_new(candidate, Family::none)) continue;
       refine(candidate, 2.0F, 4, coarse_, free);
       candidate.score = fine_score(candidate, 1.5F);
       const float value = candidate.score - cost_(candidate);
@@ -165,19 +168,20 @@ class Aligner {
   /// it counts once.
   [[nodiscard]] float fine_score(const OutlineAlignment& a, float sigma) {
     const float weight = static_cast<float>(fine_.stride);
-    const Projection project = project_.scaled(a.focal);
     const cv::Size cells = field_.elements[0].size();
     voted_.clear();
-    matched_.for_each(fine_, a, project, sigma, [&](std::size_t n, const MatchedEdges::Match& m) {
-      const Eigen::Vector2f foot = Eigen::Vector2f(m.u, m.v) - m.distance * m.gradient;
-      const int u = static_cast<int>(foot.x() / OutlineField::kCell_px),
-                v = static_cast<int>(foot.y() / OutlineField::kCell_px);
-      if (foot.x() < 0 || foot.y() < 0 || u >= cells.width || v >= cells.height) return;
-      const int way = m.facing > 0 ? fine_.way[n] : fine_.way[n] ^ 1;
+    matched_.match(fine_, a, project_.scaled(a.focal), sigma);
+    matched_.for_each([&](std::size_t n) {
+      const float foot_u = matched_.u[n] - matched_.distance[n] * matched_.slope_u[n],
+                  foot_v = matched_.v[n] - matched_.distance[n] * matched_.slope_v[n];
+      const int u = static_cast<int>(foot_u / OutlineField::kCell_px),
+                v = static_cast<int>(foot_v / OutlineField::kCell_px);
+      if (foot_u < 0 || foot_v < 0 || u >= cells.width || v >= cells.height) return;
+      const int way = matched_.facing[n] > 0 ? fine_.way[n] : fine_.way[n] ^ 1;
       const auto at = static_cast<std::size_t>((way * cells.height + v) * cells.width + u);
       if (elements_[at] <= 0) return;
       if (votes_[at] <= 0) voted_.push_back(at);
-      votes_[at] += weight * m.weight;
+      votes_[at] += weight * matched_.weight[n];
     });
     double sum = 0;
     for (const std::size_t at : voted_) {
@@ -192,33 +196,18 @@ class Aligner {
   void refine(OutlineAlignment& a, float sigma, int steps, const EdgeColumns& edges,
               const Parameters& free) {
     for (int step = 0; step < steps; ++step) {
-      Eigen::Matrix<float, kParameters + 1, kParameters> products;
-      products.setZero();
-      Padded residuals = Padded::Zero();
       const Projection project = project_.scaled(a.focal);
-      float matched = 0, squares = 0;  // of weights, of weighted squared residuals
-      matched_.for_each(edges, a, project, sigma, [&](std::size_t, const MatchedEdges::Match& m) {
-        const float x = m.x, y = m.y;
-        const float gu = m.gradient.x() * project.fx, gv = m.gradient.y() * project.fy;
-        Padded J;
-        J << (-gu * x * y - gv * (1 + y * y)) / project_.fx,
-            (gu * (1 + x * x) + gv * x * y) / project_.fx, (gv * x - gu * y) / project_.fx,
-            (gu * x + gv * y) / project_.fx, gu / m.z, gv / m.z, m.at_border ? 0.0F : -1.0F, 0.0F;
-        matched += m.weight, squares += m.weight * m.residual * m.residual;
-        const Padded weighted = m.weight * J;
-        for (int k = 0; k < kParameters; ++k) products.col(k) += weighted * J[k];
-        residuals -= m.weight * m.residual * J;
-      });
-      Eigen::Matrix<float, kParameters, kParameters> H = products.topRows<kParameters>();
-      Parameters b = residuals.head<kParameters>();
+      matched_.match(edges, a, project, sigma);
+      const auto [H_sum, b_sum, matched, squares] = add_up(matched_, project, project_.fx);
       const float scale = static_cast<float>(edges.stride);
-      H *= scale, b *= scale;
+      const float share = scale * matched / static_cast<float>(field_.length_px);
+      Parameters b = scale * b_sum;
+      Eigen::Matrix<float, kParameters, kParameters> H = scale * H_sum;
       const Parameters now = parameters_of(a);
       Parameters prior;
       prior << 1 / square(20.0F), 1 / square(20.0F), 1 / square(60.0F), 1 / square(20.0F),
           1 / square(0.03F), 1 / square(0.03F), 1 / square(4.0F);
-      prior[kOffset] *=
-          CorrectionCost::unexplained(scale * matched / static_cast<float>(field_.length_px));
+      prior[kOffset] *= CorrectionCost::unexplained(share);
       // Outlines that scatter about the edges, as ragged masks do, measure less than sharp ones.
       const float scatter = matched > 0 ? squares / (matched * square(sigma)) : 1.0F;
       prior *=
@@ -265,7 +254,7 @@ class Aligner {
   Projection project_;
   CorrectionCost cost_;
   float search_px_;
-  EdgeColumns coarse_, fine_;
+  EdgeColumns few_, coarse_, fine_;
   MatchedEdges matched_{field_};
   std::vector<float> elements_;     ///< the field's, of all ways behind each other
   std::vector<float> votes_;        ///< for each of them; 0 between two scores

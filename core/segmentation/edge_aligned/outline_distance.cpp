@@ -6,6 +6,7 @@
 #include "core/wide_vectors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <vector>
@@ -14,7 +15,10 @@ namespace mapscore {
 namespace {
 
 constexpr std::int32_t kUnits = 1 << 16;  // a pixel
-constexpr std::int32_t kStraight = 62587, kDiagonal = 89738;
+/// Steps are multiples of 4, so the lowest two bits of a way tell at which rim it began.
+constexpr std::int32_t kStraight = 62588, kDiagonal = 89740;
+constexpr std::int32_t kAtLater = 1, kAtEarlier = 2;  // beside a mask of a higher, a lower number
+constexpr std::int32_t kRim = 3;
 constexpr std::int32_t kUnknown = 1 << 29;  // 8192 pixels
 
 /// By value: std::min chooses between places, which do not become vectors.
@@ -22,23 +26,57 @@ inline std::int32_t least(std::int32_t a, std::int32_t b) {
   return a < b ? a : b;
 }
 
-/// Sets to 0 the ways of the pixels on a rim; `ways` begin at column 0.
+/// A row of pixels and its neighbours; beyond the image it repeats itself.
+struct OwnerRows {
+  const std::uint16_t *above, *row, *below;
+  int columns;
+
+  OwnerRows(const cv::Mat1w& owner, int v)
+      : above(owner[std::max(v - 1, 0)]),
+        row(owner[v]),
+        below(owner[std::min(v + 1, owner.rows - 1)]),
+        columns(owner.cols) {}
+
+  [[nodiscard]] std::array<std::uint16_t, 4> beside(int u) const {
+    return {row[std::max(u - 1, 0)], row[std::min(u + 1, columns - 1)], above[u], below[u]};
+  }
+};
+
+/// Marks the pixels of a row that are on a rim.
 MAPSCORE_WIDE_VECTORS
-void start_at_rim(const cv::Mat1w& owner, int v, std::int32_t* ways) {
-  const int last = owner.cols - 1;
-  const std::uint16_t* row = owner[v];
-  const std::uint16_t* above = v > 0 ? owner[v - 1] : row;
-  const std::uint16_t* below = v + 1 < owner.rows ? owner[v + 1] : row;
-  const auto start = [&](int u, std::uint16_t left, std::uint16_t right) {
+void mark_rim(const OwnerRows& rows, std::uint8_t* __restrict marks) {
+  const std::uint16_t *row = rows.row, *above = rows.above, *below = rows.below;
+  const int last = rows.columns - 1;
+  const auto mark = [&](int u, std::uint16_t left, std::uint16_t right) {
     const std::uint16_t own = row[u];
     const unsigned differ = static_cast<unsigned>(left ^ own) | static_cast<unsigned>(right ^ own) |
                             static_cast<unsigned>(above[u] ^ own) |
                             static_cast<unsigned>(below[u] ^ own);
-    ways[u] = own != 0 && differ != 0 ? 0 : ways[u];
+    marks[u] = static_cast<std::uint8_t>((own != 0) & (differ != 0));
   };
-  for (int u = 1; u < last; ++u) start(u, row[u - 1], row[u + 1]);
-  start(0, row[0], row[std::min(1, last)]);
-  start(last, row[std::max(last - 1, 0)], row[last]);
+  for (int u = 1; u < last; ++u) mark(u, row[u - 1], row[u + 1]);
+  mark(0, row[0], row[std::min(1, last)]);
+  mark(last, row[std::max(last - 1, 0)], row[last]);
+}
+
+/// What a way that begins on a rim pixel begins with: 0, or which mask is beside it.
+std::int32_t way_from_rim(const OwnerRows& rows, int u) {
+  const std::uint16_t own = rows.row[u];
+  std::int32_t way = 0;
+  for (const std::uint16_t other : rows.beside(u)) {
+    if (other > own) return kAtLater;
+    if (other != 0 && other < own) way = kAtEarlier;
+  }
+  return way;
+}
+
+/// Shortest ways along a row from two of its rim pixels to those from `begin` on; `left` and
+/// `right`: the ways to the pixels before and behind them.
+MAPSCORE_WIDE_VECTORS
+void fill_between(std::int32_t left, std::int32_t right, int begin, int end,
+                  std::int32_t* __restrict ways) {
+  for (int u = begin; u < end; ++u)
+    ways[u] = least(left + (u - begin + 1) * kStraight, right + (end - u) * kStraight);
 }
 
 /// Shortens ways that begin with a step to the neighbouring row.
@@ -54,45 +92,56 @@ MAPSCORE_WIDE_VECTORS
 void write_distances(const std::uint16_t* owner, const std::int32_t* ways, float* distances,
                      int columns) {
   for (int u = 0; u < columns; ++u) {
-    const float way = static_cast<float>(ways[u]) * (1.0F / kUnits);
+    const float way = static_cast<float>(ways[u] & ~kRim) * (1.0F / kUnits);
     const float inside = -0.5F - way, outside = way - 0.5F;
     distances[u] = owner[u] != 0 ? inside : outside;
   }
 }
 
-/// Shortens ways that come along the row from `first` on, `step` pixels at a time. Four at once
-/// wait for the one before them, not for each other.
-template <int kStep>
-void step_along(std::int32_t* first, int columns) {
-  std::int32_t before = kUnknown;
-  const auto at = [first](int n) -> std::int32_t& { return first[kStep * n]; };
-  int n = 0;
-  for (; n + 4 <= columns; n += 4) {
-    const std::int32_t a = at(n), b = least(at(n + 1), a + kStraight),
-                       c = least(at(n + 2), b + kStraight), d = least(at(n + 3), c + kStraight);
-    at(n) = least(a, before + kStraight);
-    at(n + 1) = least(b, before + 2 * kStraight);
-    at(n + 2) = least(c, before + 3 * kStraight);
-    before = at(n + 3) = least(d, before + 4 * kStraight);
+/// `beyond`: from borders, by distances from outlines.
+MAPSCORE_WIDE_VECTORS
+void write_beyond_borders(const std::uint16_t* owner, const std::int32_t* ways,
+                          const float* distances, float* __restrict beyond, int columns) {
+  for (int u = 0; u < columns; ++u) {
+    const std::int32_t rim = owner[u] != 0 ? ways[u] & kRim : 0;
+    const float from_border = rim == kAtLater ? distances[u] : -distances[u];
+    beyond[u] = rim != 0 ? from_border : kNoBorder;
   }
-  for (; n < columns; ++n) before = at(n) = least(at(n), before + kStraight);
+}
+
+/// Shortest ways along a row from its rim pixels.
+void step_along(const OwnerRows& rows, const Marks& rim, std::int32_t* ways) {
+  int begin = 0;
+  std::int32_t left = kUnknown;
+  const auto fill_until = [&](int end, std::int32_t right) {
+    fill_between(left, right, begin, end, ways);
+    if (end < rows.columns) ways[end] = right;
+    begin = end + 1, left = right;
+  };
+  for_each_marked(rim, [&](int u) { fill_until(u, way_from_rim(rows, u)); });
+  if (begin == 0)
+    std::fill_n(ways, rows.columns, kUnknown);
+  else
+    fill_until(rows.columns, kUnknown);
 }
 
 }  // namespace
 
 /// One field serves both sides: no shortest way crosses a rim, since of two pixels on either side
-/// of it one is on it, or they touch at a corner, and their common neighbours are nearer. Between
-/// the passes `distance` keeps the bits of the ways found so far.
-void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance) {
+/// of it one is on it, or they touch at a corner, and their common neighbours are nearer. The steps
+/// of a shortest way may come in any order: those along the row first, then those from row to row,
+/// all down or all up. Between the passes `distance` keeps the bits of the ways found so far.
+void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance, cv::Mat1f beyond_border) {
   const int columns = owner.cols;
   std::vector<std::int32_t> rows[2];  // the last and this one, a pixel wider on both sides
   for (auto& row : rows) row.assign(static_cast<std::size_t>(columns) + 2, kUnknown);
+  Marks rim(static_cast<std::size_t>(columns));
   for (int v = 0; v < owner.rows; ++v) {
     std::int32_t* ways = rows[v % 2].data() + 1;
-    std::fill_n(ways, columns, kUnknown);
+    const OwnerRows about(owner, v);
+    mark_rim(about, rim.data());
+    step_along(about, rim, ways);
     step_across(rows[1 - v % 2].data() + 1, ways, columns);
-    start_at_rim(owner, v, ways);
-    step_along<1>(ways, columns);
     std::transform(ways, ways + columns, distance[v], std::bit_cast<float, std::int32_t>);
   }
   for (auto& row : rows) std::fill(row.begin(), row.end(), kUnknown);
@@ -100,8 +149,9 @@ void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance) {
     std::int32_t* ways = rows[v % 2].data() + 1;
     std::transform(distance[v], distance[v] + columns, ways, std::bit_cast<std::int32_t, float>);
     step_across(rows[1 - v % 2].data() + 1, ways, columns);
-    step_along<-1>(ways + columns - 1, columns);
     write_distances(owner[v], ways, distance[v], columns);
+    if (!beyond_border.empty())
+      write_beyond_borders(owner[v], ways, distance[v], beyond_border[v], columns);
   }
 }
 

@@ -42,6 +42,11 @@ cv::Rect window_of(const std::vector<Detection>& detections, const cv::Size& ima
 struct Change {
   int u, v;
   std::uint16_t own, right, below;
+
+  /// Whether two masks touch here.
+  [[nodiscard]] bool is_border() const {
+    return own != 0 && ((right != 0 && right != own) || (below != 0 && below != own));
+  }
 };
 
 /// All of them, row by row.
@@ -108,33 +113,31 @@ void count_elements(const std::vector<Change>& changes, const cv::Size& image,
     field.elements[static_cast<std::size_t>(way)](v / OutlineField::kCell_px,
                                                   u / OutlineField::kCell_px) += 1.0F;
   };
-  cv::Mat1b& borders = field.near_borders;
-  const auto mark = [&](int v, int u) {
-    if (borders.empty()) borders = cv::Mat1b(field.elements[0].size(), std::uint8_t{0});
-    borders(v / OutlineField::kCell_px, u / OutlineField::kCell_px) = 1;
-  };
   for (const auto& [u, v, own, right, below] : changes) {
     if (right != own) {
       if (own != 0) count(Outward::right, v, u);
       if (right != 0) count(Outward::left, v, u + 1);
-      if (own != 0 && right != 0) mark(v, u);
     }
     if (below != own) {
       if (own != 0) count(Outward::down, v, u);
       if (below != 0) count(Outward::up, v + 1, u);
-      if (own != 0 && below != 0) mark(v, u);
     }
   }
-  constexpr int kCells = 2 * 16 / OutlineField::kCell_px + 3;
-  if (!borders.empty()) cv::dilate(borders, borders, cv::Mat1b(kCells, kCells, std::uint8_t{1}));
 }
 
-void fill_far(const cv::Mat1w& owner, cv::Mat1f& distance) {
+/// Fills distances beyond a window; `beyond_border` may be empty.
+void fill_far(const cv::Mat1w& owner, const cv::Rect& window, cv::Mat1f& distance,
+              cv::Mat1f& beyond_border) {
+  const auto fill = [&](int v, int begin, int end) {
+    for (int u = begin; u < end; ++u)
+      distance(v, u) = owner(v, u) != 0 ? -OutlineField::kFar : OutlineField::kFar;
+    if (!beyond_border.empty())
+      std::fill(beyond_border[v] + begin, beyond_border[v] + end, kNoBorder);
+  };
   for (int v = 0; v < owner.rows; ++v) {
-    const std::uint16_t* own = owner[v];
-    float* to = distance[v];
-    for (int u = 0; u < owner.cols; ++u)
-      to[u] = own[u] != 0 ? -OutlineField::kFar : OutlineField::kFar;
+    const bool is_within = v >= window.y && v < window.br().y;
+    fill(v, 0, is_within ? window.x : owner.cols);
+    if (is_within) fill(v, window.br().x, owner.cols);
   }
 }
 
@@ -213,17 +216,24 @@ OutlineField outline_field(const std::vector<Detection>& detections, int width_p
   if (has_grooves) changes = changes_of(field.owner);
   count_elements(changes, field.owner.size(), field);
   field.coarse = coarse_maps(field.elements);
-  const auto distance_of = [&](const cv::Mat1w& owner, int within_px) {
-    const cv::Rect window = window_of(detections, {width_px, height_px}, within_px);
-    cv::Mat1f distance(height_px, width_px);
-    const bool outlined = field.length_px > 0 && !window.empty();
-    if (!outlined || window.area() < height_px * width_px) fill_far(owner, distance);
-    if (outlined) measure_outline_distance(owner(window), distance(window));
-    return distance;
+  field.distance.create(height_px, width_px);
+  if (std::ranges::any_of(changes, &Change::is_border))
+    field.beyond_border.create(height_px, width_px);
+  const auto measure = [&](const cv::Mat1w& owner, int within_px, cv::Mat1f distance,
+                           cv::Mat1f beyond_border) {
+    cv::Rect window = window_of(detections, {width_px, height_px}, within_px);
+    if (field.length_px == 0) window = {};
+    fill_far(owner, window, distance, beyond_border);
+    if (!window.empty())
+      measure_outline_distance(owner(window), distance(window),
+                               beyond_border.empty() ? beyond_border : beyond_border(window));
   };
-  field.distance = distance_of(field.owner, reach_px);
-  field.mask_distance =
-      has_grooves ? distance_of(field.masks, std::min(reach_px, kVotes_px)) : field.distance;
+  measure(field.owner, reach_px, field.distance, field.beyond_border);
+  field.mask_distance = field.distance;
+  if (has_grooves) {
+    field.mask_distance = cv::Mat1f(height_px, width_px);
+    measure(field.masks, std::min(reach_px, kVotes_px), field.mask_distance, {});
+  }
   return field;
 }
 

@@ -23,8 +23,11 @@ struct OutlineField {
   cv::Mat1w owner;
   /// Pixels to the nearest outline of `owner`, negative inside a mask; +-kFar far from all masks.
   cv::Mat1f distance;
-  /// The same of the masks as they are, the distance within 16 px of them; the same images where
-  /// there is no groove.
+  /// Where that outline is a border of two masks, pixels from it, negative in the mask of the lower
+  /// number and positive in the other; kNoBorder elsewhere. Empty where no masks touch.
+  cv::Mat1f beyond_border;
+  /// Owner and distance of the masks as they are, the distance within 16 px of them; the same
+  /// images where there is no groove.
   cv::Mat1w masks;
   cv::Mat1f mask_distance;
   /// How well an edge that faces Outward d fits at quarter size, 0 to 255: 255 on outlines that
@@ -33,12 +36,7 @@ struct OutlineField {
   /// Number of outline elements that face each way, by cell. An element is a pair of neighbouring
   /// pixels on either side of an outline, counted for each owner.
   std::array<cv::Mat1f, 4> elements;
-  int length_px = 0;       ///< number of all outline elements
-  cv::Mat1b near_borders;  ///< by cell, 1 within 16 px of where two masks touch; empty without such
-
-  [[nodiscard]] bool is_near_border(int v, int u) const {
-    return !near_borders.empty() && near_borders(v / kCell_px, u / kCell_px) != 0;
-  }
+  int length_px = 0;  ///< number of all outline elements
 
   static constexpr float kFar = 1e4F;
   static constexpr int kGroove_px = 5;

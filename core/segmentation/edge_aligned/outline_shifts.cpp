@@ -137,9 +137,8 @@ class ShiftFinder {
 
   [[nodiscard]] float score(const Eigen::Vector2f& shift, float sigma) {
     float sum = 0;
-    matched_.for_each_shifted(
-        near_edges_, shift, offset_px_, sigma,
-        [&](std::size_t n, const EdgeMatch& m) { sum += near_[n].support * m.weight; });
+    matched_.match_shifted(near_edges_, shift, offset_px_, sigma);
+    matched_.for_each([&](std::size_t n) { sum += near_[n].support * matched_.weight[n]; });
     return sum;
   }
 
@@ -165,10 +164,10 @@ class ShiftFinder {
       weights_.resize(weights_.size() + tried_.size());
       new_edges_.push_back(near.edge->at, near.edge->outward, near.edge->strength);
     }
-    for (std::size_t k = 0; k < tried_.size(); ++k)
-      matched_.for_each_shifted(
-          new_edges_, tried_[k], offset_px_, kWide_px,
-          [&](std::size_t n, const EdgeMatch& m) { weights_[places[n] + k] = m.weight; });
+    for (std::size_t k = 0; k < tried_.size(); ++k) {
+      matched_.match_shifted(new_edges_, tried_[k], offset_px_, kWide_px);
+      matched_.for_each([&](std::size_t n) { weights_[places[n] + k] = matched_.weight[n]; });
+    }
   }
 
   [[nodiscard]] Eigen::Vector2f shift_of(float length) {
@@ -201,12 +200,13 @@ class ShiftFinder {
     for (int step = 0; step < 5; ++step) {
       Eigen::Matrix2f H = Eigen::Matrix2f::Identity() * (0.02F * length);
       Eigen::Vector2f b = -0.02F * length * (shift - start);
-      matched_.for_each_shifted(near_edges_, shift, offset_px_, kFine_px,
-                                [&](std::size_t n, const EdgeMatch& m) {
-                                  const float weight = near_[n].support * m.weight;
-                                  H += weight * m.gradient * m.gradient.transpose();
-                                  b -= weight * m.residual * m.gradient;
-                                });
+      matched_.match_shifted(near_edges_, shift, offset_px_, kFine_px);
+      matched_.for_each([&](std::size_t n) {
+        const Eigen::Vector2f slope(matched_.slope_u[n], matched_.slope_v[n]);
+        const float weight = near_[n].support * matched_.weight[n];
+        H += weight * slope * slope.transpose();
+        b -= weight * matched_.residual[n] * slope;
+      });
       shift += H.inverse() * b;
     }
     return shift;

@@ -5,16 +5,19 @@
 
 #include "core/wide_vectors.hpp"
 
+#include <opencv2/core/hal/intrin.hpp>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
+#include <vector>
 
 namespace mapscore {
 namespace {
 
-constexpr int kRounds = 3;
-
-/// Adds to each pixel what reaches it from the one before: `open`, in `gate`, of it.
+/// Adds to each pixel what reaches it from the one before, through links that are `open`, 0 to 1.
 MAPSCORE_WIDE_VECTORS
 void add_from(const float* before, const float* open, float feedback, float* row, int columns) {
   for (int u = 0; u < columns; ++u) row[u] += feedback * open[u] * before[u];
@@ -30,39 +33,108 @@ void add_back(const float* after, const float* open, float feedback, float* row,
   }
 }
 
-/// Recursive average along some rows at once: each waits for its pixel before, not for the others.
-template <int kRows>
-void smooth_rows(cv::Mat1f& votes, const cv::Mat1f& right, int v, float feedback) {
-  std::array<float*, kRows> row;
-  std::array<const float*, kRows> open;
-  for (int n = 0; n < kRows; ++n) {
-    const auto at = static_cast<std::size_t>(n);
-    row[at] = votes[v + n], open[at] = right[v + n];
+/// Copies an image of `rows` x `columns` values, row-major, whose rows begin so many steps apart,
+/// with rows and columns exchanged, in tiles that stay in the first cache.
+void transpose(const float* from, std::size_t from_step, int rows, int columns, float* to,
+               std::size_t to_step) {
+  const auto source = [=](int r, int c) {
+    return from + static_cast<std::size_t>(r) * from_step + c;
+  };
+  const auto target = [=](int r, int c) { return to + static_cast<std::size_t>(c) * to_step + r; };
+  constexpr int kTile = 32, kBlock = 4;
+  const auto copy_block = [&](int r, int c) {
+    std::array<cv::v_float32x4, kBlock> in, out;
+    for (int n = 0; n < kBlock; ++n) in[static_cast<std::size_t>(n)] = cv::v_load(source(r + n, c));
+    cv::v_transpose4x4(in[0], in[1], in[2], in[3], out[0], out[1], out[2], out[3]);
+    for (int n = 0; n < kBlock; ++n)
+      cv::v_store(target(r, c + n), out[static_cast<std::size_t>(n)]);
+  };
+  const auto copy_rest = [&](int r, int c) {
+    for (int i = r; i < std::min(r + kBlock, rows); ++i)
+      for (int j = c; j < std::min(c + kBlock, columns); ++j) *target(i, j) = *source(i, j);
+  };
+  for (int top = 0; top < rows; top += kTile)
+    for (int left = 0; left < columns; left += kTile)
+      for (int r = top; r < std::min(top + kTile, rows); r += kBlock)
+        for (int c = left; c < std::min(left + kTile, columns); c += kBlock)
+          r + kBlock <= rows&& c + kBlock <= columns ? copy_block(r, c) : copy_rest(r, c);
+}
+
+/// Some rows of an image side by side, a column behind the other: what goes along each row becomes
+/// one wide loop over all of them.
+class RowsTogether {
+ public:
+  static constexpr int kRows = 32;
+
+  explicit RowsTogether(int columns)
+      : columns_(columns), values_(static_cast<std::size_t>(columns * kRows), 0.0F) {}
+
+  /// Takes up to kRows rows of an image from row v on.
+  void read(const cv::Mat1f& image, int v) {
+    transpose(image[v], image.step1(), count(image, v), columns_, values_.data(), kRows);
   }
-  for (int u = 1; u < votes.cols; ++u)
-    for (std::size_t n = 0; n < kRows; ++n) row[n][u] += feedback * open[n][u - 1] * row[n][u - 1];
-  for (int u = votes.cols - 2; u >= 0; --u)
-    for (std::size_t n = 0; n < kRows; ++n) {
-      const float a = feedback * open[n][u];
-      row[n][u] = row[n][u] + a * (row[n][u + 1] - a * row[n][u]);
+
+  /// Gives them back.
+  void write(cv::Mat1f& image, int v) {
+    transpose(values_.data(), kRows, columns_, count(image, v), image[v], image.step1());
+  }
+
+  float* data() { return values_.data(); }
+
+ private:
+  static int count(const cv::Mat1f& image, int v) { return std::min(kRows, image.rows - v); }
+  int columns_;
+  std::vector<float> values_;
+};
+
+/// The same along rows, there and back. `open`, `votes`: columns of kRows values.
+MAPSCORE_WIDE_VECTORS
+void smooth_along(const float* open, float feedback, int columns, float* votes) {
+  constexpr int kRows = RowsTogether::kRows;
+  for (int u = 1; u < columns; ++u) {
+    const float *before = votes + (u - 1) * kRows, *from = open + (u - 1) * kRows;
+    float* const here = votes + u * kRows;
+    MAPSCORE_NO_OVERLAPS
+    for (int r = 0; r < kRows; ++r) here[r] += feedback * from[r] * before[r];
+  }
+  for (int u = columns - 2; u >= 0; --u) {
+    const float *after = votes + (u + 1) * kRows, *from = open + u * kRows;
+    float* const here = votes + u * kRows;
+    MAPSCORE_NO_OVERLAPS
+    for (int r = 0; r < kRows; ++r) {
+      const float a = feedback * from[r];
+      here[r] = here[r] + a * (after[r] - a * here[r]);
     }
+  }
 }
 
 }  // namespace
 
 void average_on_surfaces(cv::Mat1f& votes, const cv::Mat1f& right, const cv::Mat1f& down,
                          float reach_px) {
-  constexpr int kAtOnce = 8;
-  for (int round = 0; round < kRounds; ++round) {
-    const float feedback = std::exp(-1.0F / (reach_px * std::pow(0.5F, static_cast<float>(round))));
-    int v = 0;
-    for (; v + kAtOnce <= votes.rows; v += kAtOnce) smooth_rows<kAtOnce>(votes, right, v, feedback);
-    for (; v < votes.rows; ++v) smooth_rows<1>(votes, right, v, feedback);
-    for (v = 1; v < votes.rows; ++v)
+  const auto feedback_of = [&](float share) { return std::exp(-1.0F / (share * reach_px)); };
+  RowsTogether together(votes.cols), open(votes.cols);
+  const auto along_rows = [&](std::initializer_list<float> shares) {
+    for (int v = 0; v < votes.rows; v += RowsTogether::kRows) {
+      open.read(right, v);
+      together.read(votes, v);
+      for (const float share : shares)
+        smooth_along(open.data(), feedback_of(share), votes.cols, together.data());
+      together.write(votes, v);
+    }
+  };
+  const auto along_columns = [&](float share) {
+    const float feedback = feedback_of(share);
+    for (int v = 1; v < votes.rows; ++v)
       add_from(votes[v - 1], down[v - 1], feedback, votes[v], votes.cols);
-    for (v = votes.rows - 2; v >= 0; --v)
+    for (int v = votes.rows - 2; v >= 0; --v)
       add_back(votes[v + 1], down[v], feedback, votes[v], votes.cols);
-  }
+  };
+  along_rows({1.0F});
+  along_columns(1.0F);
+  along_columns(0.5F);
+  along_rows({0.5F, 0.25F});
+  along_columns(0.25F);
 }
 
 }  // namespace mapscore

@@ -14,41 +14,52 @@
 namespace mapscore {
 namespace {
 
-constexpr float kShare = 0.8F;        // of the votes; only where a surface goes on does it trim
-constexpr float kLeastVotes = 1e-4F;  // that reach a pixel
-/// Of a vote for another object: the share is reached by half of two objects' votes.
-constexpr float kOtherVote = (1 - kShare) / kShare;
+/// Against a mask, in votes for another: an object takes four fifths of what it shares with none.
+constexpr float kNoMask = 4.0F;
+constexpr float kLeastLead = 1e-4F;  // of votes that reach a pixel
 
-/// The votes of some pixels for detection `own`, and those for and against it.
+/// What the votes of some pixels count for detection `own`: as they are for it, negative for other
+/// masks and for none. It leads where an average of these is positive.
 MAPSCORE_WIDE_VECTORS
-void split_votes(const std::uint16_t* owner, const float* weight, std::uint16_t own, int count,
-                 float* __restrict own_votes, float* __restrict all_votes) {
+void find_leads(const std::uint16_t* owner, const float* weight, std::uint16_t own, int count,
+                float* __restrict leads) {
   for (int u = 0; u < count; ++u) {
-    own_votes[u] = owner[u] == own ? weight[u] : 0.0F;
-    all_votes[u] = (owner[u] != 0) & (owner[u] != own) ? kOtherVote * weight[u] : weight[u];
+    const float against = owner[u] != 0 ? -1.0F : -kNoMask;
+    leads[u] = weight[u] * (owner[u] == own ? 1.0F : against);
   }
 }
 
-/// Labels the pixels that have a depth where its own votes are enough of all.
+/// Labels the pixels that have a depth where an object leads.
 MAPSCORE_WIDE_VECTORS
-void label_row(const float* own_votes, const float* all_votes, const float* w, std::uint16_t own,
-               int count, std::uint16_t* __restrict labels) {
+void label_row(const float* leads, const float* w, std::uint16_t own, int count,
+               std::uint16_t* __restrict labels) {
   for (int u = 0; u < count; ++u) {
-    const bool is_own =
-        (own_votes[u] > kShare * all_votes[u]) & (all_votes[u] > kLeastVotes) & (w[u] > 0);
+    const bool is_own = (leads[u] > kLeastLead) & (w[u] > 0);
     labels[u] = is_own ? own : labels[u];
   }
+}
+
+/// Marks the pixels whose owner is not the one before, and the first.
+MAPSCORE_WIDE_VECTORS
+void mark_changes(const std::uint16_t* owner, int count, std::uint8_t* __restrict marks) {
+  marks[0] = 1;
+  for (int u = 1; u < count; ++u) marks[u] = static_cast<std::uint8_t>(owner[u] != owner[u - 1]);
 }
 
 /// The pixels of each owner.
 std::vector<cv::Rect> extents_of(const cv::Mat1w& owners, std::size_t detections) {
   std::vector<cv::Rect> extents(detections + 1);
+  Marks changes(static_cast<std::size_t>(owners.cols));
   for (int v = 0; v < owners.rows; ++v) {
     const std::uint16_t* owner = owners[v];
-    for (int u = 0, begin = 0; u < owners.cols; begin = u) {
-      while (u < owners.cols && owner[u] == owner[begin]) ++u;
+    mark_changes(owner, owners.cols, changes.data());
+    int begin = 0;
+    const auto end_at = [&](int u) {
       if (owner[begin] != 0) extents[owner[begin]] |= cv::Rect(begin, v, u - begin, 1);
-    }
+      begin = u;
+    };
+    for_each_marked(changes, end_at);
+    end_at(owners.cols);
   }
   return extents;
 }
@@ -70,14 +81,13 @@ cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
     const cv::Rect box = cv::Rect(extents[n].x - margin, extents[n].y - margin,
                                   extents[n].width + 2 * margin, extents[n].height + 2 * margin) &
                          cv::Rect({0, 0}, size);
-    cv::Mat1f own_votes(box.size()), all_votes(box.size());
+    cv::Mat1f leads(box.size());
     for (int v = 0; v < box.height; ++v)
-      split_votes(votes.owner[v + box.y] + box.x, votes.weight[v + box.y] + box.x, own, box.width,
-                  own_votes[v], all_votes[v]);
-    for (cv::Mat1f* some : {&own_votes, &all_votes})
-      average_on_surfaces(*some, on.right(box), on.down(box), static_cast<float>(reach_px));
+      find_leads(votes.owner[v + box.y] + box.x, votes.weight[v + box.y] + box.x, own, box.width,
+                 leads[v]);
+    average_on_surfaces(leads, on.right(box), on.down(box), static_cast<float>(reach_px));
     for (int v = 0; v < box.height; ++v)
-      label_row(own_votes[v], all_votes[v], edges.inverse_depth[v + box.y] + box.x, own, box.width,
+      label_row(leads[v], edges.inverse_depth[v + box.y] + box.x, own, box.width,
                 labels[v + box.y] + box.x);
   }
   return labels;

@@ -3,6 +3,7 @@
 
 #include "core/segmentation/edge_aligned/unseen_occluders.hpp"
 
+#include "core/segmentation/edge_aligned/near_holes.hpp"
 #include "core/wide_vectors.hpp"
 
 #include <opencv2/imgproc.hpp>
@@ -23,7 +24,11 @@ constexpr double kHeld = 0.8;                 // of a run of a hole that is a wh
 constexpr double kRunsOnFrom = 1.3;           // in least ranges: a farther surface does not run on,
 constexpr double kRunsOnUntil = 1.05;         // and one that does ends nearer than this
 constexpr std::array kBesideRim_px{1, 4, 7};  // where masks are compared; two of three must agree
-constexpr int kHoleRim_px = 11;               // near holes leave out 4 pixels at their rims
+constexpr int kHoleRim_px = 11;               // near holes leave out 4 or 5 at their rims
+constexpr int kRimCells = 7;
+/// Of each cell of a hole its first pixel is tried. What it covers of the colour image is marked as
+/// wide as to reach the marks of the next cells.
+constexpr int kMark_px = 2 * kHoleCell_px + 1;
 
 /// Rays of depth pixels beside each other in a row or a column, 1 m before their camera: the
 /// coordinate along that line, and the one across it, which is the same for all.
@@ -84,14 +89,14 @@ void keep_within(const std::uint16_t* masks, const float* distance, float offset
 }
 
 /// Keeps the pixels of a run that something near covers: those whose owner is also that of what
-/// lies far behind, or is `whole`. The others become -1.
+/// lies far behind, or is `whole`. The others become `none`.
 MAPSCORE_WIDE_VECTORS
-void keep_covered(const int* owners, const int* far_owners, int whole, int count,
+void keep_covered(const int* owners, const int* far_owners, int whole, int none, int count,
                   int* __restrict cells) {
   for (int n = 0; n < count; ++n) {
     const int owner = owners[n];
     const bool is_covered = (owner != 0) & ((owner == far_owners[n]) | (owner == whole));
-    cells[n] = is_covered ? cells[n] : -1;
+    cells[n] = is_covered ? cells[n] : none;
   }
 }
 
@@ -101,24 +106,27 @@ class Occluders {
             const OutlineAlignment& alignment, const Calibration& believed)
       : edges_(edges),
         cells_(cells),
-        owners_(field.masks.size()),
+        field_(field),
+        offset_px_(alignment.offset_px),
         mended_(alignment.corrected(believed)) {
     const Eigen::Vector3d& t = mended_.T_color_depth.translation();
     in_rows_ = std::abs(t.x()) >= std::abs(t.y());
-    const int length = in_rows_ ? edges.near_holes.cols : edges.near_holes.rows;
-    for (int n = 0; n < length; ++n) {
+    const int length = in_rows_ ? cells.cols : cells.rows;
+    for (int n = 0; n < length; n += kHoleCell_px) {
       const Eigen::Vector3d ray = ray_of(place(0, n));
       along_.push_back(in_rows_ ? ray.x() : ray.y());
     }
-    for (int v = 0; v < owners_.rows; ++v)
-      keep_within(field.masks[v], field.mask_distance[v], alignment.offset_px, owners_.cols,
-                  owners_[v]);
   }
 
   /// 255 on what near objects cover in the colour image.
   [[nodiscard]] cv::Mat1b covered() {
+    owners_.create(field_.masks.size());
+    for (int v = 0; v < owners_.rows; ++v)
+      keep_within(field_.masks[v], field_.mask_distance[v], offset_px_, owners_.cols, owners_[v]);
     const cv::Mat1b& hole = edges_.near_holes;
-    cv::Mat1b hit(owners_.size(), std::uint8_t{0});
+    // Behind the image a row for what covers nothing.
+    cv::Mat1b with_none(owners_.rows + 1, owners_.cols, std::uint8_t{0});
+    cv::Mat1b hit = with_none.rowRange(0, owners_.rows);
     const int lines = in_rows_ ? hole.rows : hole.cols, length = in_rows_ ? hole.cols : hole.rows;
     for (int line = 0; line < lines; ++line) {
       const auto is_hole = [&](int n) { return hole(place(line, n)) != 0; };
@@ -126,34 +134,44 @@ class Occluders {
         end = begin + 1;
         if (!is_hole(begin)) continue;
         while (end < length && is_hole(end)) ++end;
-        if (!is_shadow(line, begin, end)) cover(line, begin, end, hit);
+        if (!is_shadow(kHoleCell_px * line, kHoleCell_px * begin, kHoleCell_px * end))
+          cover(line, begin, end, hit[0]);
       }
     }
-    cv::dilate(hit, hit, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
-    return hit;
+    cv::Mat1b marked;
+    cv::dilate(hit, marked, cv::Mat(kMark_px, kMark_px, CV_8U, cv::Scalar(1)), {-1, -1}, 1,
+               cv::BORDER_CONSTANT | cv::BORDER_ISOLATED);
+    return marked;
   }
 
   /// 255 on surfaces that run on into a near hole.
   [[nodiscard]] cv::Mat1b running_on() const {
     const cv::Mat1f& w = edges_.inverse_depth;
-    cv::Mat1b beside, ends;
-    cv::dilate(edges_.near_holes, beside, cv::Mat(kHoleRim_px, kHoleRim_px, CV_8U, cv::Scalar(1)));
-    ends = (w > 1.0 / (kRunsOnUntil * mended_.range_min_m)) & beside;
-    cv::Mat1b marked = ends.clone();
+    cv::Mat1b beside;
+    cv::dilate(edges_.near_holes, beside, cv::Mat(kRimCells, kRimCells, CV_8U, cv::Scalar(1)));
+    cv::Mat1b marked(w.size(), std::uint8_t{0});
+    const auto least = static_cast<float>(1.0 / (kRunsOnUntil * mended_.range_min_m));
     const Eigen::Vector3d& t = mended_.T_color_depth.translation();
     const double nearness = (1 / kNearDepths.back() - 1 / kRunsOnFrom) / mended_.range_min_m;
     const int reach_px = static_cast<int>(std::ceil(mended_.depth.fx_px * t.norm() * nearness));
     const cv::Mat1f& on = in_rows_ ? edges_.right : edges_.down;
     const cv::Point next = place(0, 1);
-    for (int v = 0; v < w.rows; ++v)
-      for (int u = 0; u < w.cols; ++u) {
-        if (ends(v, u) == 0) continue;
-        cv::Point at(u, v);
-        for (int n = 0; n < reach_px && on(at) >= 1.0F; ++n) marked(at += next) = 255;
-        at = {u, v};
-        for (int n = 0; n < reach_px && (in_rows_ ? at.x : at.y) > 0 && on(at - next) >= 1.0F; ++n)
-          marked(at -= next) = 255;
-      }
+    const auto mark_from = [&](const cv::Point& end) {
+      if (!(w(end) > least)) return;
+      marked(end) = 255;
+      cv::Point at = end;
+      for (int n = 0; n < reach_px && on(at) >= 1.0F; ++n) marked(at += next) = 255;
+      at = end;
+      for (int n = 0; n < reach_px && (in_rows_ ? at.x : at.y) > 0 && on(at - next) >= 1.0F; ++n)
+        marked(at -= next) = 255;
+    };
+    std::vector<cv::Point> cells;
+    cv::findNonZero(beside & (edges_.near_holes == 0), cells);
+    const cv::Rect image({0, 0}, w.size());
+    for (const cv::Point& cell : cells)
+      for (const cv::Point& pixel :
+           {cv::Point(0, 0), cv::Point(1, 0), cv::Point(0, 1), cv::Point(1, 1)})
+        if (const cv::Point end = kHoleCell_px * cell + pixel; image.contains(end)) mark_from(end);
     return marked;
   }
 
@@ -221,9 +239,10 @@ class Occluders {
            }) > 1;
   }
 
-  /// Marks what the run [begin, end) of a hole covers.
-  void cover(int line, int begin, int end, cv::Mat1b& hit) {
-    const Eigen::Vector3d first = ray_of(place(line, begin));
+  /// Marks what the cells [begin, end) of a line of a hole cover.
+  void cover(int line, int begin, int end, std::uint8_t* hit) {
+    const int none = static_cast<int>(owners_.total());
+    const Eigen::Vector3d first = ray_of(kHoleCell_px * place(line, begin));
     const RunOfRays run{along_.data() + begin, in_rows_ ? first.y() : first.x(), in_rows_,
                         end - begin};
     find_owners(run, mended_.range_max_m, run_far_owners_);
@@ -232,9 +251,9 @@ class Occluders {
       const int middle = run_owners_[run_owners_.size() / 2];
       const auto held = static_cast<double>(std::ranges::count(run_owners_, middle));
       const int whole = held >= kHeld * run.count ? middle : 0;
-      keep_covered(run_owners_.data(), run_far_owners_.data(), whole, run.count, run_cells_.data());
-      for (const int cell : run_cells_)
-        if (cell >= 0) hit[0][cell] = 255;
+      keep_covered(run_owners_.data(), run_far_owners_.data(), whole, none, run.count,
+                   run_cells_.data());
+      for (const int cell : run_cells_) hit[cell] = 255;
     }
   }
 
@@ -247,14 +266,19 @@ class Occluders {
   }
 
   /// Whose mask holds a cell, as large as its object is; 0 for none.
-  [[nodiscard]] int owner_at(int cell) const { return cell < 0 ? 0 : owners_[0][cell]; }
+  [[nodiscard]] int owner_at(int cell) const {
+    return cell < 0 || field_.mask_distance[0][cell] >= offset_px_ ? 0 : field_.masks[0][cell];
+  }
 
   const DepthEdges& edges_;
   const cv::Mat1i& cells_;
-  cv::Mat1i owners_;  ///< by pixel of the colour image, of masks as large as their objects
+  const OutlineField& field_;
+  float offset_px_;
   Calibration mended_;
-  bool in_rows_ = true;        ///< the baseline
-  std::vector<double> along_;  ///< coordinates of rays along the baseline, at 1 m
+  bool in_rows_ = true;  ///< the baseline
+  std::vector<double>
+      along_;         ///< of each cell's first ray, its coordinate along the baseline, at 1 m
+  cv::Mat1i owners_;  ///< by pixel of the colour image, of masks as large as their objects
   // Of a run of a hole at a depth: pixels of the colour image, at last those that are covered, and
   // whose masks hold them.
   std::vector<int> run_cells_, run_owners_, run_far_owners_;

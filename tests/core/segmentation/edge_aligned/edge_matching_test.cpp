@@ -25,13 +25,13 @@ OutlineField two_masks(int gap) {
 
 EdgeMatch match(const OutlineField& field, float u, float outward, float offset_px = 0,
                 float against = 0.7F) {
-  return match_edge(field, {u, 20.3F}, {outward, 0}, 1, offset_px, 2, against);
+  return match_edge(field, {u, 20.3F, outward, 0, 1}, {offset_px, 2, against});
 }
 
 /// An edge on the border of two masks ends one of them: it counts fully, whichever way it faces.
 TEST(EdgeMatching, AnEdgeOnABorderOfTwoMasksCountsFully) {
   const OutlineField field = two_masks(0);
-  ASSERT_TRUE(field.is_near_border(20, 29));
+  ASSERT_LT(std::abs(field.beyond_border(20, 29)), 1);
   for (const float outward : {1.0F, -1.0F}) {
     const EdgeMatch on = match(field, 29.5F, outward);
     EXPECT_NEAR(on.weight, 1, 1e-4);
@@ -47,11 +47,11 @@ TEST(EdgeMatching, DistanceIsThatFromTheNearerObjectOnBothSides) {
   for (const float beyond : {-3.2F, -1.1F, -0.4F, 0.3F, 1.2F, 3.1F}) {
     const EdgeMatch right = match(field, 29.5F + beyond, 1);
     EXPECT_NEAR(right.residual, beyond, kCoarse * std::abs(beyond) + 0.01) << beyond;
-    EXPECT_NEAR(right.gradient.x(), 1, kCoarse) << beyond;
+    EXPECT_NEAR(right.slope_u, 1, kCoarse) << beyond;
     EXPECT_NEAR(right.weight, std::exp(-beyond * beyond / 8), kCoarse) << beyond;
     const EdgeMatch left = match(field, 29.5F - beyond, -1);
     EXPECT_NEAR(left.residual, beyond, kCoarse * std::abs(beyond) + 0.01) << beyond;
-    EXPECT_NEAR(left.gradient.x(), -1, kCoarse) << beyond;
+    EXPECT_NEAR(left.slope_u, -1, kCoarse) << beyond;
   }
 }
 
@@ -80,7 +80,7 @@ TEST(EdgeMatching, TheMiddleOfAGrooveIsABorder) {
 /// Beside an outline that is no border, what faces against it counts as the caller has it.
 TEST(EdgeMatching, AgainstAnOutlineCountsLess) {
   const OutlineField field = two_masks(6);
-  ASSERT_FALSE(field.is_near_border(20, 29));
+  ASSERT_TRUE(field.beyond_border.empty());
   EXPECT_NEAR(match(field, 29.5F, 1).weight, 1, kCoarse);
   EXPECT_NEAR(match(field, 29.5F, -1).weight, 0.7, kCoarse);
   EXPECT_EQ(match(field, 29.5F, -1, 0, 0).weight, 0);

@@ -5,6 +5,7 @@
 #include "core/random_stream.hpp"
 #include "core/segmentation/edge_aligned/matched_edges.hpp"
 #include "core/segmentation/edge_aligned/near_holes.hpp"
+#include "core/segmentation/edge_aligned/outline_equations.hpp"
 #include "core/segmentation/edge_aligned/pixel_votes.hpp"
 #include "core/segmentation/edge_aligned/settled_depth.hpp"
 #include "core/segmentation/edge_aligned/surface_vote.hpp"
@@ -127,7 +128,7 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
   EXPECT_GT(settled_pixels, 18 * 5000);
 }
 
-/// Edges matched many at once are those that match_edge gives one by one, bit by bit.
+/// Edges matched many at once are those that are matched one by one, bit by bit.
 TEST(EdgeAlignedFastSteps, MatchEdgesAsOneByOne) {
   const RoughScene scene(0.0, 2.0, {0.02, 0, 0});
   const OutlineField field = outline_field(scene.detections, 320, 240, 60);
@@ -149,33 +150,93 @@ TEST(EdgeAlignedFastSteps, MatchEdgesAsOneByOne) {
         a.offset_px = offset_px;
         const EdgeColumns columns(edges, most);
         MatchedEdges matched(field);
-        std::vector<MatchedEdges::Match> found(columns.x.size());
-        matched.for_each(columns, a, project, sigma_px,
-                         [&](std::size_t n, const MatchedEdges::Match& m) { found[n] = m; });
+        matched.match(columns, a, project, sigma_px);
+        ASSERT_EQ(matched.weight.size() % EdgeColumns::kTogether, 0);
         int weighed = 0;
-        for (std::size_t n = 0; n < found.size(); ++n) {
+        for (std::size_t n = 0; n < matched.weight.size(); ++n) {
+          if (n * columns.stride >= edges.size()) {
+            ASSERT_EQ(matched.weight[n], 0) << n;
+            continue;
+          }
           const ProjectedEdge& edge = edges[n * columns.stride];
           const Eigen::Vector3f p = a.rotation * edge.p + a.translation;
           const Eigen::Vector2f at = project(p);
           EdgeMatch plain;
           if (p.z() > MatchedEdges::kNearest_m)
-            plain = match_edge(field, at, edge.outward, edge.strength, offset_px, sigma_px);
-          ASSERT_EQ(found[n].weight, plain.weight) << n;
+            plain = plain_match(field,
+                                {at.x(), at.y(), edge.outward.x(), edge.outward.y(), edge.strength},
+                                {offset_px, sigma_px});
+          ASSERT_EQ(matched.weight[n], plain.weight) << n;
           if (!(plain.weight > 0)) continue;
           ++weighed, at_border += plain.at_border ? 1 : 0;
-          ASSERT_EQ(found[n].residual, plain.residual) << n;
-          ASSERT_EQ(found[n].distance, plain.distance) << n;
-          ASSERT_EQ(found[n].facing, plain.facing) << n;
-          ASSERT_EQ(found[n].gradient, plain.gradient) << n;
-          ASSERT_EQ(found[n].at_border, plain.at_border) << n;
-          ASSERT_EQ(Eigen::Vector2f(found[n].u, found[n].v), at) << n;
-          ASSERT_EQ(Eigen::Vector3f(found[n].x, found[n].y, found[n].z),
+          ASSERT_EQ(matched.residual[n], plain.residual) << n;
+          ASSERT_EQ(matched.distance[n], plain.distance) << n;
+          ASSERT_EQ(matched.facing[n], plain.facing) << n;
+          ASSERT_EQ(matched.slope_u[n], plain.slope_u) << n;
+          ASSERT_EQ(matched.slope_v[n], plain.slope_v) << n;
+          ASSERT_EQ(matched.slope_offset[n], plain.at_border ? 0 : -1) << n;
+          ASSERT_EQ(Eigen::Vector2f(matched.u[n], matched.v[n]), at) << n;
+          ASSERT_EQ(Eigen::Vector3f(matched.x[n], matched.y[n], matched.z[n]),
                     Eigen::Vector3f(p.x() / p.z(), p.y() / p.z(), p.z()))
               << n;
         }
         EXPECT_GT(weighed, 30);
       }
   EXPECT_GT(at_border, 20);
+}
+
+/// In sixteen lanes and single precision, and one by one in double precision.
+TEST(EdgeAlignedFastSteps, AddUpEdgesAsOneByOne) {
+  const RoughScene scene(0.0, 2.0, {0.02, 0, 0});
+  const OutlineField field = outline_field(scene.detections, 320, 240, 60);
+  const Projection project = Projection(scene.believed.color).scaled(1.01F);
+  const float focal_px = static_cast<float>(scene.believed.color.fx_px);
+  const Eigen::Isometry3f T = scene.believed.T_color_depth.cast<float>();
+  std::vector<ProjectedEdge> edges;
+  for (const DepthEdge& edge : find_depth_edges(scene.depth, scene.believed).steps)
+    edges.push_back({T * edge.point, direction_of(edge.outward),
+                     static_cast<std::uint8_t>(edge.outward), edge.strength});
+  MatchedEdges matched(field);
+  matched.match(EdgeColumns(edges, 800), {}, project, 5.0F);
+  Eigen::Matrix<double, kParameters, kParameters> H;
+  Eigen::Matrix<double, kParameters, 1> b;
+  H.setZero(), b.setZero();
+  double weights = 0, squares = 0;
+  matched.for_each([&](std::size_t n) {
+    // How the point moves with each parameter, in the colour camera's frame over its depth.
+    const double f = static_cast<double>(focal_px), x = static_cast<double>(matched.x[n]),
+                 y = static_cast<double>(matched.y[n]), z = static_cast<double>(matched.z[n]);
+    const Eigen::Vector3d p(x, y, 1);
+    const Eigen::Vector2d g(static_cast<double>(matched.slope_u[n] * project.fx),
+                            static_cast<double>(matched.slope_v[n] * project.fy));
+    const auto seen = [&](const Eigen::Vector3d& by) {
+      return g.dot(Eigen::Vector2d(by.x() - x * by.z(), by.y() - y * by.z()));
+    };
+    Eigen::Matrix<double, kParameters, 1> J;
+    J[kTurnX] = seen(Eigen::Vector3d::UnitX().cross(p)) / f;
+    J[kTurnY] = seen(Eigen::Vector3d::UnitY().cross(p)) / f;
+    J[kRoll] = seen(Eigen::Vector3d::UnitZ().cross(p)) / f;
+    J[kFocal] = g.dot(Eigen::Vector2d(x, y)) / f;
+    J[kShiftX] = seen(Eigen::Vector3d::UnitX()) / z;
+    J[kShiftY] = seen(Eigen::Vector3d::UnitY()) / z;
+    J[kOffset] = static_cast<double>(matched.slope_offset[n]);
+    const double w = static_cast<double>(matched.weight[n]),
+                 r = static_cast<double>(matched.residual[n]);
+    H += w * J * J.transpose();
+    b -= w * r * J;
+    weights += w, squares += w * r * r;
+  });
+  const NormalEquations sums = add_up(matched, project, focal_px);
+  EXPECT_GT(weights, 50);
+  EXPECT_NEAR(static_cast<double>(sums.matched), weights, 1e-5 * weights);
+  EXPECT_NEAR(static_cast<double>(sums.squares), squares, 1e-5 * squares);
+  for (int i = 0; i < kParameters; ++i) {
+    const double scale = std::sqrt(H(i, i));
+    EXPECT_NEAR(static_cast<double>(sums.b[i]), b[i], 1e-5 * scale * std::sqrt(squares)) << i;
+    for (int j = 0; j < kParameters; ++j)
+      EXPECT_NEAR(static_cast<double>(sums.H(i, j)), H(i, j), 1e-5 * scale * std::sqrt(H(j, j)))
+          << i << ' ' << j;
+  }
 }
 
 /// Also the pixel that lies in the colour image's first, beside one that lies beyond it.
@@ -188,7 +249,7 @@ TEST(EdgeAlignedFastSteps, ReadEachPixelOfAColourImageThatSeesLess) {
   DepthEdges edges;
   edges.inverse_depth = cv::Mat1f(240, 320, 0.5F);
   edges.right = edges.down = cv::Mat1f(240, 320, 1.0F);
-  edges.near_holes = cv::Mat1b(240, 320, std::uint8_t{0});
+  edges.near_holes = cv::Mat1b(120, 160, std::uint8_t{0});
   Detection all;
   all.box = {0, 0, 99, 79};
   all.mask = cv::Mat1b(80, 100, std::uint8_t{255});

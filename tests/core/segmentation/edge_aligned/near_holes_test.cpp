@@ -22,7 +22,8 @@ bool any_near(const cv::Mat1f& inverse) {
 TEST(NearHoles, StandOnTheLowerBorder) {
   const cv::Rect before_the_robot(30, 20, 20, 40);
   const cv::Mat1b near = near_holes(wall_with(before_the_robot), 0.6);
-  const cv::Rect middle(34, 24, 12, 36);  // without 4 pixels inside of the hole's edges
+  ASSERT_EQ(near.size(), cv::Size(40, 30));
+  const cv::Rect middle(17, 12, 6, 18);  // cells, without 2 inside of the hole's edges
   EXPECT_EQ(cv::countNonZero(near), middle.area());
   EXPECT_EQ(cv::countNonZero(near(middle) == kNearHole), middle.area());
 }
@@ -54,8 +55,19 @@ TEST(NearHoles, ATableThatRunsUnderTheCameraGoesOnInThem) {
 }
 
 TEST(NearHoles, NarrowOnesAreShadows) {
-  EXPECT_FALSE(any_near(wall_with({30, 20, 8, 40})));
-  EXPECT_TRUE(any_near(wall_with({30, 20, 9, 40})));
+  EXPECT_FALSE(any_near(wall_with({30, 20, 9, 40})));
+  EXPECT_TRUE(any_near(wall_with({30, 20, 10, 40})));
+}
+
+/// The last column and the last row of such an image are cells as well.
+TEST(NearHoles, AreFoundInImagesOfOddSize) {
+  cv::Mat1f inverse(61, 81, 1.0F / 3.0F);
+  inverse(cv::Rect(60, 30, 21, 31)).setTo(0.0F);
+  const cv::Mat1b near = near_holes(inverse, 0.6);
+  ASSERT_EQ(near.size(), cv::Size(41, 31));
+  EXPECT_EQ(near(30, 40), kNearHole);
+  inverse(60, 80) = 1.0F / 3.0F;
+  EXPECT_EQ(near_holes(inverse, 0.6)(30, 40), 0);
 }
 
 }  // namespace

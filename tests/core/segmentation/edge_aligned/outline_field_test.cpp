@@ -48,7 +48,7 @@ float plain_distance(const cv::Mat1w& owner, int v, int u) {
       if (inside ? owner(r, c) != 0 && !on_rim(owner, r, c) : owner(r, c) == 0) continue;
       const int dv = std::abs(r - v), du = std::abs(c - u);
       nearest = std::min(nearest,
-                         89738 * std::min(dv, du) + 62587 * (std::max(dv, du) - std::min(dv, du)));
+                         89740 * std::min(dv, du) + 62588 * (std::max(dv, du) - std::min(dv, du)));
     }
   const float way = static_cast<float>(nearest) / 65536.0F;
   return inside ? -0.5F - way : way - 0.5F;
@@ -65,6 +65,53 @@ TEST(OutlineDistance, IsTheWayToTheNearestPixelOnTheOtherSide) {
         ASSERT_EQ(distance(v, u), plain_distance(owner, v, u))
             << "round " << round << ", pixel " << u << ' ' << v;
   }
+}
+
+/// Of the nearest rim pixels of its mask: whether any touches a mask of a higher number, and if
+/// none does, one of a lower number.
+float plain_beyond_border(const cv::Mat1w& owner, int v, int u) {
+  if (owner(v, u) == 0) return kNoBorder;
+  const float distance = plain_distance(owner, v, u);
+  bool at_none = false, at_later = false;
+  for (int r = 0; r < owner.rows; ++r)
+    for (int c = 0; c < owner.cols; ++c) {
+      if (owner(r, c) == 0 || !on_rim(owner, r, c)) continue;
+      const int dv = std::abs(r - v), du = std::abs(c - u);
+      const int way = 89740 * std::min(dv, du) + 62588 * (std::max(dv, du) - std::min(dv, du));
+      if (-0.5F - static_cast<float>(way) / 65536.0F != distance) continue;
+      std::uint16_t lowest = 65535, highest = 0;
+      for (const auto& [y, x] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}}) {
+        const std::uint16_t other =
+            owner(std::clamp(r + y, 0, owner.rows - 1), std::clamp(c + x, 0, owner.cols - 1));
+        if (other == 0) continue;
+        lowest = std::min(lowest, other), highest = std::max(highest, other);
+      }
+      if (highest > owner(r, c))
+        at_later = true;
+      else if (lowest >= owner(r, c))
+        at_none = true;
+    }
+  // Of ways of one length that at no border counts first, then that at a later mask.
+  return at_none ? kNoBorder : at_later ? distance : -distance;
+}
+
+TEST(OutlineDistance, GoesOnBeyondABorderOfTwoMasks) {
+  RandomStream stream(24, "owners");
+  int at_border = 0;
+  for (int round = 0; round < 60; ++round) {
+    const cv::Mat1w owner = random_owners(stream);
+    if (cv::countNonZero(owner) == 0) continue;
+    cv::Mat1f distance(owner.rows, owner.cols), beyond(owner.rows, owner.cols);
+    measure_outline_distance(owner, distance, beyond);
+    for (int v = 0; v < owner.rows; ++v)
+      for (int u = 0; u < owner.cols; ++u) {
+        const bool has_rim = distance(v, u) > -8000;
+        ASSERT_EQ(beyond(v, u), has_rim ? plain_beyond_border(owner, v, u) : kNoBorder)
+            << "round " << round << ", pixel " << u << ' ' << v;
+        at_border += beyond(v, u) < kNoBorder ? 1 : 0;
+      }
+  }
+  EXPECT_GT(at_border, 300);
 }
 
 TEST(OutlineDistance, IsWhatTwoDistanceTransformsGive) {
@@ -84,7 +131,7 @@ TEST(OutlineDistance, IsWhatTwoDistanceTransformsGive) {
     for (int v = 0; v < owner.rows; ++v)
       for (int u = 0; u < owner.cols; ++u) {
         const float expected = owner(v, u) != 0 ? -0.5F - within(v, u) : beyond(v, u) - 0.5F;
-        ASSERT_NEAR(distance(v, u), expected, 2e-3F) << u << ' ' << v;
+        ASSERT_NEAR(distance(v, u), expected, 5e-3F) << u << ' ' << v;
       }
   }
 }

@@ -90,8 +90,8 @@ class PlainSteps {
     const int p = line.last_before(q), middle = (p + q) / 2;
     const float farthest = static_cast<float>(1.0 / (0.9 * believed_.range_max_m));
     if (q - p <= kGap) return;
-    if ((line.row ? edges_.near_holes(line.index, middle)
-                  : edges_.near_holes(middle, line.index)) == kNearHole) {
+    if ((line.row ? edges_.near_holes(line.index / 2, middle / 2)
+                  : edges_.near_holes(middle / 2, line.index / 2)) == kNearHole) {
       if (!rules_.shadow_ends || !line.row || !is_noisy(edges_) || p < 0 || q == line.size())
         return;
       const float step = line.at(q) - line.at(p);
@@ -222,7 +222,9 @@ class PlainShifts {
 
   [[nodiscard]] EdgeMatch match(const Placed& edge, const Eigen::Vector2f& shift,
                                 float sigma) const {
-    return match_edge(field_, edge.at + shift, edge.outward, edge.strength, offset_px_, sigma);
+    const Eigen::Vector2f at = edge.at + shift;
+    return plain_match(field_, {at.x(), at.y(), edge.outward.x(), edge.outward.y(), edge.strength},
+                       {offset_px_, sigma});
   }
 
   [[nodiscard]] float score(const Eigen::Vector2f& shift, float sigma) const {
@@ -239,8 +241,8 @@ class PlainShifts {
       for (const Placed& edge : near_) {
         const EdgeMatch m = match(edge, shift, 1.5F);
         const float weight = edge.support * m.weight;
-        H += weight * m.gradient * m.gradient.transpose();
-        b -= weight * m.residual * m.gradient;
+        H += weight * m.gradient() * m.gradient().transpose();
+        b -= weight * m.residual * m.gradient();
       }
       shift += H.inverse() * b;
     }
@@ -273,6 +275,40 @@ class PlainShifts {
 };
 
 }  // namespace
+
+EdgeMatch plain_match(const OutlineField& field, const EdgeAt& edge, const MatchRules& rules) {
+  EdgeMatch match;
+  const int columns = field.distance.cols, rows = field.distance.rows;
+  const auto u = static_cast<int>(edge.u), v = static_cast<int>(edge.v);
+  if (!(edge.u >= 0 && edge.v >= 0 && edge.u < static_cast<float>(columns - 1) &&
+        edge.v < static_cast<float>(rows - 1)))
+    return match;
+  cv::Mat1f image = field.distance;
+  if (!field.beyond_border.empty()) {
+    const cv::Mat1f borders = field.beyond_border(cv::Rect(u, v, 2, 2));
+    match.at_border = cv::countNonZero(borders == kNoBorder) == 0;
+    if (match.at_border) image = field.beyond_border;
+  }
+  const float a = edge.u - static_cast<float>(u), b = edge.v - static_cast<float>(v);
+  const float upper = (1 - a) * image(v, u) + a * image(v, u + 1);
+  const float lower = (1 - a) * image(v + 1, u) + a * image(v + 1, u + 1);
+  Eigen::Vector2f slope(
+      (1 - b) * (image(v, u + 1) - image(v, u)) + b * (image(v + 1, u + 1) - image(v + 1, u)),
+      (1 - a) * (image(v + 1, u) - image(v, u)) + a * (image(v + 1, u + 1) - image(v, u + 1)));
+  match.distance = (1 - b) * upper + b * lower;
+  match.facing = slope.x() * edge.outward_u + slope.y() * edge.outward_v;
+  if (match.at_border && match.facing < 0) {  // the object of the higher number ends here
+    match.distance = -match.distance, match.facing = -match.facing, slope = -slope;
+  }
+  match.slope_u = slope.x(), match.slope_v = slope.y();
+  match.residual = match.at_border ? match.distance : match.distance - rules.offset_px;
+  if (std::abs(match.residual) > 3 * rules.sigma_px) return match;
+  if (match.at_border && slope.squaredNorm() >= kMostSlope) return match;
+  match.weight =
+      edge.strength * (match.facing > 0 ? match.facing : -rules.against * match.facing) *
+      exp_of_part(-0.5F / (rules.sigma_px * rules.sigma_px) * (match.residual * match.residual));
+  return match;
+}
 
 DepthEdges plain_steps(const DepthEdges& given, const Calibration& believed,
                        const DepthEdgeRules& rules) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/segmentation/edge_aligned/depth_edges.hpp"
+#include "core/segmentation/edge_aligned/edge_matching.hpp"
 #include "core/segmentation/edge_aligned/outline_alignment.hpp"
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 #include "core/segmentation/edge_aligned/outline_shifts.hpp"
@@ -18,6 +19,9 @@ namespace mapscore::testing {
 /// Continuity and steps of an image whose inverse depth, noise and near holes are given.
 [[nodiscard]] DepthEdges plain_steps(const DepthEdges& given, const Calibration& believed,
                                      const DepthEdgeRules& rules = {});
+
+[[nodiscard]] EdgeMatch plain_match(const OutlineField& field, const EdgeAt& edge,
+                                    const MatchRules& rules);
 
 [[nodiscard]] OutlineShifts plain_shifts(const DepthEdges& edges, const OutlineField& field,
                                          const OutlineAlignment& alignment,

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace mapscore::testing {
@@ -72,11 +73,10 @@ void average_along(cv::Mat1f& votes, const cv::Mat1f& open, bool rows, float fee
 }
 
 void spread_votes(cv::Mat1f& votes, const cv::Mat1f& right, const cv::Mat1f& down, float reach_px) {
-  for (int round = 0; round < 3; ++round) {
-    const float feedback = std::exp(-1.0F / (reach_px * std::pow(0.5F, static_cast<float>(round))));
-    average_along(votes, right, true, feedback);
-    average_along(votes, down, false, feedback);
-  }
+  const std::pair<bool, float> passes[]{{true, 1.0F}, {false, 1.0F}, {false, 0.5F},
+                                        {true, 0.5F}, {true, 0.25F}, {false, 0.25F}};
+  for (const auto& [rows, share] : passes)
+    average_along(votes, rows ? right : down, rows, std::exp(-1.0F / (share * reach_px)));
 }
 
 /// How much a surface rises to the next pixel.
@@ -170,16 +170,17 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field
     box =
         cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
         cv::Rect({0, 0}, w.size());
-    cv::Mat1f own(box.size(), 0.0F), all = weight(box).clone();
-    weight(box).copyTo(own, own_mask(box));
-    const float other = (1 - 0.8F) / 0.8F;
-    cv::Mat1f others = other * all;
-    others.copyTo(all, in_mask(box) & ~own_mask(box));
-    spread_votes(own, on.right(box), on.down(box), reach_px);
-    spread_votes(all, on.right(box), on.down(box), reach_px);
+    cv::Mat1f leads(box.size());
+    for (int v = 0; v < box.height; ++v)
+      for (int u = 0; u < box.width; ++u) {
+        const cv::Point at = box.tl() + cv::Point(u, v);
+        const bool has_mask = in_mask(at) != 0, is_own = own_mask(at) != 0;
+        leads(v, u) = (is_own ? 1.0F : has_mask ? -1.0F : -4.0F) * weight(at);
+      }
+    spread_votes(leads, on.right(box), on.down(box), reach_px);
     for (int v = 0; v < box.height; ++v)
       for (int u = 0; u < box.width; ++u)
-        if (own(v, u) > 0.8F * all(v, u) && all(v, u) > 1e-4F && w(v + box.y, u + box.x) > 0)
+        if (leads(v, u) > 1e-4F && w(v + box.y, u + box.x) > 0)
           labels(v + box.y, u + box.x) = static_cast<std::uint16_t>(n);
   }
   return labels;

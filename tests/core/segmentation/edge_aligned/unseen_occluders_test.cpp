@@ -113,7 +113,8 @@ TEST(UnseenOccluders, DoNotHideTheSurfaceThatRunsOn) {
   DepthEdges edges;
   edges.inverse_depth = cv::Mat1f(240, 320);
   edges.right = edges.down = cv::Mat1f(240, 320, 1.0F);
-  edges.near_holes = cv::Mat1b(240, 320, std::uint8_t{0});
+  edges.near_holes = cv::Mat1b(120, 160, std::uint8_t{0});
+  edges.near_holes.colRange(103, 160).setTo(255);
   OutlineField field;
   field.masks = cv::Mat1w(240, 320, std::uint16_t{1});
   field.mask_distance = cv::Mat1f(240, 320, -OutlineField::kFar);
@@ -122,7 +123,6 @@ TEST(UnseenOccluders, DoNotHideTheSurfaceThatRunsOn) {
     for (int u = 0; u < 320; ++u) {
       const double z_m = 0.6 + 0.002 * (200 - u);
       edges.inverse_depth(v, u) = u <= 200 ? static_cast<float>(1 / z_m) : 0.0F;
-      edges.near_holes(v, u) = u > 204 ? 255 : 0;
       const Eigen::Vector2d at =
           camera.color.project(camera.T_color_depth * camera.depth.back_project(u, v, z_m));
       cells(v, u) = u <= 200 && at.x() >= 0 ? v * 320 + static_cast<int>(at.x() + 0.5) : -1;
@@ -134,19 +134,19 @@ TEST(UnseenOccluders, DoNotHideTheSurfaceThatRunsOn) {
   EXPECT_EQ(cv::countNonZero(hidden.colRange(196, 201)), 0);
 }
 
-/// 255 on the colour pixels that a hole of an exact image covers: pixel by pixel, in lines along
-/// the baseline, as the definition says.
+/// 255 on the colour pixels that a hole of an exact image covers: by the first pixel of each of its
+/// cells, one by one, in lines along the baseline, as the definition says.
 cv::Mat1b plainly_covered(const cv::Mat1b& hole, const OutlineField& field,
                           const Calibration& camera) {
   cv::Mat1b covered(field.masks.size(), std::uint8_t{0});
   const Eigen::Vector3d& t = camera.T_color_depth.translation();
   const bool in_rows = std::abs(t.x()) >= std::abs(t.y());
   const int lines = in_rows ? hole.rows : hole.cols, length = in_rows ? hole.cols : hole.rows;
-  const auto pixel_of = [&](int line, int n) {
+  const auto cell_of = [&](int line, int n) {
     return in_rows ? cv::Point(n, line) : cv::Point(line, n);
   };
   const auto place_of = [&](int line, int n, double z_m) {
-    const cv::Point pixel = pixel_of(line, n);
+    const cv::Point pixel = 2 * cell_of(line, n);
     const Eigen::Vector2d at = camera.color.project(
         camera.T_color_depth * camera.depth.back_project(pixel.x, pixel.y, z_m));
     const cv::Point place(static_cast<int>(std::floor(at.x() + 0.5)),
@@ -159,9 +159,9 @@ cv::Mat1b plainly_covered(const cv::Mat1b& hole, const OutlineField& field,
   };
   for (int line = 0; line < lines; ++line)
     for (int n = 0, begin = 0; n < length; ++n) {
-      if (hole(pixel_of(line, n)) == 0) begin = n + 1;
-      const bool ends = n + 1 == length || hole(pixel_of(line, n + 1)) == 0;
-      if (hole(pixel_of(line, n)) == 0 || !ends) continue;
+      if (hole(cell_of(line, n)) == 0) begin = n + 1;
+      const bool ends = n + 1 == length || hole(cell_of(line, n + 1)) == 0;
+      if (hole(cell_of(line, n)) == 0 || !ends) continue;
       for (const double share : {1.0, 0.85, 0.7, 0.6, 0.5}) {
         const double z_m = share * camera.range_min_m;
         const int middle = owner_of(line, (begin + n + 1) / 2, z_m);
@@ -175,7 +175,7 @@ cv::Mat1b plainly_covered(const cv::Mat1b& hole, const OutlineField& field,
         }
       }
     }
-  cv::dilate(covered, covered, cv::Mat1b(3, 3, std::uint8_t{1}));
+  cv::dilate(covered, covered, cv::Mat1b(5, 5, std::uint8_t{1}));
   return covered;
 }
 
@@ -206,26 +206,27 @@ TEST(UnseenOccluders, CoverWhatEachPixelOfAHoleCovers) {
     edges.right = edges.down = cv::Mat1f(240, 320, 1.0F);
     OutlineField field;
     field.masks = cv::Mat1w(240, 320, std::uint16_t{0});
-    cv::Mat1b holes(240, 320, std::uint8_t{0});
+    cv::Mat1b holes(120, 160, std::uint8_t{0}), no_depth;
     for (int n = 1; n < 6; ++n) {
       const cv::Rect mask(below(250), below(150), 10 + below(60), 90);
       field.masks(mask).setTo(n);
-      holes(cv::Rect(below(250), below(150), 3 + below(60), 90)).setTo(255);
+      holes(cv::Rect(below(125), below(75), 2 + below(30), 45)).setTo(255);
     }
     field.mask_distance = cv::Mat1f(240, 320, 3.0F);
     field.mask_distance.setTo(-3.0F, field.masks != 0);
-    edges.inverse_depth.setTo(0.0F, holes);
+    cv::resize(holes, no_depth, {320, 240}, 0, 0, cv::INTER_NEAREST);
+    edges.inverse_depth.setTo(0.0F, no_depth);
     cv::Mat1i cells(240, 320);
     for (int v = 0; v < 240; ++v)
-      for (int u = 0; u < 320; ++u) cells(v, u) = holes(v, u) == 0 ? v * 320 + u : -1;
-    edges.near_holes = cv::Mat1b(240, 320, std::uint8_t{0});
+      for (int u = 0; u < 320; ++u) cells(v, u) = no_depth(v, u) == 0 ? v * 320 + u : -1;
+    edges.near_holes = cv::Mat1b(120, 160, std::uint8_t{0});
     cv::Mat1b expected = unseen_occluders(edges, cells, field, {}, camera);
     edges.near_holes = holes;
     const cv::Mat1b covered = plainly_covered(holes, field, camera);
-    expected.setTo(255, covered & (holes == 0));
+    expected.setTo(255, covered & (no_depth == 0));
     const cv::Mat1b hidden = unseen_occluders(edges, cells, field, {}, camera);
     EXPECT_EQ(cv::countNonZero(hidden != expected), 0) << trial;
-    covered_pixels += cv::countNonZero(covered & (holes == 0));
+    covered_pixels += cv::countNonZero(covered & (no_depth == 0));
   }
   EXPECT_GT(covered_pixels, 24 * 300);
 }
