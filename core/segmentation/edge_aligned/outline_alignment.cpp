@@ -24,7 +24,8 @@ namespace {
 using Family = AlignmentStart::Family;
 
 constexpr std::size_t kFewEdges = 200, kCoarseEdges = 800, kFineEdges = 4000;
-constexpr float kSame_px = 0.1F, kSame_m = 0.0004F;  // between starts that are one
+constexpr float kOne_px = 0.4F, kOne_m = 0.0016F;    // between starts that are one
+constexpr float kStep_px = 0.1F, kStep_m = 0.0004F;  // of a step that changes nothing to speak of
 
 constexpr float kLeastScore = 0.15F;     // below, the edges show nothing of the masks,
 constexpr float kLeastLength_px = 100;   // unless they lie on so much of a long outline
@@ -118,7 +119,7 @@ class Aligner {
     const auto is_new = [&](const AlignmentStart& start, Family family) {
       const Parameters at = parameters_of(start);
       for (const auto& [other, place] : met)
-        if (other == family && are_same(at, place)) return false;
+        if (other == family && are_same(at, place, kOne_px, kOne_m)) return false;
       met.emplace_back(family, at);
       return true;
     };
@@ -226,7 +227,7 @@ class Aligner {
       a.translation = R * a.translation + Eigen::Vector3f(change[kShiftX], change[kShiftY], 0);
       a.focal = std::clamp(a.focal * std::exp(change[kFocal] / project_.fx), 0.5F, 2.0F);
       a.offset_px = std::clamp(a.offset_px + change[kOffset], -6.0F, 6.0F);
-      if (are_same(change, Parameters::Zero())) return;
+      if (are_same(change, Parameters::Zero(), kStep_px, kStep_m)) return;
     }
   }
 
@@ -238,10 +239,10 @@ class Aligner {
     return all;
   }
 
-  /// Two starts from which the same fit is found.
-  [[nodiscard]] static bool are_same(const Parameters& a, const Parameters& b) {
-    Parameters least = Parameters::Constant(kSame_px);
-    least[kShiftX] = least[kShiftY] = kSame_m;
+  [[nodiscard]] static bool are_same(const Parameters& a, const Parameters& b, float within_px,
+                                     float within_m) {
+    Parameters least = Parameters::Constant(within_px);
+    least[kShiftX] = least[kShiftY] = within_m;
     return ((a - b).cwiseAbs().array() < least.array()).all();
   }
 
