@@ -26,9 +26,10 @@ constexpr double kRunsOnUntil = 1.05;         // and one that does ends nearer t
 constexpr std::array kBesideRim_px{1, 4, 7};  // where masks are compared; two of three must agree
 constexpr int kHoleRim_px = 11;               // near holes leave out 4 or 5 at their rims
 constexpr int kRimCells = 7;
-/// Of each cell of a hole its first pixel is tried. What it covers of the colour image is marked as
-/// wide as to reach the marks of the next cells.
-constexpr int kMark_px = 2 * kHoleCell_px + 1;
+/// Of a hole's cells every second in both ways is tried, by its first pixel. What it covers of the
+/// colour image is marked as wide as to reach the marks of the next, and the hole's own rim.
+constexpr int kTried = 2;
+constexpr int kMark_px = 2 * kTried * kHoleCell_px + 1;
 
 /// Rays of depth pixels beside each other in a row or a column, 1 m before their camera: the
 /// coordinate along that line, and the one across it, which is the same for all.
@@ -112,7 +113,7 @@ class Occluders {
     const Eigen::Vector3d& t = mended_.T_color_depth.translation();
     in_rows_ = std::abs(t.x()) >= std::abs(t.y());
     const int length = in_rows_ ? cells.cols : cells.rows;
-    for (int n = 0; n < length; n += kHoleCell_px) {
+    for (int n = 0; n < length; n += kTried * kHoleCell_px) {
       const Eigen::Vector3d ray = ray_of(place(0, n));
       along_.push_back(in_rows_ ? ray.x() : ray.y());
     }
@@ -128,7 +129,7 @@ class Occluders {
     cv::Mat1b with_none(owners_.rows + 1, owners_.cols, std::uint8_t{0});
     cv::Mat1b hit = with_none.rowRange(0, owners_.rows);
     const int lines = in_rows_ ? hole.rows : hole.cols, length = in_rows_ ? hole.cols : hole.rows;
-    for (int line = 0; line < lines; ++line) {
+    for (int line = 0; line < lines; line += kTried) {
       const auto is_hole = [&](int n) { return hole(place(line, n)) != 0; };
       for (int begin = 0, end = 0; begin < length; begin = end) {
         end = begin + 1;
@@ -242,9 +243,11 @@ class Occluders {
   /// Marks what the cells [begin, end) of a line of a hole cover.
   void cover(int line, int begin, int end, std::uint8_t* hit) {
     const int none = static_cast<int>(owners_.total());
-    const Eigen::Vector3d first = ray_of(kHoleCell_px * place(line, begin));
-    const RunOfRays run{along_.data() + begin, in_rows_ ? first.y() : first.x(), in_rows_,
-                        end - begin};
+    const int first = (begin + kTried - 1) / kTried, last = (end + kTried - 1) / kTried;
+    if (first == last) return;
+    const Eigen::Vector3d ray = ray_of(kHoleCell_px * place(line, begin));
+    const RunOfRays run{along_.data() + first, in_rows_ ? ray.y() : ray.x(), in_rows_,
+                        last - first};
     find_owners(run, mended_.range_max_m, run_far_owners_);
     for (const double depth : kNearDepths) {
       find_owners(run, depth * mended_.range_min_m, run_owners_);
@@ -277,7 +280,7 @@ class Occluders {
   Calibration mended_;
   bool in_rows_ = true;  ///< the baseline
   std::vector<double>
-      along_;         ///< of each cell's first ray, its coordinate along the baseline, at 1 m
+      along_;         ///< of each tried cell, its ray's coordinate along the baseline, at 1 m
   cv::Mat1i owners_;  ///< by pixel of the colour image, of masks as large as their objects
   // Of a run of a hole at a depth: pixels of the colour image, at last those that are covered, and
   // whose masks hold them.

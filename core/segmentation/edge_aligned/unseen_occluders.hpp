@@ -16,7 +16,8 @@ namespace mapscore {
 /// pixels that may lie behind one. `cells`: by depth pixel its place in the colour image,
 /// row-major, -1 beyond it. Only what has a mask matters. Thread-safe.
 ///
-/// Objects nearer than the sensor's range are near holes (near_holes.hpp). A hole counts where one
+/// Objects nearer than the sensor's range are near holes (near_holes.hpp), of whose cells every second
+/// in both ways is tried. A hole counts where one
 /// mask holds it wherever it stood, as near as half of the least depth or as far as the range goes;
 /// and where, at one depth, one mask holds four fifths of its run along the baseline, as of a thin
 /// object. Beside an object before nothing, as at the end of a scene's floor, a mask holds a part
