@@ -16,17 +16,16 @@ namespace mapscore {
 /// pixels that may lie behind one. `cells`: by depth pixel its place in the colour image,
 /// row-major, -1 beyond it. Only what has a mask matters. Thread-safe.
 ///
-/// Objects nearer than the sensor's range are near holes (near_holes.hpp), of whose cells every second
-/// in both ways is tried. A hole counts where one
-/// mask holds it wherever it stood, as near as half of the least depth or as far as the range goes;
-/// and where, at one depth, one mask holds four fifths of its run along the baseline, as of a thin
-/// object. Beside an object before nothing, as at the end of a scene's floor, a mask holds a part
-/// of the hole alone, and only if that is taken to be near. A surface that itself runs on into the
-/// hole, ending at the least depth, is not hidden by it: in lines along the baseline, as far as
-/// such a hole may hide (a depth of 1.3 against half the least one). Nor does a hole of a noisy
-/// image (is_noisy) hide anything where it may be the shadow of a projector: what is near would
-/// cover the surface beside it in the colour image, yet its mask is the same there and farther away
-/// than anything near can cover.
+/// Objects nearer than the sensor's range are near holes (near_holes.hpp), of whose cells every
+/// second in both ways is tried. A hole counts where one mask holds it wherever it stood, as near
+/// as half of the least depth or as far as the range goes; and where, at one depth, one mask holds
+/// four fifths of its run along the baseline, as of a thin object. Beside an object before nothing,
+/// as at the end of a scene's floor, a mask holds a part of the hole alone, and only if that is
+/// taken to be near. A surface that itself runs on into the hole, ending at the least depth, is not
+/// hidden by it: in lines along the baseline, as far as such a hole may hide (a depth of 1.3
+/// against half the least one). Nor does a hole of a noisy image (is_noisy) hide anything where it
+/// may be the shadow of a projector: what is near would cover the surface beside it in the colour
+/// image, yet its mask is the same there and farther away than anything near can cover.
 ///
 /// Objects beside the depth camera's view, within the range, are seen by the colour camera alone.
 /// In lines along the baseline, a surface without a mask that runs on into a mask where such an
