@@ -126,7 +126,7 @@ class Aligner {
     for (AlignmentStart candidate : starts) {
       if (candidate.family != Family::none) {
         const Parameters first = free_of(candidate.family, 0), then = free_of(candidate.family, 1);
-        refine(candidate, 5.0F, 4, few_, free.cwiseProduct(first));
+        refine(candidate, 5.0F, 4, coarse_, free.cwiseProduct(first));
         if (!is_new(candidate, candidate.family)) continue;
         refine(candidate, 3.0F, 3, coarse_, free.cwiseProduct(then));
       }
