@@ -195,7 +195,9 @@ CalibrationCertainty certainty_of(const std::deque<OutlineEvidence>& frames,
   CalibrationCertainty certainty;
   PooledEquations pool = pooled(frames, correction, sigma_px);
   NumberMatrix derivative = derivative_of(frames, correction, sigma_px, free, pixels);
-  // Where all pixels have a mask, all outlines are borders of two, which do not tell their size.
+  // What the start tells of the masks' size counts, as in the fit: where all pixels have a mask,
+  // all outlines are borders of two, which say nothing of it, and nothing else would. Of the other
+  // numbers it is left out: edges alone are to tell them.
   constexpr int kSize = CalibrationCorrection::kMaskSize;
   const double size_information = start_information(sigma_px)[kSize];
   pool.normal(kSize, kSize) += size_information, derivative(kSize, kSize) += size_information;

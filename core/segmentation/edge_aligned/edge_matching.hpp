@@ -60,7 +60,7 @@ struct ProjectedEdge {
 struct EdgeMatch {
   float weight = 0;                ///< 0 where it meets no outline
   float residual = 0;              ///< distance beyond where the object should end, px
-  float distance = 0;              ///< the same from its mask's outline
+  float distance = 0;              ///< the same without the offset, px
   float facing = 0;                ///< cosine between edge and outline
   float slope_u = 0, slope_v = 0;  ///< of the residual along rows and columns of the image
   bool at_border = false;          ///< of two masks, which does not move with the masks' size
@@ -80,7 +80,7 @@ struct MatchRules {
   float against = static_cast<float>(OutlineField::kOtherWay);
 };
 
-inline constexpr float kMostSlope = 2.5F;  // squared, of a distance that goes on evenly
+inline constexpr float kMostSquaredSlope = 2.5F;  // of a distance that goes on evenly
 
 /// exp(x) of -4.5 to 0, within 2e-5 of it. A loop of these becomes vectors, one of std::exp does
 /// not.
@@ -138,8 +138,8 @@ template <bool kHasBorders>
   match.residual = at_border ? match.distance : match.distance - rules.offset_px;
   const float opposite = -rules.against * match.facing;
   const float faces = match.facing > 0 ? match.facing : opposite;
-  // Where three masks meet, distances from two borders lie beside each other.
-  const bool is_even = !at_border | (along_u * along_u + along_v * along_v < kMostSlope);
+  // In strips and where three masks meet, distances from two borders lie beside each other.
+  const bool is_even = !at_border | (along_u * along_u + along_v * along_v < kMostSquaredSlope);
   const bool is_inside = (edge.u >= 0) & (edge.v >= 0) & (edge.u < right) & (edge.v < bottom);
   const bool is_near = std::abs(match.residual) <= 3 * rules.sigma_px;
   const float part =
@@ -152,6 +152,7 @@ template <bool kHasBorders>
 [[nodiscard]] inline EdgeMatch match_edge(const OutlineField& field, const EdgeAt& edge,
                                           const MatchRules& rules) {
   const int columns = field.distance.cols, rows = field.distance.rows;
+  if (columns < 2 || rows < 2) return {};
   return field.beyond_border.empty()
              ? match_in<false>(field.distance[0], nullptr, columns, rows, edge, rules)
              : match_in<true>(field.distance[0], field.beyond_border[0], columns, rows, edge,

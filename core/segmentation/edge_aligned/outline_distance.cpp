@@ -114,6 +114,7 @@ void step_along(const OwnerRows& rows, const Marks& rim, std::int32_t* ways) {
   int begin = 0;
   std::int32_t left = kUnknown;
   const auto fill_until = [&](int end, std::int32_t right) {
+    if (left == kUnknown) left = right + (end - begin + 1) * kStraight;
     fill_between(left, right, begin, end, ways);
     if (end < rows.columns) ways[end] = right;
     begin = end + 1, left = right;
@@ -122,7 +123,7 @@ void step_along(const OwnerRows& rows, const Marks& rim, std::int32_t* ways) {
   if (begin == 0)
     std::fill_n(ways, rows.columns, kUnknown);
   else
-    fill_until(rows.columns, kUnknown);
+    fill_until(rows.columns, left + (rows.columns - begin + 1) * kStraight);
 }
 
 }  // namespace

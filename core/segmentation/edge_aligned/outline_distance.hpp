@@ -20,7 +20,9 @@ inline constexpr float kNoBorder = 1e4F;
 /// `beyond_border`, empty or of that size: where the nearest rim pixel touches another mask, the
 /// distance from that border, negative in the mask of the lower number, positive in the other, so
 /// that it is 0 on the border and goes on evenly; kNoBorder elsewhere. A rim pixel that touches
-/// several counts as beside one of a higher number.
+/// several counts as beside one of a higher number; of rims equally near one that is no border
+/// comes first, then one beside a higher number. So in a strip of 1 to 3 pixels between a mask of a
+/// lower and one of a higher number it may change its sign.
 void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance,
                               cv::Mat1f beyond_border = {});
 

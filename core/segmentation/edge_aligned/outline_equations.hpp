@@ -23,7 +23,8 @@ struct NormalEquations {
   float matched = 0, squares = 0;                    ///< w, w r^2
 };
 
-/// Adds up edges in kTogether lanes, and these at last, in order. `project`: the one that matched
+/// Adds up edges, moved and matched in whole groups (EdgeColumns::kTogether), in as many lanes, and
+/// these at last, in order. `project`: the one that matched
 /// them; `focal_px`: of the believed colour camera, in which parameters are counted.
 [[nodiscard]] NormalEquations add_up(const MatchedEdges& edges, const Projection& project,
                                      float focal_px);

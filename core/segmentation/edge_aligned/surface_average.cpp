@@ -87,7 +87,8 @@ class RowsTogether {
   std::vector<float> values_;
 };
 
-/// The same along rows, there and back. `open`, `votes`: columns of kRows values.
+/// Adds along rows, there and back, as add_from and add_back do from row to row. `open`, `votes`:
+/// columns of kRows values.
 MAPSCORE_WIDE_VECTORS
 void smooth_along(const float* open, float feedback, int columns, float* votes) {
   constexpr int kRows = RowsTogether::kRows;

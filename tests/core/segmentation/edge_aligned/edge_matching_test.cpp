@@ -28,6 +28,20 @@ EdgeMatch match(const OutlineField& field, float u, float outward, float offset_
   return match_edge(field, {u, 20.3F, outward, 0, 1}, {offset_px, 2, against});
 }
 
+TEST(EdgeMatching, APartOfAWeightIsItsExponential) {
+  for (double x = -4.5; x <= 0; x += 0.01) {
+    const double part = static_cast<double>(exp_of_part(static_cast<float>(x)));
+    EXPECT_NEAR(part, std::exp(x), 2e-5 * std::exp(x)) << x;
+  }
+}
+
+TEST(EdgeMatching, AnImageOfOneRowHasNoMatches) {
+  std::vector<Detection> one(1);
+  one[0].box = {2, 0, 5, 0};
+  one[0].mask = cv::Mat1b(1, 4, std::uint8_t{255});
+  EXPECT_EQ(match_edge(outline_field(one, 10, 1, 20), {1.5F, 0, -1, 0, 1}, {0, 2}).weight, 0);
+}
+
 /// An edge on the border of two masks ends one of them: it counts fully, whichever way it faces.
 TEST(EdgeMatching, AnEdgeOnABorderOfTwoMasksCountsFully) {
   const OutlineField field = two_masks(0);

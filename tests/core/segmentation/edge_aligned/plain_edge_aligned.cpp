@@ -303,7 +303,7 @@ EdgeMatch plain_match(const OutlineField& field, const EdgeAt& edge, const Match
   match.slope_u = slope.x(), match.slope_v = slope.y();
   match.residual = match.at_border ? match.distance : match.distance - rules.offset_px;
   if (std::abs(match.residual) > 3 * rules.sigma_px) return match;
-  if (match.at_border && slope.squaredNorm() >= kMostSlope) return match;
+  if (match.at_border && slope.squaredNorm() >= kMostSquaredSlope) return match;
   match.weight =
       edge.strength * (match.facing > 0 ? match.facing : -rules.against * match.facing) *
       exp_of_part(-0.5F / (rules.sigma_px * rules.sigma_px) * (match.residual * match.residual));
