@@ -4,12 +4,15 @@
 #include "core/segmentation/edge_aligned/alignment_starts.hpp"
 
 #include "core/geometry/pose.hpp"
-#include "core/segmentation/edge_aligned/coarse_outlines.hpp"
+#include "core/wide_vectors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 namespace mapscore {
@@ -53,6 +56,75 @@ void for_each_in_disc(float radius, float step, auto&& use) {
       if (a * a + b * b <= radius * radius) use(a, b);
 }
 
+/// The outlines of a field at quarter size: how well edges lie on them after any of the many
+/// motions that a search tries.
+class CoarseOutlines {
+ public:
+  CoarseOutlines(const OutlineField& field, const Projection& project)  ///< `field` must outlive it
+      : field_(field), project_(project), cells_(field.coarse[0].total(), 0) {
+    for (int way = 0; way < 4; ++way) {
+      const std::uint8_t* const map = field.coarse[static_cast<std::size_t>(way)][0];
+      for (std::size_t n = 0; n < cells_.size(); ++n) cells_[n] |= map[n] << (kBits * way);
+    }
+  }
+
+  /// Share of the outlines that edges lie on where they go from p to R p + t (m). Sums in kTogether
+  /// lanes, and over these at last, in order.
+  [[nodiscard]] float score(const EdgeColumns& edges, const Eigen::Matrix3f& R,
+                            const Eigen::Vector3f& t) {
+    weights_.resize(edges.x.size());
+    weigh(edges, R, t);
+    std::array<float, EdgeColumns::kTogether> sums{};
+    for (std::size_t first = 0; first < weights_.size(); first += sums.size())
+      for (std::size_t lane = 0; lane < sums.size(); ++lane) sums[lane] += weights_[first + lane];
+    return std::accumulate(sums.begin(), sums.end(), 0.0F) * static_cast<float>(edges.stride) /
+           (kBest * static_cast<float>(field_.length_px));
+  }
+
+ private:
+  static constexpr int kBits = 8, kBest = 255;  // of how well an edge of one way fits a cell
+
+  /// Finds what each edge weighs after a motion.
+  void weigh(const EdgeColumns& edges, const Eigen::Matrix3f& R, const Eigen::Vector3f& t);
+
+  const OutlineField& field_;
+  Projection project_;
+  std::vector<int> cells_;  ///< the field's maps of all ways, side by side in each cell
+  std::vector<float> weights_;
+};
+
+MAPSCORE_WIDE_VECTORS
+void CoarseOutlines::weigh(const EdgeColumns& edges, const Eigen::Matrix3f& R,
+                           const Eigen::Vector3f& t) {
+  const int count = static_cast<int>(edges.x.size()), columns = field_.coarse[0].cols;
+  const float *xs = edges.x.data(), *ys = edges.y.data(), *zs = edges.z.data(),
+              *strengths = edges.strength.data();
+  const int* const cells = cells_.data();
+  const std::uint8_t* const ways = edges.way.data();
+  float* const weights = weights_.data();
+  const float right = static_cast<float>(columns),
+              bottom = static_cast<float>(field_.coarse[0].rows);
+  const float fx = project_.fx, fy = project_.fy, cx = project_.cx, cy = project_.cy;
+  const float xx = R(0, 0), xy = R(0, 1), xz = R(0, 2), yx = R(1, 0), yy = R(1, 1), yz = R(1, 2),
+              zx = R(2, 0), zy = R(2, 1), zz = R(2, 2), tx = t.x(), ty = t.y(), tz = t.z();
+  constexpr float kCells = 1.0F / OutlineField::kCell_px;
+  MAPSCORE_NO_OVERLAPS
+  for (int n = 0; n < count; ++n) {
+    const float x = xs[n], y = ys[n], z = zs[n];
+    const float X = xx * x + xy * y + xz * z + tx;
+    const float Y = yx * x + yy * y + yz * z + ty;
+    const float Z = zx * x + zy * y + zz * z + tz;
+    const float nearness = 1.0F / Z;
+    const float u = (fx * X * nearness + cx) * kCells, v = (fy * Y * nearness + cy) * kCells;
+    const bool within = (u >= 0) & (v >= 0) & (u < right) & (v < bottom);
+    const int column = static_cast<int>(std::min(std::max(0.0F, u), right - 1));
+    const int row = static_cast<int>(std::min(std::max(0.0F, v), bottom - 1));
+    const float counts = within ? strengths[n] : 0.0F;
+    const int fit = (cells[row * columns + column] >> (kBits * ways[n])) & kBest;
+    weights[n] = counts * static_cast<float>(fit);
+  }
+}
+
 }  // namespace
 
 float CorrectionCost::unexplained(float share) {
@@ -83,15 +155,15 @@ std::vector<AlignmentStart> alignment_starts(const EdgeColumns& few_edges, const
                                              const OutlineField& field, const Projection& project,
                                              const CorrectionCost& cost, float search_px,
                                              bool with_roll) {
-  CoarseOutlines few(few_edges, field, project), all(edges, field, project);
+  CoarseOutlines coarse(field, project);
   std::vector<AlignmentStart> starts{AlignmentStart{}};
   const std::vector<AlignmentStart> far = mask_size_starts(Family::turn);
   starts.insert(starts.end(), far.begin(), far.end());
 
   const auto keep_best = [&](std::vector<AlignmentStart> tried, std::size_t most) {
-    for (CoarseOutlines* outlines : {&few, &all}) {
+    for (const EdgeColumns* some : {&few_edges, &edges}) {
       for (AlignmentStart& a : tried) {
-        a.score = outlines->score(a.rotation, a.translation);
+        a.score = coarse.score(*some, a.rotation, a.translation);
         a.score -= cost(a);
       }
       std::ranges::stable_sort(tried, std::greater(), &AlignmentStart::score);

@@ -9,7 +9,6 @@
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 

@@ -25,7 +25,7 @@ constexpr double kRunsOnFrom = 1.3;           // in least ranges: a farther surf
 constexpr double kRunsOnUntil = 1.05;         // and one that does ends nearer than this
 constexpr std::array kBesideRim_px{1, 4, 7};  // where masks are compared; two of three must agree
 constexpr int kHoleRim_px = 11;               // near holes leave out 4 or 5 at their rims
-constexpr int kRimCells = 7;
+constexpr int kRimCells = 7;                  // about a hole's cell, that reach over its rim
 /// Of a hole's cells every second in both ways is tried, by its first pixel. What it covers of the
 /// colour image is marked as wide as to reach the marks of the next, and the hole's own rim.
 constexpr int kTried = 2;
