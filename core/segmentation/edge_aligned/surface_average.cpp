@@ -60,76 +60,96 @@ void transpose(const float* from, std::size_t from_step, int rows, int columns, 
           r + kBlock <= rows&& c + kBlock <= columns ? copy_block(r, c) : copy_rest(r, c);
 }
 
-/// Some rows of an image side by side, a column behind the other: what goes along each row becomes
-/// one wide loop over all of them.
+/// A part of an image, its rows side by side, a column behind the other: what goes along each row
+/// becomes one wide loop over all of them.
 class RowsTogether {
  public:
-  static constexpr int kRows = 32;
+  explicit RowsTogether(int most_columns)
+      : values_(static_cast<std::size_t>(most_columns * kBand_px), 0.0F) {}
 
-  explicit RowsTogether(int columns)
-      : columns_(columns), values_(static_cast<std::size_t>(columns * kRows), 0.0F) {}
-
-  /// Takes up to kRows rows of an image from row v on.
-  void read(const cv::Mat1f& image, int v) {
-    transpose(image[v], image.step1(), count(image, v), columns_, values_.data(), kRows);
+  void read(const cv::Mat1f& image, const cv::Rect& part) {
+    transpose(image[part.y] + part.x, image.step1(), part.height, part.width, values_.data(),
+              kBand_px);
   }
 
-  /// Gives them back.
-  void write(cv::Mat1f& image, int v) {
-    transpose(values_.data(), kRows, columns_, count(image, v), image[v], image.step1());
+  void write(cv::Mat1f& image, const cv::Rect& part) {
+    transpose(values_.data(), kBand_px, part.width, part.height, image[part.y] + part.x,
+              image.step1());
   }
 
   float* data() { return values_.data(); }
 
  private:
-  static int count(const cv::Mat1f& image, int v) { return std::min(kRows, image.rows - v); }
-  int columns_;
   std::vector<float> values_;
 };
 
 /// Adds along rows, there and back, as add_from and add_back do from row to row. `open`, `votes`:
-/// columns of kRows values.
+/// columns of kBand_px values.
 MAPSCORE_WIDE_VECTORS
 void smooth_along(const float* open, float feedback, int columns, float* votes) {
-  constexpr int kRows = RowsTogether::kRows;
   for (int u = 1; u < columns; ++u) {
-    const float *before = votes + (u - 1) * kRows, *from = open + (u - 1) * kRows;
-    float* const here = votes + u * kRows;
+    const float *before = votes + (u - 1) * kBand_px, *from = open + (u - 1) * kBand_px;
+    float* const here = votes + u * kBand_px;
     MAPSCORE_NO_OVERLAPS
-    for (int r = 0; r < kRows; ++r) here[r] += feedback * from[r] * before[r];
+    for (int r = 0; r < kBand_px; ++r) here[r] += feedback * from[r] * before[r];
   }
   for (int u = columns - 2; u >= 0; --u) {
-    const float *after = votes + (u + 1) * kRows, *from = open + u * kRows;
-    float* const here = votes + u * kRows;
+    const float *after = votes + (u + 1) * kBand_px, *from = open + u * kBand_px;
+    float* const here = votes + u * kBand_px;
     MAPSCORE_NO_OVERLAPS
-    for (int r = 0; r < kRows; ++r) {
+    for (int r = 0; r < kBand_px; ++r) {
       const float a = feedback * from[r];
       here[r] = here[r] + a * (after[r] - a * here[r]);
     }
   }
 }
 
+/// Calls use(u, count) with the columns that two parts of neighbouring bands share, if any.
+void across(const cv::Rect& a, const cv::Rect& b, auto&& use) {
+  const int begin = std::max(a.x, b.x), end = std::min(a.br().x, b.br().x);
+  if (begin < end) use(begin, end - begin);
+}
+
 }  // namespace
 
-void average_on_surfaces(cv::Mat1f& votes, const cv::Mat1f& right, const cv::Mat1f& down,
-                         float reach_px) {
+void average_on_surfaces(cv::Mat1f& votes, std::span<const cv::Rect> parts, const cv::Mat1f& right,
+                         const cv::Mat1f& down, float reach_px) {
   const auto feedback_of = [&](float share) { return std::exp(-1.0F / (share * reach_px)); };
-  RowsTogether together(votes.cols), open(votes.cols);
+  int widest = 0;
+  for (const cv::Rect& part : parts) widest = std::max(widest, part.width);
+  RowsTogether together(widest), open(widest);
   const auto along_rows = [&](std::initializer_list<float> shares) {
-    for (int v = 0; v < votes.rows; v += RowsTogether::kRows) {
-      open.read(right, v);
-      together.read(votes, v);
+    for (const cv::Rect& part : parts) {
+      open.read(right, part);
+      together.read(votes, part);
       for (const float share : shares)
-        smooth_along(open.data(), feedback_of(share), votes.cols, together.data());
-      together.write(votes, v);
+        smooth_along(open.data(), feedback_of(share), part.width, together.data());
+      together.write(votes, part);
     }
   };
   const auto along_columns = [&](float share) {
     const float feedback = feedback_of(share);
-    for (int v = 1; v < votes.rows; ++v)
-      add_from(votes[v - 1], down[v - 1], feedback, votes[v], votes.cols);
-    for (int v = votes.rows - 2; v >= 0; --v)
-      add_back(votes[v + 1], down[v], feedback, votes[v], votes.cols);
+    const auto step_down = [&](int v, int u, int columns) {
+      add_from(votes[v - 1] + u, down[v - 1] + u, feedback, votes[v] + u, columns);
+    };
+    const auto step_up = [&](int v, int u, int columns) {
+      add_back(votes[v + 1] + u, down[v] + u, feedback, votes[v] + u, columns);
+    };
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+      const cv::Rect& part = parts[n];
+      for (std::size_t m = n; m-- > 0 && parts[m].y >= part.y - kBand_px;)
+        if (parts[m].y < part.y)
+          across(parts[m], part, [&](int u, int columns) { step_down(part.y, u, columns); });
+      for (int v = part.y + 1; v < part.br().y; ++v) step_down(v, part.x, part.width);
+    }
+    for (std::size_t n = parts.size(); n-- > 0;) {
+      const cv::Rect& part = parts[n];
+      const int last = part.br().y - 1;
+      for (std::size_t m = n + 1; m < parts.size() && parts[m].y <= last + 1; ++m)
+        if (parts[m].y > part.y)
+          across(parts[m], part, [&](int u, int columns) { step_up(last, u, columns); });
+      for (int v = last - 1; v >= part.y; --v) step_up(v, part.x, part.width);
+    }
   };
   along_rows({1.0F});
   along_columns(1.0F);

@@ -108,8 +108,8 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
           ++shifted;
         }
 
-        const Continuity on =
-            is_noisy(edges) ? Continuity{edges.right, edges.down} : part_at_creases(edges);
+        const Continuity on = is_noisy(edges) ? Continuity{edges.right.clone(), edges.down.clone()}
+                                              : part_at_creases(edges);
         cv::Mat1w labels = vote_on_surfaces(edges, field, alignment, shifts, scene.believed,
                                             scene.detections.size(), on, 3.0);
         EXPECT_EQ(cv::countNonZero(labels != plain_surface_votes(edges, field, alignment, shifts,

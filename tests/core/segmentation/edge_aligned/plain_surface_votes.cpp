@@ -98,6 +98,57 @@ float plain_slope(const DepthEdges& edges, int v, int u) {
   return steepest;
 }
 
+/// Whether a pair of pixels and those before and behind it are one surface, as far as they are
+/// there.
+bool goes_on(const cv::Mat1f& open, int v, int u, bool rows) {
+  const int length = rows ? open.cols : open.rows, at = rows ? u : v;
+  for (int n = std::max(at - 1, 0); n <= std::min(at + 1, length - 2); ++n)
+    if (open(rows ? v : n, rows ? n : u) < 1.0F) return false;
+  return true;
+}
+
+/// Pairs of a row or column whose pixels two masks hold, where their surface goes on.
+cv::Mat1b contacts(const cv::Mat1w& owner, const cv::Mat1f& open, bool rows) {
+  cv::Mat1b found(owner.size(), std::uint8_t{0});
+  for (int v = 0; v + (rows ? 0 : 1) < owner.rows; ++v)
+    for (int u = 0; u + (rows ? 1 : 0) < owner.cols; ++u) {
+      const std::uint16_t first = owner(v, u), second = rows ? owner(v, u + 1) : owner(v + 1, u);
+      found(v, u) =
+          first != second && first != 0 && second != 0 && goes_on(open, v, u, rows) ? 255 : 0;
+    }
+  return found;
+}
+
+/// 255 where an owner's votes meet others: in blocks of 16 x 32 pixels near where its pixels begin
+/// or end, but for contacts, within the box about all such places.
+cv::Mat1b contested_pixels(const cv::Mat1w& owner, std::uint16_t own, const cv::Mat1b& along_rows,
+                           const cv::Mat1b& along_columns, int margin_px) {
+  cv::Mat1b ends(owner.size(), std::uint8_t{0}), blocks = ends.clone(), box = ends.clone();
+  const auto is_end = [&](const cv::Point& at, const cv::Point& before, const cv::Mat1b& touching) {
+    const bool is_own = owner(at) == own, was_own = owner(before) == own;
+    return is_own != was_own && touching(before) == 0;
+  };
+  for (int v = 0; v < owner.rows; ++v)
+    for (int u = 0; u < owner.cols; ++u)
+      if ((u > 0 && is_end({u, v}, {u - 1, v}, along_rows)) ||
+          (v > 0 && is_end({u, v}, {u, v - 1}, along_columns)))
+        ends(v, u) = 255;
+  const cv::Rect image({0, 0}, owner.size());
+  for (int top = 0; top < owner.rows; top += 32)
+    for (int left = 0; left < owner.cols; left += 16) {
+      const cv::Rect block = cv::Rect(left, top, 16, 32) & image;
+      const cv::Rect about(left - margin_px + 1, top - margin_px + 1,
+                           block.width + 2 * margin_px - 1, block.height + 2 * margin_px - 1);
+      if (cv::countNonZero(ends(about & image)) > 0) blocks(block) = 255;
+    }
+  const cv::Rect extent = cv::boundingRect(ends);
+  if (extent.empty()) return box;
+  box(cv::Rect(extent.x - margin_px, extent.y - margin_px, extent.width + 2 * margin_px - 1,
+               extent.height + 2 * margin_px - 1) &
+      image) = 255;
+  return blocks & box;
+}
+
 }  // namespace
 
 Continuity plain_creases(const DepthEdges& edges) {
@@ -160,28 +211,27 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field
   }
   const Continuity on =
       edges.noise > 0.0005F ? Continuity{edges.right, edges.down} : plain_creases(edges);
-  cv::Mat1w labels(w.size(), std::uint16_t{0});
+  owner.setTo(0, inside <= 0);
+  const cv::Mat1b along_rows = contacts(owner, on.right, true),
+                  along_columns = contacts(owner, on.down, false);
+  cv::Mat1w labels = owner.clone();
   for (std::size_t n = 1; n <= detections; ++n) {
-    const cv::Mat1b in_mask = (owner != 0) & (inside > 0),
-                    own_mask = in_mask & (owner == static_cast<double>(n));
-    cv::Rect box = cv::boundingRect(own_mask);
-    if (box.empty()) continue;
-    const int margin = static_cast<int>(std::ceil(2.0F * reach_px)) + 2;
-    box =
-        cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
-        cv::Rect({0, 0}, w.size());
-    cv::Mat1f leads(box.size());
-    for (int v = 0; v < box.height; ++v)
-      for (int u = 0; u < box.width; ++u) {
-        const cv::Point at = box.tl() + cv::Point(u, v);
-        const bool has_mask = in_mask(at) != 0, is_own = own_mask(at) != 0;
-        leads(v, u) = (is_own ? 1.0F : has_mask ? -1.0F : -4.0F) * weight(at);
+    const auto own = static_cast<std::uint16_t>(n);
+    const int margin_px = static_cast<int>(std::ceil(2.0F * reach_px)) + 2;
+    const cv::Mat1b contested = contested_pixels(owner, own, along_rows, along_columns, margin_px);
+    cv::Mat1f leads(w.size(), 0.0F), right = on.right.clone(), down = on.down.clone();
+    right.setTo(0, along_rows), down.setTo(0, along_columns);
+    for (int v = 0; v < w.rows; ++v)
+      for (int u = 0; u < w.cols; ++u) {
+        const std::uint16_t other = owner(v, u);
+        if (contested(v, u) != 0)
+          leads(v, u) = (other == own ? 1.0F : other != 0 ? -1.0F : -4.0F) * weight(v, u);
+        if (u + 1 < w.cols && contested(v, u) != contested(v, u + 1)) right(v, u) = 0;
+        if (v + 1 < w.rows && contested(v, u) != contested(v + 1, u)) down(v, u) = 0;
       }
-    spread_votes(leads, on.right(box), on.down(box), reach_px);
-    for (int v = 0; v < box.height; ++v)
-      for (int u = 0; u < box.width; ++u)
-        if (leads(v, u) > 1e-4F && w(v + box.y, u + box.x) > 0)
-          labels(v + box.y, u + box.x) = static_cast<std::uint16_t>(n);
+    spread_votes(leads, right, down, reach_px);
+    labels.setTo(0, contested & (labels == own));
+    labels.setTo(own, contested & (leads > 1e-4F) & (w > 0));
   }
   return labels;
 }
