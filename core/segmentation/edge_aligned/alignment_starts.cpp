@@ -27,7 +27,7 @@ constexpr float kReachM = 0.06F;
 /// turns on a lattice.
 constexpr float kRollStep_px = 20.0F, kMostRoll_px = 60.0F;
 constexpr float kRolledStep_px = 8.0F, kRolledReach_px = 16.0F;
-constexpr std::size_t kCompared = 80;  // of those that few edges find best, by more
+constexpr std::size_t kCompared = 48;  // of those that few edges find best, by more
 constexpr float kApartPx = 8.0F;       // between the turns that are kept for the fine fit
 constexpr float kLabelOffset_px = 3.5F;
 

@@ -8,6 +8,7 @@
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
 #include "core/segmentation/edge_aligned/matched_edges.hpp"
 #include "core/segmentation/edge_aligned/outline_equations.hpp"
+#include "core/wide_vectors.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -24,7 +25,7 @@ namespace {
 using Family = AlignmentStart::Family;
 
 constexpr std::size_t kFewEdges = 200, kCoarseEdges = 800, kFineEdges = 4000;
-constexpr float kOne_px = 0.4F, kOne_m = 0.0016F;    // between starts that are one
+constexpr float kOne_px = 1.0F, kOne_m = 0.004F;     // between starts that are one
 constexpr float kStep_px = 0.1F, kStep_m = 0.0004F;  // of a step that changes nothing to speak of
 
 constexpr float kLeastScore = 0.15F;     // below, the edges show nothing of the masks,
@@ -65,6 +66,29 @@ Levers levers_of(const OutlineField& field, const Projection& project) {
     return static_cast<float>(1.0 / std::sqrt(covariance(n, n) * length));
   };
   return {lever(2), lever(3)};
+}
+
+/// Finds the cells of outlines on which edges lie: those of a foot of the perpendicular, among the
+/// maps of all ways behind each other; -1 where an edge has no weight, or its foot lies beyond.
+MAPSCORE_WIDE_VECTORS
+void find_feet(const MatchedEdges& edges, const std::uint8_t* ways, const cv::Size& cells,
+               int* __restrict feet) {
+  const int count = static_cast<int>(edges.weight.size()), columns = cells.width,
+            rows = cells.height;
+  const float *us = edges.u.data(), *vs = edges.v.data(), *weights = edges.weight.data(),
+              *distances = edges.distance.data(), *facings = edges.facing.data(),
+              *slopes_u = edges.slope_u.data(), *slopes_v = edges.slope_v.data();
+  constexpr float kCells = 1.0F / OutlineField::kCell_px;
+  const float right = static_cast<float>(columns), bottom = static_cast<float>(rows);
+  for (int n = 0; n < count; ++n) {
+    const float u = (us[n] - distances[n] * slopes_u[n]) * kCells,
+                v = (vs[n] - distances[n] * slopes_v[n]) * kCells;
+    const bool counts = (weights[n] > 0) & (u >= 0) & (v >= 0) & (u < right) & (v < bottom);
+    const int way = facings[n] > 0 ? ways[n] : ways[n] ^ 1;
+    const int column = static_cast<int>(counts ? u : 0.0F),
+              row = static_cast<int>(counts ? v : 0.0F);
+    feet[n] = counts ? (way * rows + row) * columns + column : -1;
+  }
 }
 
 class Aligner {
@@ -169,21 +193,17 @@ class Aligner {
   /// it counts once.
   [[nodiscard]] float fine_score(const OutlineAlignment& a, float sigma) {
     const float weight = static_cast<float>(fine_.stride);
-    const cv::Size cells = field_.elements[0].size();
     voted_.clear();
     matched_.match(fine_, a, project_.scaled(a.focal), sigma);
-    matched_.for_each([&](std::size_t n) {
-      const float foot_u = matched_.u[n] - matched_.distance[n] * matched_.slope_u[n],
-                  foot_v = matched_.v[n] - matched_.distance[n] * matched_.slope_v[n];
-      const int u = static_cast<int>(foot_u / OutlineField::kCell_px),
-                v = static_cast<int>(foot_v / OutlineField::kCell_px);
-      if (foot_u < 0 || foot_v < 0 || u >= cells.width || v >= cells.height) return;
-      const int way = matched_.facing[n] > 0 ? fine_.way[n] : fine_.way[n] ^ 1;
-      const auto at = static_cast<std::size_t>((way * cells.height + v) * cells.width + u);
-      if (elements_[at] <= 0) return;
+    feet_.resize(matched_.weight.size());
+    find_feet(matched_, fine_.way.data(), field_.elements[0].size(), feet_.data());
+    for (std::size_t n = 0; n < feet_.size(); ++n) {
+      if (feet_[n] < 0) continue;
+      const auto at = static_cast<std::size_t>(feet_[n]);
+      if (elements_[at] <= 0) continue;
       if (votes_[at] <= 0) voted_.push_back(at);
       votes_[at] += weight * matched_.weight[n];
-    });
+    }
     double sum = 0;
     for (const std::size_t at : voted_) {
       sum += static_cast<double>(std::min(votes_[at], elements_[at]));
@@ -257,6 +277,7 @@ class Aligner {
   float search_px_;
   EdgeColumns few_, coarse_, fine_;
   MatchedEdges matched_{field_};
+  std::vector<int> feet_;           ///< of the matched edges
   std::vector<float> elements_;     ///< the field's, of all ways behind each other
   std::vector<float> votes_;        ///< for each of them; 0 between two scores
   std::vector<std::size_t> voted_;  ///< those that have votes

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace mapscore {
@@ -134,6 +134,8 @@ void step_along(const OwnerRows& rows, const Marks& rim, std::int32_t* ways) {
 /// all down or all up. Between the passes `distance` keeps the bits of the ways found so far.
 void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance, cv::Mat1f beyond_border) {
   const int columns = owner.cols;
+  const std::size_t row_bytes = static_cast<std::size_t>(columns) * sizeof(float);
+  static_assert(sizeof(float) == sizeof(std::int32_t));
   std::vector<std::int32_t> rows[2];  // the last and this one, a pixel wider on both sides
   for (auto& row : rows) row.assign(static_cast<std::size_t>(columns) + 2, kUnknown);
   Marks rim(static_cast<std::size_t>(columns));
@@ -143,12 +145,12 @@ void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance, cv::Ma
     mark_rim(about, rim.data());
     step_along(about, rim, ways);
     step_across(rows[1 - v % 2].data() + 1, ways, columns);
-    std::transform(ways, ways + columns, distance[v], std::bit_cast<float, std::int32_t>);
+    std::memcpy(distance[v], ways, row_bytes);
   }
   for (auto& row : rows) std::fill(row.begin(), row.end(), kUnknown);
   for (int v = owner.rows - 1; v >= 0; --v) {
     std::int32_t* ways = rows[v % 2].data() + 1;
-    std::transform(distance[v], distance[v] + columns, ways, std::bit_cast<std::int32_t, float>);
+    std::memcpy(ways, distance[v], row_bytes);
     step_across(rows[1 - v % 2].data() + 1, ways, columns);
     write_distances(owner[v], ways, distance[v], columns);
     if (!beyond_border.empty())

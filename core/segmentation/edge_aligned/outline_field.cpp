@@ -14,7 +14,9 @@
 namespace mapscore {
 namespace {
 
-constexpr int kVotes_px = 16;  // above what votes tell apart: the largest offset, 6 px, and 2
+constexpr int kVotes_px = 16;        // above what votes tell apart: the largest offset, 6 px, and 2
+constexpr int kWithinVotes_px = 18;  // at least kVotes_px of a chamfer distance
+constexpr int kBandRows = 32;        // in which grooves are boxed
 
 cv::Mat1w painted(const std::vector<Detection>& detections, int width_px, int height_px) {
   cv::Mat1w owner(height_px, width_px, std::uint16_t{0});
@@ -68,22 +70,33 @@ std::vector<Change> changes_of(const cv::Mat1w& masks) {
   return changes;
 }
 
-/// The masks with their grooves closed, half by each mask, rows first; the same image where there
-/// are none.
-cv::Mat1w without_grooves(const cv::Mat1w& masks, const std::vector<Change>& changes) {
+/// Masks with their grooves closed.
+struct ClosedMasks {
+  cv::Mat1w owner;                ///< the masks' own image where there are none
+  std::vector<cv::Rect> grooves;  ///< the boxes about them by band of kBandRows rows
+};
+
+/// Closes grooves half by each mask, rows first.
+ClosedMasks without_grooves(const cv::Mat1w& masks, const std::vector<Change>& changes) {
   /// The last pixel of a mask in a row or column.
   struct Rim {
     int at = -OutlineField::kGroove_px - 2;
     std::uint16_t owner = 0;
   };
-  cv::Mat1w closed = masks;
+  ClosedMasks closed{masks, {}};
   const auto close = [&](const Rim& rim, int end, std::uint16_t owner, auto&& pixel_at) {
     const int gap = end - rim.at - 1;
     if (gap > OutlineField::kGroove_px || rim.owner == owner) return;
-    if (closed.data == masks.data) closed = masks.clone();
-    for (int n = 0; n < gap; ++n)
-      if (std::uint16_t& pixel = closed(pixel_at(rim.at + 1 + n)); pixel == 0)
-        pixel = 2 * n < gap ? rim.owner : owner;
+    if (closed.grooves.empty()) {
+      closed.owner = masks.clone();
+      closed.grooves.resize(static_cast<std::size_t>(masks.rows / kBandRows + 1));
+    }
+    for (int n = 0; n < gap; ++n) {
+      const cv::Point at = pixel_at(rim.at + 1 + n);
+      if (closed.owner(at) != 0) continue;
+      closed.owner(at) = 2 * n < gap ? rim.owner : owner;
+      closed.grooves[static_cast<std::size_t>(at.y / kBandRows)] |= cv::Rect(at, cv::Size(1, 1));
+    }
   };
   std::vector<Rim> columns(static_cast<std::size_t>(masks.cols));
   Rim rim;
@@ -139,6 +152,26 @@ void fill_far(const cv::Mat1w& owner, const cv::Rect& window, cv::Mat1f& distanc
     fill(v, 0, is_within ? window.x : owner.cols);
     if (is_within) fill(v, window.br().x, owner.cols);
   }
+}
+
+cv::Rect grown(const cv::Rect& box, int by_px, const cv::Size& image) {
+  return cv::Rect(box.x - by_px, box.y - by_px, box.width + 2 * by_px, box.height + 2 * by_px) &
+         cv::Rect({0, 0}, image);
+}
+
+/// Distances of the masks as they are: those of the closed ones but near their grooves.
+cv::Mat1f distance_with_grooves(const cv::Mat1w& masks, const std::vector<cv::Rect>& grooves,
+                                const cv::Mat1f& closed_distance) {
+  cv::Mat1f distance = closed_distance.clone();
+  for (const cv::Rect& groove : grooves) {
+    if (groove.empty()) continue;
+    const cv::Rect near = grown(groove, kWithinVotes_px, masks.size());
+    const cv::Rect about = grown(near, kWithinVotes_px, masks.size());
+    cv::Mat1f measured(about.size());
+    measure_outline_distance(masks(about), measured);
+    measured(near - about.tl()).copyTo(distance(near));
+  }
+  return distance;
 }
 
 std::array<cv::Mat1b, 4> coarse_maps(const std::array<cv::Mat1f, 4>& cells) {
@@ -211,29 +244,24 @@ OutlineField outline_field(const std::vector<Detection>& detections, int width_p
   OutlineField field;
   field.masks = painted(detections, width_px, height_px);
   std::vector<Change> changes = changes_of(field.masks);
-  field.owner = without_grooves(field.masks, changes);
-  const bool has_grooves = field.owner.data != field.masks.data;
-  if (has_grooves) changes = changes_of(field.owner);
+  const ClosedMasks closed = without_grooves(field.masks, changes);
+  field.owner = closed.owner;
+  if (!closed.grooves.empty()) changes = changes_of(field.owner);
   count_elements(changes, field.owner.size(), field);
   field.coarse = coarse_maps(field.elements);
   field.distance.create(height_px, width_px);
   if (std::ranges::any_of(changes, &Change::is_border))
     field.beyond_border.create(height_px, width_px);
-  const auto measure = [&](const cv::Mat1w& owner, int within_px, cv::Mat1f distance,
-                           cv::Mat1f beyond_border) {
-    cv::Rect window = window_of(detections, {width_px, height_px}, within_px);
-    if (field.length_px == 0) window = {};
-    fill_far(owner, window, distance, beyond_border);
-    if (!window.empty())
-      measure_outline_distance(owner(window), distance(window),
-                               beyond_border.empty() ? beyond_border : beyond_border(window));
-  };
-  measure(field.owner, reach_px, field.distance, field.beyond_border);
-  field.mask_distance = field.distance;
-  if (has_grooves) {
-    field.mask_distance = cv::Mat1f(height_px, width_px);
-    measure(field.masks, std::min(reach_px, kVotes_px), field.mask_distance, {});
-  }
+  cv::Rect window = window_of(detections, {width_px, height_px}, reach_px);
+  if (field.length_px == 0) window = {};
+  fill_far(field.owner, window, field.distance, field.beyond_border);
+  if (!window.empty())
+    measure_outline_distance(
+        field.owner(window), field.distance(window),
+        field.beyond_border.empty() ? cv::Mat1f() : field.beyond_border(window));
+  field.mask_distance = closed.grooves.empty()
+                            ? field.distance
+                            : distance_with_grooves(field.masks, closed.grooves, field.distance);
   return field;
 }
 
