@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kVotes_px = 16;        // above what votes tell apart: the largest offset, 6 px, and 2
 constexpr int kWithinVotes_px = 18;  // at least kVotes_px of a chamfer distance
-constexpr int kBandRows = 32;        // in which grooves are boxed
+constexpr int kGrooveRows = 32;      // in which grooves are boxed
 
 cv::Mat1w painted(const std::vector<Detection>& detections, int width_px, int height_px) {
   cv::Mat1w owner(height_px, width_px, std::uint16_t{0});
@@ -73,7 +73,7 @@ std::vector<Change> changes_of(const cv::Mat1w& masks) {
 /// Masks with their grooves closed.
 struct ClosedMasks {
   cv::Mat1w owner;                ///< the masks' own image where there are none
-  std::vector<cv::Rect> grooves;  ///< the boxes about them by band of kBandRows rows
+  std::vector<cv::Rect> grooves;  ///< the boxes about them by band of kGrooveRows rows
 };
 
 /// Closes grooves half by each mask, rows first.
@@ -89,13 +89,13 @@ ClosedMasks without_grooves(const cv::Mat1w& masks, const std::vector<Change>& c
     if (gap > OutlineField::kGroove_px || rim.owner == owner) return;
     if (closed.grooves.empty()) {
       closed.owner = masks.clone();
-      closed.grooves.resize(static_cast<std::size_t>(masks.rows / kBandRows + 1));
+      closed.grooves.resize(static_cast<std::size_t>(masks.rows / kGrooveRows + 1));
     }
     for (int n = 0; n < gap; ++n) {
       const cv::Point at = pixel_at(rim.at + 1 + n);
       if (closed.owner(at) != 0) continue;
       closed.owner(at) = 2 * n < gap ? rim.owner : owner;
-      closed.grooves[static_cast<std::size_t>(at.y / kBandRows)] |= cv::Rect(at, cv::Size(1, 1));
+      closed.grooves[static_cast<std::size_t>(at.y / kGrooveRows)] |= cv::Rect(at, cv::Size(1, 1));
     }
   };
   std::vector<Rim> columns(static_cast<std::size_t>(masks.cols));
