@@ -224,7 +224,7 @@ TEST(OutlineField, MeasuresMasksAsTheyAreUpToSixteenPixels) {
       const int width = 200 / columns, left = n / 2 * width + drawn(0, 4);
       const int top = n % 2 == 0 ? drawn(0, 20) : 80;
       masks(cv::Rect(left, top, width - drawn(0, 9), 80 - drawn(0, 9))) =
-          static_cast<std::uint16_t>(n + 1);
+          static_cast<std::uint16_t>(n % 3 + 1);
     }
     const OutlineField field =
         outline_field(detections_of_owners(masks), masks.cols, masks.rows, 60);
