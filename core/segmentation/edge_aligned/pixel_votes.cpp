@@ -29,6 +29,8 @@ constexpr float kGrown_px = 0.5F;     // from here on masks may have filled slit
 constexpr float kFree_px = 0.5F;      // what no mask holds begins half a pixel before its centre
 constexpr float kOutside_px = -1e4F;  // of what the colour camera does not see
 
+constexpr float kLeastParallax_px = 0.2F;  // between a surface and what may hide it
+
 /// By how much more than noise a surface lies behind the nearest one of its colour pixel, 1/m.
 float behind(float nearest, float noise, float w) {
   return nearest * (1.0F - kHidden) - kNoise * noise - w;
@@ -169,6 +171,7 @@ class Voting {
     cells_.create(w.rows, w.cols);
     const Calibration mended = alignment_.corrected(believed_);
     const Eigen::Isometry3f T_color_depth = mended.T_color_depth.cast<float>();
+    shift_px_ = Projection(mended.color).fx * T_color_depth.translation().head<2>().norm();
     const RayMotion motion{T_color_depth.linear(), T_color_depth.translation(),
                            Projection(mended.color), Projection(mended.depth)};
     std::vector<float> us(static_cast<std::size_t>(w.cols)), vs(us.size());
@@ -232,9 +235,10 @@ class Voting {
       const std::uint8_t* covered = behind_unseen_[v];
       weigh(row, depth_in, nearest.data(), covered, edges_.noise, weight, may_be_hidden.data());
       for_each_marked(may_be_hidden, [&](int u) {
-        const float w_behind = behind(nearest[static_cast<std::size_t>(u)], edges_.noise, row.w[u]);
-        if (covered[u] != 0 || w_behind > kSlopes * slope_at(v, u))
-          depth_in[u] = -1.0F, weight[u] = kHiddenVote;
+        const float w = row.w[u], w_nearest = nearest[static_cast<std::size_t>(u)];
+        const bool is_hidden = (w_nearest - w) * shift_px_ > kLeastParallax_px &&
+                               behind(w_nearest, edges_.noise, w) > kSlopes * slope_at(v, u);
+        if (covered[u] != 0 || is_hidden) depth_in[u] = -1.0F, weight[u] = kHiddenVote;
       });
       if (may_have_slits) std::copy(owner, owner + w.cols, grown[v]);
       leave_out(depth_in, w.cols, owner);
@@ -298,7 +302,8 @@ class Voting {
   const OutlineAlignment& alignment_;
   const Calibration& believed_;
   std::size_t detections_;
-  cv::Mat1i cells_;  ///< by depth pixel: place in a colour image, row-major; -1 beyond it
+  float shift_px_ = 0;  ///< between the cameras' images, of a point at 1 m
+  cv::Mat1i cells_;     ///< by depth pixel: place in a colour image, row-major; -1 beyond it
   std::vector<Run> runs_;
   std::vector<std::size_t> first_run_;  ///< of each row, and the end
   cv::Mat1f nearest_;

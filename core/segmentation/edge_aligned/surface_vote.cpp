@@ -55,7 +55,7 @@ void mark_changes(const std::uint16_t* above, const std::uint16_t* owner, int co
 /// Where each detection's votes meet others: blocks of kBlock_px columns and kBand_px rows that
 /// come within `margin_px` of a pixel where its object begins or ends, as far as they lie in the
 /// box about all of these. Contacts of two masks, where their surface plainly goes on, are parted:
-/// the masks decide there, and no votes meet.
+/// the masks decide there, and no votes meet. So are steps between two masks, however small.
 class ContestedBlocks {
  public:
   ContestedBlocks(const cv::Mat1w& owners, std::size_t detections, int margin_px, Continuity& on)
@@ -66,24 +66,23 @@ class ContestedBlocks {
         marks_((detections + 1) * blocks(), 0),
         boxes_(detections + 1) {
     Marks changes(static_cast<std::size_t>(owners.cols));
-    std::vector<float*> contacts;
+    std::vector<float*> parted;
     for (int v = 0; v < owners.rows; ++v) {
       mark_changes(owners[std::max(v - 1, 0)], owners[v], owners.cols, changes.data());
       const auto meet = [&](const cv::Point& at, const cv::Point& before, cv::Mat1f& open) {
         const std::uint16_t own = owners(at), other = owners(before);
         if (own == other) return;
-        if (own != 0 && other != 0 && goes_on(open, before, at - before)) {
-          contacts.push_back(&open(before));
-        } else {
-          mark(own, at), mark(other, at);
-        }
+        const bool are_masks = own != 0 && other != 0;
+        const bool is_contact = are_masks && goes_on(open, before, at - before);
+        if (is_contact || (are_masks && open(before) < 1.0F)) parted.push_back(&open(before));
+        if (!is_contact) mark(own, at), mark(other, at);
       };
       for_each_marked(changes, [&](int u) {
         if (u > 0) meet({u, v}, {u - 1, v}, on.right);
         if (v > 0) meet({u, v}, {u, v - 1}, on.down);
       });
     }
-    for (float* const contact : contacts) *contact = 0.0F;
+    for (float* const open : parted) *open = 0.0F;
   }
 
   /// The blocks of a detection, those beside each other as one, in order of bands.

@@ -15,7 +15,8 @@
 namespace mapscore {
 
 /// Labels the depth image: 1 + index of the detection that a pixel belongs to, 0 for none. `on`:
-/// along what votes spread; its images are parted where two masks meet on a surface that goes on.
+/// along what votes spread; its images are parted where two masks meet at a step or where a surface
+/// plainly goes on.
 [[nodiscard]] cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
                                          const OutlineAlignment& alignment,
                                          const OutlineShifts& shifts, const Calibration& believed,

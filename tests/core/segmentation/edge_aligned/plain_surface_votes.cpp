@@ -199,7 +199,8 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field
       inside(v, u) = k - distance;
       if (k < -0.5F && inside(v, u) <= 0 && to_free(pixel) > 0.5F - k) inside(v, u) = -distance;
       const float behind = nearest(pixel) * (1.0F - 0.015F) - 4.0F * edges.noise - w(v, u);
-      if (behind > 0 && behind > 2.0F * plain_slope(edges, v, u))
+      const float parallax_px = (nearest(pixel) - w(v, u)) * (color.fx * t.head<2>().norm());
+      if (behind > 0 && parallax_px > 0.2F && behind > 2.0F * plain_slope(edges, v, u))
         inside(v, u) = -1.0F, weight(v, u) = 0.2F;
       else
         weight(v, u) = std::clamp(std::abs(inside(v, u)) / 2.0F, 0.05F, 1.0F);
@@ -221,6 +222,15 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field
     const cv::Mat1b contested = contested_pixels(owner, own, along_rows, along_columns, margin_px);
     cv::Mat1f leads(w.size(), 0.0F), right = on.right.clone(), down = on.down.clone();
     right.setTo(0, along_rows), down.setTo(0, along_columns);
+    for (int v = 0; v < w.rows; ++v)
+      for (int u = 0; u < w.cols; ++u) {
+        const auto steps_to = [&](int beyond_v, int beyond_u) {
+          const std::uint16_t other = owner(beyond_v, beyond_u);
+          return owner(v, u) != 0 && other != 0 && other != owner(v, u);
+        };
+        if (u + 1 < w.cols && right(v, u) < 1.0F && steps_to(v, u + 1)) right(v, u) = 0;
+        if (v + 1 < w.rows && down(v, u) < 1.0F && steps_to(v + 1, u)) down(v, u) = 0;
+      }
     for (int v = 0; v < w.rows; ++v)
       for (int u = 0; u < w.cols; ++u) {
         const std::uint16_t other = owner(v, u);
