@@ -235,9 +235,9 @@ class Voting {
       const std::uint8_t* covered = behind_unseen_[v];
       weigh(row, depth_in, nearest.data(), covered, edges_.noise, weight, may_be_hidden.data());
       for_each_marked(may_be_hidden, [&](int u) {
-        const float w = row.w[u], w_nearest = nearest[static_cast<std::size_t>(u)];
-        const bool is_hidden = (w_nearest - w) * shift_px_ > kLeastParallax_px &&
-                               behind(w_nearest, edges_.noise, w) > kSlopes * slope_at(v, u);
+        const float w_here = row.w[u], w_nearest = nearest[static_cast<std::size_t>(u)];
+        const bool is_hidden = (w_nearest - w_here) * shift_px_ > kLeastParallax_px &&
+                               behind(w_nearest, edges_.noise, w_here) > kSlopes * slope_at(v, u);
         if (covered[u] != 0 || is_hidden) depth_in[u] = -1.0F, weight[u] = kHiddenVote;
       });
       if (may_have_slits) std::copy(owner, owner + w.cols, grown[v]);
