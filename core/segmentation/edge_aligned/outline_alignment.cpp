@@ -25,7 +25,7 @@ namespace {
 using Family = AlignmentStart::Family;
 
 constexpr std::size_t kFewEdges = 200, kCoarseEdges = 800, kFineEdges = 4000;
-constexpr float kOne_px = 1.0F, kOne_m = 0.004F;     // between starts that are one
+constexpr float kOne_px = 0.4F, kOne_m = 0.0016F;    // between starts that are one
 constexpr float kStep_px = 0.1F, kStep_m = 0.0004F;  // of a step that changes nothing to speak of
 
 constexpr float kLeastScore = 0.15F;     // below, the edges show nothing of the masks,

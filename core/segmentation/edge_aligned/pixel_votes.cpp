@@ -29,7 +29,9 @@ constexpr float kGrown_px = 0.5F;     // from here on masks may have filled slit
 constexpr float kFree_px = 0.5F;      // what no mask holds begins half a pixel before its centre
 constexpr float kOutside_px = -1e4F;  // of what the colour camera does not see
 
-constexpr float kLeastParallax_px = 0.2F;  // between a surface and what may hide it
+constexpr float kLeastParallax_px = 0.2F;   // between a surface and what hides it beside a mask,
+constexpr float kLeastBaseline_m = 0.025F;  // of at least so much; a fit may take it for a turn
+constexpr int kBesideMask_px = 2;
 
 /// By how much more than noise a surface lies behind the nearest one of its colour pixel, 1/m.
 float behind(float nearest, float noise, float w) {
@@ -171,7 +173,8 @@ class Voting {
     cells_.create(w.rows, w.cols);
     const Calibration mended = alignment_.corrected(believed_);
     const Eigen::Isometry3f T_color_depth = mended.T_color_depth.cast<float>();
-    shift_px_ = Projection(mended.color).fx * T_color_depth.translation().head<2>().norm();
+    shift_px_ = Projection(mended.color).fx *
+                std::max(T_color_depth.translation().head<2>().norm(), kLeastBaseline_m);
     const RayMotion motion{T_color_depth.linear(), T_color_depth.translation(),
                            Projection(mended.color), Projection(mended.depth)};
     std::vector<float> us(static_cast<std::size_t>(w.cols)), vs(us.size());
@@ -236,8 +239,9 @@ class Voting {
       weigh(row, depth_in, nearest.data(), covered, edges_.noise, weight, may_be_hidden.data());
       for_each_marked(may_be_hidden, [&](int u) {
         const float w_here = row.w[u], w_nearest = nearest[static_cast<std::size_t>(u)];
-        const bool is_hidden = (w_nearest - w_here) * shift_px_ > kLeastParallax_px &&
-                               behind(w_nearest, edges_.noise, w_here) > kSlopes * slope_at(v, u);
+        const bool is_apart = (w_nearest - w_here) * shift_px_ > kLeastParallax_px;
+        const bool is_hidden = behind(w_nearest, edges_.noise, w_here) > kSlopes * slope_at(v, u) &&
+                               (is_apart || !masks_meet_at(row.cells[u]));
         if (covered[u] != 0 || is_hidden) depth_in[u] = -1.0F, weight[u] = kHiddenVote;
       });
       if (may_have_slits) std::copy(owner, owner + w.cols, grown[v]);
@@ -251,6 +255,20 @@ class Voting {
   [[nodiscard]] std::span<const Run> runs_of(int v) const {
     const auto row = static_cast<std::size_t>(v);
     return std::span(runs_).subspan(first_run_[row], first_run_[row + 1] - first_run_[row]);
+  }
+
+  /// Whether a colour pixel in a mask has another mask within kBesideMask_px.
+  [[nodiscard]] bool masks_meet_at(int cell) const {
+    const cv::Mat1w& masks = field_.masks;
+    const cv::Point at(cell % masks.cols, cell / masks.cols);
+    const std::uint16_t own = masks(at);
+    if (own == 0) return false;
+    for (int v = std::max(at.y - kBesideMask_px, 0); v < masks.rows && v <= at.y + kBesideMask_px;
+         ++v)
+      for (int u = std::max(at.x - kBesideMask_px, 0); u < masks.cols && u <= at.x + kBesideMask_px;
+           ++u)
+        if (masks(v, u) != 0 && masks(v, u) != own) return true;
+    return false;
   }
 
   /// By colour pixel, how far it is from what no mask holds; empty unless there are some masks that
