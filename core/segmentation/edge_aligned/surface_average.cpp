@@ -151,9 +151,10 @@ void average_on_surfaces(cv::Mat1f& votes, std::span<const cv::Rect> parts, cons
       for (int v = last - 1; v >= part.y; --v) step_up(v, part.x, part.width);
     }
   };
+  along_rows({1.0F});
   along_columns(1.0F);
-  along_rows({1.0F, 0.5F, 0.25F});
   along_columns(0.5F);
+  along_rows({0.5F, 0.25F});
   along_columns(0.25F);
 }
 

@@ -12,8 +12,8 @@ namespace mapscore {
 inline constexpr int kBand_px = 32;  ///< height of the parts of an image that are averaged
 
 /// Recursive averages of votes in some parts of an image, which do not cross depth edges: along
-/// columns over `reach_px`, along rows over it, 1/2 and 1/4 of it, and along columns over 1/2 and
-/// 1/4. Not divided by the number of pixels. `parts`: each within one band of kBand_px rows and as
+/// rows, columns, columns, rows, rows and columns, over `reach_px` twice, 1/2 and 1/4 of it. Not
+/// divided by the number of pixels. `parts`: each within one band of kBand_px rows and as
 /// high as it, in order of their bands; those of a band lie apart. Nothing comes from other pixels.
 /// `right` and `down` are the continuity to the next pixel of the row and of the column, 0 to 1
 /// (DepthEdges). Thread-safe.

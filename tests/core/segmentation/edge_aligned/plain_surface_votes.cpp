@@ -73,8 +73,8 @@ void average_along(cv::Mat1f& votes, const cv::Mat1f& open, bool rows, float fee
 }
 
 void spread_votes(cv::Mat1f& votes, const cv::Mat1f& right, const cv::Mat1f& down, float reach_px) {
-  const std::pair<bool, float> passes[]{{false, 1.0F}, {true, 1.0F},  {true, 0.5F},
-                                        {true, 0.25F}, {false, 0.5F}, {false, 0.25F}};
+  const std::pair<bool, float> passes[]{{true, 1.0F}, {false, 1.0F}, {false, 0.5F},
+                                        {true, 0.5F}, {true, 0.25F}, {false, 0.25F}};
   for (const auto& [rows, share] : passes)
     average_along(votes, rows ? right : down, rows, std::exp(-1.0F / (share * reach_px)));
 }
