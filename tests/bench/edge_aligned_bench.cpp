@@ -53,8 +53,8 @@ struct BenchSteps : BenchFrame {
     shifts = find_outline_shifts(edges, field, alignment, believed);
   }
   [[nodiscard]] cv::Mat1w votes() const {
-    const Continuity on = is_noisy(edges) ? Continuity{edges.right.clone(), edges.down.clone()}
-                                          : part_at_creases(edges);
+    Continuity on = is_noisy(edges) ? Continuity{edges.right.clone(), edges.down.clone()}
+                                    : part_at_creases(edges);
     return vote_on_surfaces(edges, field, alignment, shifts, believed, detections.size(), on, 3.0);
   }
 };

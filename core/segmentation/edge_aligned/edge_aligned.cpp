@@ -15,7 +15,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 namespace mapscore {
 namespace {
@@ -47,7 +46,7 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
   const double reach =
       labelled.alignment.is_sharp() ? kSharpReach * params.reach_px : params.reach_px;
   labelled.labels = vote_on_surfaces(edges, field, labelled.alignment, shifts, believed,
-                                     detections.size(), std::move(on), reach);
+                                     detections.size(), on, reach);
   if (is_noisy(edges)) labelled.inverse_depth = settle_on_surfaces(edges, labelled.labels);
   return labelled;
 }

@@ -68,8 +68,9 @@ Levers levers_of(const OutlineField& field, const Projection& project) {
   return {lever(2), lever(3)};
 }
 
-/// Finds the cells of outlines on which edges lie: those of a foot of the perpendicular, among the
-/// maps of all ways behind each other; -1 where an edge has no weight, or its foot lies beyond.
+/// Of each matched edge the cell that holds the nearest point of its outline, the foot of the
+/// perpendicular: an index into the field's four maps of `elements`, laid end to end. -1 where the
+/// edge has no weight, or that point lies beyond the image.
 MAPSCORE_WIDE_VECTORS
 void find_feet(const MatchedEdges& edges, const std::uint8_t* ways, const cv::Size& cells,
                int* __restrict feet) {

@@ -14,8 +14,7 @@
 namespace mapscore {
 namespace {
 
-constexpr int kVotes_px = 16;        // above what votes tell apart: the largest offset, 6 px, and 2
-constexpr int kWithinVotes_px = 18;  // at least kVotes_px of a chamfer distance
+constexpr int kWithinVotes_px = 18;  // more than votes tell apart: the largest offset, 6 px, and 2
 constexpr int kGrooveRows = 32;      // in which grooves are boxed
 
 cv::Mat1w painted(const std::vector<Detection>& detections, int width_px, int height_px) {

@@ -26,8 +26,8 @@ struct OutlineField {
   /// Where that outline is a border of two masks, pixels from it, negative in the mask of the lower
   /// number and positive in the other; kNoBorder elsewhere. Empty where no masks touch.
   cv::Mat1f beyond_border;
-  /// Owner and distance of the masks as they are, the distance up to 16 px; beyond it is more than
-  /// that. The same images where there is no groove.
+  /// Owner and distance of the masks as they are; the distance up to 15.5 px, beyond it is more
+  /// than that. The same images where there is no groove.
   cv::Mat1w masks;
   cv::Mat1f mask_distance;
   /// How well an edge that faces Outward d fits at quarter size, 0 to 255: 255 on outlines that

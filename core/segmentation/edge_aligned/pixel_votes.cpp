@@ -29,9 +29,9 @@ constexpr float kGrown_px = 0.5F;     // from here on masks may have filled slit
 constexpr float kFree_px = 0.5F;      // what no mask holds begins half a pixel before its centre
 constexpr float kOutside_px = -1e4F;  // of what the colour camera does not see
 
-constexpr float kLeastParallax_px = 0.2F;   // between a surface and what hides it beside a mask,
-constexpr float kLeastBaseline_m = 0.025F;  // of at least so much; a fit may take it for a turn
-constexpr int kBesideMask_px = 2;
+constexpr float kLeastParallax_px = 0.2F;   // between a surface and what hides it where masks meet
+constexpr float kLeastBaseline_m = 0.025F;  // counted at least: a fit may take a shift for a turn
+constexpr int kBesideMask_px = 2;  // where masks meet: both within so much of a colour pixel
 
 /// By how much more than noise a surface lies behind the nearest one of its colour pixel, 1/m.
 float behind(float nearest, float noise, float w) {
@@ -320,7 +320,7 @@ class Voting {
   const OutlineAlignment& alignment_;
   const Calibration& believed_;
   std::size_t detections_;
-  float shift_px_ = 0;  ///< between the cameras' images, of a point at 1 m
+  float shift_px_ = 0;  ///< between the images, of a point at 1 m, kLeastBaseline_m at least
   cv::Mat1i cells_;     ///< by depth pixel: place in a colour image, row-major; -1 beyond it
   std::vector<Run> runs_;
   std::vector<std::size_t> first_run_;  ///< of each row, and the end

@@ -57,7 +57,10 @@ void transpose(const float* from, std::size_t from_step, int rows, int columns, 
     for (int left = 0; left < columns; left += kTile)
       for (int r = top; r < std::min(top + kTile, rows); r += kBlock)
         for (int c = left; c < std::min(left + kTile, columns); c += kBlock)
-          r + kBlock <= rows&& c + kBlock <= columns ? copy_block(r, c) : copy_rest(r, c);
+          if (r + kBlock <= rows && c + kBlock <= columns)
+            copy_block(r, c);
+          else
+            copy_rest(r, c);
 }
 
 /// A part of an image, its rows side by side, a column behind the other: what goes along each row
@@ -84,7 +87,7 @@ class RowsTogether {
 };
 
 /// Adds along rows, there and back, as add_from and add_back do from row to row. `open`, `votes`:
-/// columns of kBand_px values.
+/// columns of kBand_px values; those below a lower part are left from another, and never used.
 MAPSCORE_WIDE_VECTORS
 void smooth_along(const float* open, float feedback, int columns, float* votes) {
   for (int u = 1; u < columns; ++u) {

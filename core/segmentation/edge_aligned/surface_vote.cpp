@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace {
 /// Against a mask, in votes for another: an object takes four fifths of what it shares with none.
 constexpr float kNoMask = 4.0F;
 constexpr float kLeastLead = 1e-4F;  // of votes that reach a pixel
-constexpr double kMargin = 2.0;      // reaches from where an object ends; its inside is its own
+constexpr double kMargin = 2.0;      // reaches: farther inside of its object a pixel needs no vote
 
 /// What the votes of some pixels count for detection `own`: as they are for it, negative for other
 /// masks and for none. It leads where an average of these is positive.
@@ -54,8 +55,9 @@ void mark_changes(const std::uint16_t* above, const std::uint16_t* owner, int co
 
 /// Where each detection's votes meet others: blocks of kBlock_px columns and kBand_px rows that
 /// come within `margin_px` of a pixel where its object begins or ends, as far as they lie in the
-/// box about all of these. Contacts of two masks, where their surface plainly goes on, are parted:
-/// the masks decide there, and no votes meet. So are steps between two masks, however small.
+/// box about all of these. Finding them parts `on` at contacts of two masks, where their surface
+/// plainly goes on: the masks decide there, and no votes meet. So it does at steps between two
+/// masks, however small.
 class ContestedBlocks {
  public:
   ContestedBlocks(const cv::Mat1w& owners, std::size_t detections, int margin_px, Continuity& on)
@@ -82,7 +84,7 @@ class ContestedBlocks {
         if (v > 0) meet({u, v}, {u, v - 1}, on.down);
       });
     }
-    for (float* const open : parted) *open = 0.0F;
+    for (float* const open : parted) *open = 0.0F;  // at last: goes_on looks beside each pair
   }
 
   /// The blocks of a detection, those beside each other as one, in order of bands.
@@ -138,7 +140,7 @@ class ContestedBlocks {
 
 cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
                            const OutlineAlignment& alignment, const OutlineShifts& shifts,
-                           const Calibration& believed, std::size_t detections, Continuity on,
+                           const Calibration& believed, std::size_t detections, Continuity& on,
                            double reach_px) {
   const PixelVotes votes = pixel_votes(edges, field, alignment, shifts, believed, detections);
   cv::Mat1w labels = votes.owner.clone();

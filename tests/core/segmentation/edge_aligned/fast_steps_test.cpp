@@ -108,8 +108,8 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
           ++shifted;
         }
 
-        const Continuity on = is_noisy(edges) ? Continuity{edges.right.clone(), edges.down.clone()}
-                                              : part_at_creases(edges);
+        Continuity on = is_noisy(edges) ? Continuity{edges.right.clone(), edges.down.clone()}
+                                        : part_at_creases(edges);
         cv::Mat1w labels = vote_on_surfaces(edges, field, alignment, shifts, scene.believed,
                                             scene.detections.size(), on, 3.0);
         EXPECT_EQ(cv::countNonZero(labels != plain_surface_votes(edges, field, alignment, shifts,
@@ -126,6 +126,36 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
   EXPECT_GT(shifted, 5);
   EXPECT_GT(labelled, 18 * 5000);
   EXPECT_GT(settled_pixels, 18 * 5000);
+}
+
+/// Where masks meet at small steps, of which some hide what lies behind them and some too little.
+TEST(EdgeAlignedFastSteps, VoteAsThePlainOnesWhereMasksMeet) {
+  int labelled = 0;
+  for (const double offset_px : {-2.0, 0.0, 1.0})
+    for (const double step_m : {0.005, 0.008, 0.012, 0.03, 0.05, 0.07}) {
+      SCOPED_TRACE("offset " + std::to_string(offset_px) + " px, step " + std::to_string(step_m));
+      const double z = 1.5;
+      const PlateScene scene({{-0.6, -0.2, -0.4, 0.0, z, 1},
+                              {-0.2, 0.0, -0.4, 0.0, z + step_m, 2},
+                              {0.0, 0.012, -0.4, 0.0, z + 2 * step_m, 3},
+                              {0.012, 0.3, -0.4, 0.0, z, 4},
+                              {-0.6, 0.0, 0.0, 0.3, z + step_m, 5},
+                              {0.0, 0.3, 0.0, 0.02, z + step_m, 6},
+                              {0.0, 0.3, 0.02, 0.3, z, 7}});
+      const std::vector<Detection> detections = scene.detections();
+      const DepthEdges edges = find_depth_edges(scene.depth(), scene.truth());
+      const OutlineField field = outline_field(detections, 320, 240, 60);
+      OutlineAlignment alignment;
+      alignment.offset_px = static_cast<float>(offset_px);
+      Continuity on = part_at_creases(edges);
+      const cv::Mat1w labels =
+          vote_on_surfaces(edges, field, alignment, {}, scene.truth(), detections.size(), on, 3.0);
+      const cv::Mat1w plain =
+          plain_surface_votes(edges, field, alignment, {}, scene.truth(), detections.size(), 3.0F);
+      EXPECT_EQ(cv::countNonZero(labels != plain), 0);
+      labelled += cv::countNonZero(labels);
+    }
+  EXPECT_GT(labelled, 18 * 10000);
 }
 
 /// Edges matched many at once are those that are matched one by one, bit by bit.

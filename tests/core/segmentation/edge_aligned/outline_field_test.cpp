@@ -211,7 +211,7 @@ TEST(OutlineField, GroovesAreClosedHalfByEachMaskRowsFirst) {
 }
 
 /// Only near grooves the masks as they are have distances of their own.
-TEST(OutlineField, MeasuresMasksAsTheyAreUpToSixteenPixels) {
+TEST(OutlineField, MeasuresMasksAsTheyAreNearThem) {
   RandomStream stream(26, "masks");
   const auto drawn = [&](int least, int most) {
     return least + static_cast<int>(stream.uniform() * (most - least + 1));
