@@ -158,13 +158,29 @@ cv::Rect grown(const cv::Rect& box, int by_px, const cv::Size& image) {
          cv::Rect({0, 0}, image);
 }
 
+/// Where grooves change distances that votes tell apart, as few pixels as boxes of bands that
+/// follow each other leave.
+std::vector<cv::Rect> near_grooves(const std::vector<cv::Rect>& grooves, const cv::Size& image) {
+  const auto cost = [&](const cv::Rect& box) {
+    return grown(box, 2 * kWithinVotes_px, image).area();
+  };
+  std::vector<cv::Rect> near;
+  for (const cv::Rect& groove : grooves) {
+    if (groove.empty()) continue;
+    if (!near.empty() && cost(near.back() | groove) <= cost(near.back()) + cost(groove))
+      near.back() |= groove;
+    else
+      near.push_back(groove);
+  }
+  for (cv::Rect& box : near) box = grown(box, kWithinVotes_px, image);
+  return near;
+}
+
 /// Distances of the masks as they are: those of the closed ones but near their grooves.
 cv::Mat1f distance_with_grooves(const cv::Mat1w& masks, const std::vector<cv::Rect>& grooves,
                                 const cv::Mat1f& closed_distance) {
   cv::Mat1f distance = closed_distance.clone();
-  for (const cv::Rect& groove : grooves) {
-    if (groove.empty()) continue;
-    const cv::Rect near = grown(groove, kWithinVotes_px, masks.size());
+  for (const cv::Rect& near : near_grooves(grooves, masks.size())) {
     const cv::Rect about = grown(near, kWithinVotes_px, masks.size());
     cv::Mat1f measured(about.size());
     measure_outline_distance(masks(about), measured);
