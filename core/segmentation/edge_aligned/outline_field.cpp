@@ -158,8 +158,8 @@ cv::Rect grown(const cv::Rect& box, int by_px, const cv::Size& image) {
          cv::Rect({0, 0}, image);
 }
 
-/// Where grooves change distances that votes tell apart, as few pixels as boxes of bands that
-/// follow each other leave.
+/// The boxes in which grooves change distances that votes tell apart: one for bands that follow
+/// each other where that is less to measure.
 std::vector<cv::Rect> near_grooves(const std::vector<cv::Rect>& grooves, const cv::Size& image) {
   const auto cost = [&](const cv::Rect& box) {
     return grown(box, 2 * kWithinVotes_px, image).area();
