@@ -44,6 +44,7 @@ struct BenchFrame {
 struct BenchSteps : BenchFrame {
   DepthEdges edges = find_depth_edges(depth, believed);
   OutlineField field = outline_field(detections, 640, 480, 68);
+  MaskField masks = open_grooves(outline_field(detections, 640, 480, 68));
   OutlineAlignment alignment;
   OutlineShifts shifts;
 
@@ -55,7 +56,7 @@ struct BenchSteps : BenchFrame {
   [[nodiscard]] cv::Mat1w votes() const {
     Continuity on = is_noisy(edges) ? Continuity{edges.right.clone(), edges.down.clone()}
                                     : part_at_creases(edges);
-    return vote_on_surfaces(edges, field, alignment, shifts, believed, detections.size(), on, 3.0);
+    return vote_on_surfaces(edges, masks, alignment, shifts, believed, detections.size(), on, 3.0);
   }
 };
 

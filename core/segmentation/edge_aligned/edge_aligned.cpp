@@ -15,6 +15,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace mapscore {
 namespace {
@@ -35,7 +36,7 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
     edges.steps.insert(edges.steps.end(), contacts.begin(), contacts.end());
   }
   const int reach_px = static_cast<int>(std::ceil(1.3 * params.search_px)) + 16;
-  const OutlineField field =
+  OutlineField field =
       outline_field(detections, believed.color.width_px, believed.color.height_px, reach_px);
   const bool is_known = params.fit == OutlineFit::masks && !believed.is_doubtful;
   LabelledDepth labelled;
@@ -45,8 +46,8 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
   const OutlineShifts shifts = find_outline_shifts(edges, field, labelled.alignment, believed);
   const double reach =
       labelled.alignment.is_sharp() ? kSharpReach * params.reach_px : params.reach_px;
-  labelled.labels = vote_on_surfaces(edges, field, labelled.alignment, shifts, believed,
-                                     detections.size(), on, reach);
+  labelled.labels = vote_on_surfaces(edges, open_grooves(std::move(field)), labelled.alignment,
+                                     shifts, believed, detections.size(), on, reach);
   if (is_noisy(edges)) labelled.inverse_depth = settle_on_surfaces(edges, labelled.labels);
   return labelled;
 }

@@ -43,7 +43,8 @@ struct Projection {
     return other;
   }
   [[nodiscard]] Eigen::Vector2f operator()(const Eigen::Vector3f& p) const {
-    return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy};
+    const float nearness = 1.0F / p.z();
+    return {fx * (p.x() * nearness) + cx, fy * (p.y() * nearness) + cy};
   }
 };
 
@@ -85,7 +86,8 @@ inline constexpr float kMostSquaredSlope = 2.5F;  // of a distance that goes on 
 /// not.
 [[nodiscard]] inline float exp_of_part(float x) {
   const float t = x / 16;
-  const float root = 1 + t * (1 + t * (1.0F / 2 + t * (1.0F / 6 + t * (1.0F / 24 + t / 120))));
+  const float root =
+      1 + t * (1 + t * (1.0F / 2 + t * (1.0F / 6 + t * (1.0F / 24 + t * (1.0F / 120)))));
   const float fourth = root * root * (root * root);
   return fourth * fourth * (fourth * fourth);
 }
@@ -94,13 +96,10 @@ inline constexpr float kMostSquaredSlope = 2.5F;  // of a distance that goes on 
 /// exp(-residual^2 / (2 sigma^2)), 0 beyond 3 sigma and beyond the image; residual = distance -
 /// offset. Where two masks touch, their border is the outline of the nearer object alone, which
 /// ends at the edge: the residual is the distance beyond it on the side to which the edge faces,
-/// which has no offset, since objects that touch leave no room for one. `distance` and, with
-/// kHasBorders, `beyond_border`: of a field, row-major. Without branches, so that a loop of these
-/// becomes vectors.
-template <bool kHasBorders>
-[[nodiscard]] inline EdgeMatch match_in(const float* distance, const float* beyond_border,
-                                        int columns, int rows, const EdgeAt& edge,
-                                        const MatchRules& rules) {
+/// which has no offset, since objects that touch leave no room for one. `distance`: of a field,
+/// row-major. Without branches, so that a loop of these becomes vectors.
+[[nodiscard]] inline EdgeMatch match_in(const float* distance, int columns, int rows,
+                                        const EdgeAt& edge, const MatchRules& rules) {
   const float right = static_cast<float>(columns - 1), bottom = static_cast<float>(rows - 1);
   const float at_u = edge.u > 0 ? edge.u < right ? edge.u : right : 0.0F;
   const float at_v = edge.v > 0 ? edge.v < bottom ? edge.v : bottom : 0.0F;
@@ -111,18 +110,12 @@ template <bool kHasBorders>
   const int cell = v * columns + u;
   float top_left = distance[cell], top_right = distance[cell + 1],
         low_left = distance[cell + columns], low_right = distance[cell + columns + 1];
-  bool at_border = false;
-  if constexpr (kHasBorders) {
-    const float border_top_left = beyond_border[cell], border_top_right = beyond_border[cell + 1],
-                border_low_left = beyond_border[cell + columns],
-                border_low_right = beyond_border[cell + columns + 1];
-    at_border = (border_top_left < kNoBorder) & (border_top_right < kNoBorder) &
-                (border_low_left < kNoBorder) & (border_low_right < kNoBorder);
-    top_left = at_border ? border_top_left : top_left;
-    top_right = at_border ? border_top_right : top_right;
-    low_left = at_border ? border_low_left : low_left;
-    low_right = at_border ? border_low_right : low_right;
-  }
+  const bool at_border = (border_of(top_left) != kNoBorder) & (border_of(top_right) != kNoBorder) &
+                         (border_of(low_left) != kNoBorder) & (border_of(low_right) != kNoBorder);
+  top_left = at_border ? beyond_border(top_left) : top_left;
+  top_right = at_border ? beyond_border(top_right) : top_right;
+  low_left = at_border ? beyond_border(low_left) : low_left;
+  low_right = at_border ? beyond_border(low_right) : low_right;
   const float between =
       (1 - b) * ((1 - a) * top_left + a * top_right) + b * ((1 - a) * low_left + a * low_right);
   const float along_u = (1 - b) * (top_right - top_left) + b * (low_right - low_left);
@@ -152,10 +145,7 @@ template <bool kHasBorders>
                                           const MatchRules& rules) {
   const int columns = field.distance.cols, rows = field.distance.rows;
   if (columns < 2 || rows < 2) return {};
-  return field.beyond_border.empty()
-             ? match_in<false>(field.distance[0], nullptr, columns, rows, edge, rules)
-             : match_in<true>(field.distance[0], field.beyond_border[0], columns, rows, edge,
-                              rules);
+  return match_in(field.distance[0], columns, rows, edge, rules);
 }
 
 }  // namespace mapscore

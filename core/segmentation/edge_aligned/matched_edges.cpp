@@ -6,6 +6,7 @@
 #include "core/wide_vectors.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace mapscore {
 
@@ -39,7 +40,7 @@ void PlacedEdges::push_back(const Eigen::Vector2f& at, const Eigen::Vector2f& ou
 
 void MatchedEdges::match(const EdgeColumns& edges, const OutlineAlignment& a,
                          const Projection& project, float sigma_px) {
-  for (std::vector<float>* column : {&x, &y, &z, &u, &v}) column->resize(edges.x.size());
+  for (std::vector<float>* column : {&x, &y, &nearness, &u, &v}) column->resize(edges.x.size());
   move(edges, a, project);
   match_placed(edges.outward_u, edges.outward_v, edges.strength, {a.offset_px, sigma_px});
 }
@@ -60,7 +61,8 @@ void MatchedEdges::move(const EdgeColumns& edges, const OutlineAlignment& a,
                         const Projection& project) {
   const int count = static_cast<int>(edges.x.size());
   const float *xs = edges.x.data(), *ys = edges.y.data(), *zs = edges.z.data();
-  float *px = x.data(), *py = y.data(), *pz = z.data(), *us = u.data(), *vs = v.data();
+  float *px = x.data(), *py = y.data(), *nearnesses = nearness.data(), *us = u.data(),
+        *vs = v.data();
   const Eigen::Matrix3f& R = a.rotation;
   const float fx = project.fx, fy = project.fy, cx = project.cx, cy = project.cy;
   const float xx = R(0, 0), xy = R(0, 1), xz = R(0, 2), yx = R(1, 0), yy = R(1, 1), yz = R(1, 2),
@@ -73,29 +75,27 @@ void MatchedEdges::move(const EdgeColumns& edges, const OutlineAlignment& a,
     const float Z = zx * xs[n] + (zy * ys[n] + zz * zs[n]) + tz;
     const bool is_ahead = Z > kNearest_m;
     const float ahead = is_ahead ? Z : kNearest_m;
-    px[n] = X / ahead, py[n] = Y / ahead, pz[n] = ahead;
-    us[n] = is_ahead ? fx * X / ahead + cx : -1.0F;  // beyond the image
-    vs[n] = fy * Y / ahead + cy;
+    const float near = 1.0F / ahead;
+    px[n] = X * near, py[n] = Y * near, nearnesses[n] = near;
+    us[n] = is_ahead ? fx * (X * near) + cx : -1.0F;  // beyond the image
+    vs[n] = fy * (Y * near) + cy;
   }
 }
 
-template <bool kHasBorders>
-MAPSCORE_WIDE_VECTORS void MatchedEdges::match_all(const float* outward_us, const float* outward_vs,
-                                                   const float* strengths,
-                                                   const MatchRules& rules) {
+MAPSCORE_WIDE_VECTORS
+void MatchedEdges::match_all(const float* outward_us, const float* outward_vs,
+                             const float* strengths, const MatchRules& rules) {
   const int count = static_cast<int>(u.size()), columns = field_.distance.cols,
             rows = field_.distance.rows;
   const float *image = field_.distance[0], *us = u.data(), *vs = v.data();
-  const float* const borders = kHasBorders ? field_.beyond_border[0] : nullptr;
   float *weights = weight.data(), *residuals = residual.data(), *distances = distance.data(),
         *facings = facing.data(), *slopes_u = slope_u.data(), *slopes_v = slope_v.data(),
         *slopes_offset = slope_offset.data();
   const MatchRules by = rules;
   MAPSCORE_NO_OVERLAPS
   for (int n = 0; n < count; ++n) {
-    const EdgeMatch match =
-        match_in<kHasBorders>(image, borders, columns, rows,
-                              {us[n], vs[n], outward_us[n], outward_vs[n], strengths[n]}, by);
+    const EdgeMatch match = match_in(
+        image, columns, rows, {us[n], vs[n], outward_us[n], outward_vs[n], strengths[n]}, by);
     weights[n] = match.weight, residuals[n] = match.residual, distances[n] = match.distance;
     facings[n] = match.facing, slopes_u[n] = match.slope_u, slopes_v[n] = match.slope_v;
     slopes_offset[n] = match.at_border ? 0.0F : -1.0F;
@@ -110,10 +110,51 @@ void MatchedEdges::match_placed(const std::vector<float>& outward_u,
     column->resize(u.size());
   if (field_.distance.cols < 2 || field_.distance.rows < 2)
     std::ranges::fill(weight, 0.0F);
-  else if (field_.beyond_border.empty())
-    match_all<false>(outward_u.data(), outward_v.data(), strength.data(), rules);
   else
-    match_all<true>(outward_u.data(), outward_v.data(), strength.data(), rules);
+    match_all(outward_u.data(), outward_v.data(), strength.data(), rules);
+}
+
+MAPSCORE_WIDE_VECTORS
+NormalEquations add_up(const MatchedEdges& edges, const Projection& project, float focal_px) {
+  constexpr int kLanes = EdgeColumns::kTogether, kRows = kParameters + 2;
+  const float *xs = edges.x.data(), *ys = edges.y.data(), *nearnesses = edges.nearness.data();
+  const float *weights = edges.weight.data(), *residuals = edges.residual.data(),
+              *slopes_u = edges.slope_u.data(), *slopes_v = edges.slope_v.data(),
+              *slopes_offset = edges.slope_offset.data();
+  const float fx = project.fx, fy = project.fy, part = 1.0F / focal_px;
+  alignas(64) float sums[kRows * (kRows + 1) / 2][kLanes] = {};
+  alignas(64) float rows[kRows][kLanes];  // the slopes, the residual and 1
+  const int count = static_cast<int>(edges.weight.size());
+  for (int first = 0; first < count; first += kLanes) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int n = first + lane;
+      const float x = xs[n], y = ys[n], gu = slopes_u[n] * fx, gv = slopes_v[n] * fy;
+      rows[kTurnX][lane] = part * (-gu * x * y - gv * (1 + y * y));
+      rows[kTurnY][lane] = part * (gu * (1 + x * x) + gv * x * y);
+      rows[kRoll][lane] = part * (gv * x - gu * y);
+      rows[kFocal][lane] = part * (gu * x + gv * y);
+      rows[kShiftX][lane] = gu * nearnesses[n];
+      rows[kShiftY][lane] = gv * nearnesses[n];
+      rows[kOffset][lane] = slopes_offset[n];
+      rows[kParameters][lane] = residuals[n];
+      rows[kParameters + 1][lane] = 1.0F;
+    }
+    float(*sum)[kLanes] = sums;
+    for (int i = 0; i < kRows; ++i) {
+      alignas(64) float weighted[kLanes];
+      for (int lane = 0; lane < kLanes; ++lane)
+        weighted[lane] = weights[first + lane] * rows[i][lane];
+      for (int j = 0; j <= i; ++j, ++sum)
+        for (int lane = 0; lane < kLanes; ++lane) (*sum)[lane] += weighted[lane] * rows[j][lane];
+    }
+  }
+  Eigen::Matrix<float, kRows, kRows> all;
+  const float(*sum)[kLanes] = sums;
+  for (int i = 0; i < kRows; ++i)
+    for (int j = 0; j <= i; ++j, ++sum)
+      all(i, j) = all(j, i) = std::accumulate(*sum, *sum + kLanes, 0.0F);
+  return {all.topLeftCorner<kParameters, kParameters>(), -all.col(kParameters).head<kParameters>(),
+          all(kParameters + 1, kParameters + 1), all(kParameters, kParameters)};
 }
 
 }  // namespace mapscore

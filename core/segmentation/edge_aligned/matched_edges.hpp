@@ -58,8 +58,9 @@ class MatchedEdges {
       if (weight[n] > 0) use(n);
   }
 
-  std::vector<float> x, y, z;  ///< X / Z, Y / Z and Z (m) in the colour camera's frame, if moved
-  std::vector<float> u, v;     ///< place in the colour image, px
+  std::vector<float> x, y,
+      nearness;             ///< X / Z, Y / Z and 1 / Z (1/m) in the colour camera's frame, if moved
+  std::vector<float> u, v;  ///< place in the colour image, px
   std::vector<float> weight, residual, distance, facing, slope_u, slope_v;  ///< as in EdgeMatch
   std::vector<float> slope_offset;  ///< of the residual with the masks' offset: 0 at borders, or -1
 
@@ -67,11 +68,29 @@ class MatchedEdges {
   void move(const EdgeColumns& edges, const OutlineAlignment& a, const Projection& project);
   void match_placed(const std::vector<float>& outward_u, const std::vector<float>& outward_v,
                     const std::vector<float>& strength, const MatchRules& rules);
-  template <bool kHasBorders>
   void match_all(const float* outward_us, const float* outward_vs, const float* strengths,
                  const MatchRules& rules);
 
   const OutlineField& field_;
 };
+
+/// What a fit changes: turns about x and y, in pixels at the image's middle; roll and the logarithm
+/// of the focal length, in pixels as far from it as the focal length; shifts along x and y, m; the
+/// masks' offset, px.
+enum Parameter { kTurnX, kTurnY, kRoll, kFocal, kShiftX, kShiftY, kOffset, kParameters };
+using Parameters = Eigen::Matrix<float, kParameters, 1>;
+
+/// Sums over matched edges, of weights w, residuals r and slopes J of these with the parameters.
+struct NormalEquations {
+  Eigen::Matrix<float, kParameters, kParameters> H;  ///< w J J^T
+  Parameters b;                                      ///< -w r J
+  float matched = 0, squares = 0;                    ///< w, w r^2
+};
+
+/// Adds up edges, moved and matched in whole groups (EdgeColumns::kTogether), in as many lanes, and
+/// these at last, in order. `project`: the one that matched
+/// them; `focal_px`: of the believed colour camera, in which parameters are counted.
+[[nodiscard]] NormalEquations add_up(const MatchedEdges& edges, const Projection& project,
+                                     float focal_px);
 
 }  // namespace mapscore

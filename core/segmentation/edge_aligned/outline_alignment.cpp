@@ -7,8 +7,9 @@
 #include "core/segmentation/edge_aligned/alignment_starts.hpp"
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
 #include "core/segmentation/edge_aligned/matched_edges.hpp"
-#include "core/segmentation/edge_aligned/outline_equations.hpp"
 #include "core/wide_vectors.hpp"
+
+#include <opencv2/imgproc.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -42,18 +43,17 @@ struct Levers {
 
 Levers levers_of(const OutlineField& field, const Projection& project) {
   const Eigen::Vector2d middle = Eigen::Vector2f(project.cx, project.cy).cast<double>();
+  Eigen::Matrix3d to_px;  // from a cell's place to that of its middle
+  to_px << 1, 0, 0, 1.5 - middle.x(), OutlineField::kCell_px, 0, 1.5 - middle.y(), 0,
+      OutlineField::kCell_px;
   Eigen::Matrix<double, 5, 5> H = Eigen::Matrix<double, 5, 5>::Zero();
+  cv::Mat1b cells;
   for (std::size_t way = 0; way < 4; ++way) {
-    const cv::Mat1f& cells = field.elements[way];
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();  // of (1, x, y) from the image's middle
-    for (int row = 0; row < cells.rows; ++row)
-      for (int column = 0; column < cells.cols; ++column) {
-        if (cells(row, column) <= 0) continue;
-        const Eigen::Vector3d at(
-            1.0, static_cast<double>(column * OutlineField::kCell_px) + 1.5 - middle.x(),
-            static_cast<double>(row * OutlineField::kCell_px) + 1.5 - middle.y());
-        moments += static_cast<double>(cells(row, column)) * at * at.transpose();
-      }
+    field.elements[way].convertTo(cells, CV_8U);  // moments of these are quicker
+    const cv::Moments m = cv::moments(cells);
+    Eigen::Matrix3d moments;  // of (1, column, row), then of (1, x, y) from the image's middle
+    moments << m.m00, m.m10, m.m01, m.m10, m.m20, m.m11, m.m01, m.m11, m.m02;
+    moments = to_px * moments * to_px.transpose();
     const Eigen::Vector2d n = direction_of(static_cast<Outward>(way)).cast<double>();
     Eigen::Matrix<double, 5, 3> J;
     J << n.x(), 0, 0, n.y(), 0, 0, 0, n.y(), -n.x(), 0, n.x(), n.y(), 1, 0, 0;
@@ -105,6 +105,7 @@ class Aligner {
     for (const cv::Mat1f& map : field.elements)
       elements_.insert(elements_.end(), map[0], map[0] + map.total());
     std::vector<ProjectedEdge> projected;
+    projected.reserve(edges.steps.size());
     for (const DepthEdge& edge : edges.steps) {
       const Eigen::Vector3f p = R * edge.point + t;
       if (!(p.z() > MatchedEdges::kNearest_m)) continue;

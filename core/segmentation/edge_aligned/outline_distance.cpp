@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -15,10 +16,8 @@ namespace mapscore {
 namespace {
 
 constexpr std::int32_t kUnits = 1 << 16;  // a pixel
-/// Steps are multiples of 4, so the lowest two bits of a way tell at which rim it began.
+/// Steps are multiples of 4, so the lowest two bits of a way tell at which Border it began.
 constexpr std::int32_t kStraight = 62588, kDiagonal = 89740;
-constexpr std::int32_t kAtLater = 1, kAtEarlier = 2;  // beside a mask of a higher, a lower number
-constexpr std::int32_t kRim = 3;
 constexpr std::int32_t kUnknown = 1 << 29;  // 8192 pixels
 
 /// By value: std::min chooses between places, which do not become vectors.
@@ -59,13 +58,13 @@ void mark_rim(const OwnerRows& rows, std::uint8_t* __restrict marks) {
   mark(last, row[std::max(last - 1, 0)], row[last]);
 }
 
-/// What a way that begins on a rim pixel begins with: 0, or which mask is beside it.
+/// What a way that begins on a rim pixel begins with: its Border.
 std::int32_t way_from_rim(const OwnerRows& rows, int u) {
   const std::uint16_t own = rows.row[u];
-  std::int32_t way = 0;
+  std::int32_t way = kNoBorder;
   for (const std::uint16_t other : rows.beside(u)) {
-    if (other > own) return kAtLater;
-    if (other != 0 && other < own) way = kAtEarlier;
+    if (other > own) return kBesideHigher;
+    if (other != 0 && other < own) way = kBesideLower;
   }
   return way;
 }
@@ -92,20 +91,12 @@ MAPSCORE_WIDE_VECTORS
 void write_distances(const std::uint16_t* owner, const std::int32_t* ways, float* distances,
                      int columns) {
   for (int u = 0; u < columns; ++u) {
-    const float way = static_cast<float>(ways[u] & ~kRim) * (1.0F / kUnits);
+    const std::int32_t border = owner[u] != 0 ? ways[u] & kBorderBits : kNoBorder;
+    const float way = static_cast<float>(ways[u] & ~kBorderBits) * (1.0F / kUnits);
     const float inside = -0.5F - way, outside = way - 0.5F;
-    distances[u] = owner[u] != 0 ? inside : outside;
-  }
-}
-
-/// `beyond`: from borders, by distances from outlines.
-MAPSCORE_WIDE_VECTORS
-void write_beyond_borders(const std::uint16_t* owner, const std::int32_t* ways,
-                          const float* distances, float* __restrict beyond, int columns) {
-  for (int u = 0; u < columns; ++u) {
-    const std::int32_t rim = owner[u] != 0 ? ways[u] & kRim : 0;
-    const float from_border = rim == kAtLater ? distances[u] : -distances[u];
-    beyond[u] = rim != 0 ? from_border : kNoBorder;
+    const float distance = owner[u] != 0 ? inside : outside;
+    distances[u] =
+        std::bit_cast<float>((std::bit_cast<std::int32_t>(distance) & ~kBorderBits) | border);
   }
 }
 
@@ -132,7 +123,7 @@ void step_along(const OwnerRows& rows, const Marks& rim, std::int32_t* ways) {
 /// of it one is on it, or they touch at a corner, and their common neighbours are nearer. The steps
 /// of a shortest way may come in any order: those along the row first, then those from row to row,
 /// all down or all up. Between the passes `distance` keeps the bits of the ways found so far.
-void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance, cv::Mat1f beyond_border) {
+void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance) {
   const int columns = owner.cols;
   const std::size_t row_bytes = static_cast<std::size_t>(columns) * sizeof(float);
   static_assert(sizeof(float) == sizeof(std::int32_t));
@@ -153,8 +144,6 @@ void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance, cv::Ma
     std::memcpy(ways, distance[v], row_bytes);
     step_across(rows[1 - v % 2].data() + 1, ways, columns);
     write_distances(owner[v], ways, distance[v], columns);
-    if (!beyond_border.empty())
-      write_beyond_borders(owner[v], ways, distance[v], beyond_border[v], columns);
   }
 }
 

@@ -5,10 +5,24 @@
 
 #include <opencv2/core.hpp>
 
+#include <bit>
+#include <cstdint>
+
 namespace mapscore {
 
-/// Of pixels whose nearest outline is no border of two masks.
-inline constexpr float kNoBorder = 1e4F;
+/// What the lowest two bits of a distance tell of the outline that is nearest to its pixel: it is
+/// no border of two masks, or the one beside a mask of a higher, or of a lower number.
+enum Border : std::int32_t { kNoBorder, kBesideHigher, kBesideLower, kBorderBits };
+
+[[nodiscard]] inline std::int32_t border_of(float distance) {
+  return std::bit_cast<std::int32_t>(distance) & kBorderBits;
+}
+
+/// The distance from that border, where it is one: negative in the mask of the lower number,
+/// positive in the other, so that it is 0 on the border and goes on evenly.
+[[nodiscard]] inline float beyond_border(float distance) {
+  return border_of(distance) == kBesideLower ? -distance : distance;
+}
 
 /// Signed distance in pixels to the nearest outline of a mask, negative inside masks. With d the
 /// distance to the nearest rim pixel (a mask's pixel with a 4-neighbour of another owner or none):
@@ -17,13 +31,11 @@ inline constexpr float kNoBorder = 1e4F;
 /// transformations in digital images); cv::distanceTransform(DIST_L2, DIST_MASK_3) gives the same
 /// within 1/30000 of it. d = 8192 without a rim. `owner`: an image or a window of one, 0 for none;
 /// `distance`: its size.
-/// `beyond_border`, empty or of that size: where the nearest rim pixel touches another mask, the
-/// distance from that border, negative in the mask of the lower number, positive in the other, so
-/// that it is 0 on the border and goes on evenly; kNoBorder elsewhere. A rim pixel that touches
-/// several counts as beside one of a higher number; of rims equally near one that is no border
-/// comes first, then one beside a higher number. So in a strip of 1 to 3 pixels between a mask of a
-/// lower and one of a higher number it may change its sign.
-void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance,
-                              cv::Mat1f beyond_border = {});
+/// In masks the lowest two bits of a distance are a Border (which changes it by less than 4e-7 of
+/// it): whether the nearest rim pixel touches
+/// another mask. One that touches several counts as beside one of a higher number; of rims equally
+/// near one that is no border comes first, then one beside a higher number. So in a strip of 1 to 3
+/// pixels between a mask of a lower and one of a higher number `beyond_border` may change its sign.
+void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance);
 
 }  // namespace mapscore

@@ -17,87 +17,91 @@ namespace {
 constexpr int kWithinVotes_px = 18;  // more than votes tell apart: the largest offset, 6 px, and 2
 constexpr int kGrooveRows = 32;      // in which grooves are boxed
 
+cv::Rect grown(const cv::Rect& box, int by_px, const cv::Size& image) {
+  return cv::Rect(box.x - by_px, box.y - by_px, box.width + 2 * by_px, box.height + 2 * by_px) &
+         cv::Rect({0, 0}, image);
+}
+
+cv::Rect rect_of(const PixelBox& box) {
+  return {box.u_min, box.v_min, box.width(), box.height()};
+}
+
 cv::Mat1w painted(const std::vector<Detection>& detections, int width_px, int height_px) {
   cv::Mat1w owner(height_px, width_px, std::uint16_t{0});
   for (std::size_t n = 0; n < detections.size(); ++n) {
-    const PixelBox& box = detections[n].box;
     if (detections[n].mask.empty()) continue;
-    owner(cv::Rect(box.u_min, box.v_min, box.width(), box.height()))
-        .setTo(static_cast<double>(n + 1), detections[n].mask);
+    owner(rect_of(detections[n].box)).setTo(static_cast<double>(n + 1), detections[n].mask);
   }
   return owner;
-}
-
-cv::Rect window_of(const std::vector<Detection>& detections, const cv::Size& image, int reach_px) {
-  cv::Rect window;
-  for (const Detection& detection : detections) {
-    const PixelBox& box = detection.box;
-    const cv::Rect rect(box.u_min - reach_px, box.v_min - reach_px, box.width() + 2 * reach_px,
-                        box.height() + 2 * reach_px);
-    window = window.empty() ? rect : window | rect;
-  }
-  return window & cv::Rect({0, 0}, image);
 }
 
 /// A pixel whose right or lower neighbour has another owner; the image's border repeats its own.
 struct Change {
   int u, v;
   std::uint16_t own, right, below;
-
-  /// Whether two masks touch here.
-  [[nodiscard]] bool is_border() const {
-    return own != 0 && ((right != 0 && right != own) || (below != 0 && below != own));
-  }
 };
 
-/// All of them, row by row.
-std::vector<Change> changes_of(const cv::Mat1w& masks) {
-  std::vector<Change> changes;
-  if (masks.empty()) return changes;
-  const int last = masks.cols - 1;
-  Marks differ(static_cast<std::size_t>(masks.cols));
+/// Adds those of a row.
+void add_changes(const cv::Mat1w& owner, int v, Marks& differ, std::vector<Change>& changes) {
+  const int last = owner.cols - 1;
+  differ.resize(static_cast<std::size_t>(owner.cols));
   std::uint8_t* const differs = differ.data();
-  for (int v = 0; v < masks.rows; ++v) {
-    const std::uint16_t* row = masks[v];
-    const std::uint16_t* below = v + 1 < masks.rows ? masks[v + 1] : row;
-    for (int u = 0; u < last; ++u) differs[u] = (row[u] != row[u + 1]) | (row[u] != below[u]);
-    differs[last] = row[last] != below[last];
-    for_each_marked(differ, [&](int u) {
-      changes.push_back({u, v, row[u], row[std::min(u + 1, last)], below[u]});
-    });
+  const std::uint16_t* row = owner[v];
+  const std::uint16_t* below = v + 1 < owner.rows ? owner[v + 1] : row;
+  for (int u = 0; u < last; ++u) differs[u] = (row[u] != row[u + 1]) | (row[u] != below[u]);
+  differs[last] = row[last] != below[last];
+  for_each_marked(differ, [&](int u) {
+    changes.push_back({u, v, row[u], row[std::min(u + 1, last)], below[u]});
+  });
+}
+
+/// All of them, row by row.
+std::vector<Change> changes_of(const cv::Mat1w& owner) {
+  std::vector<Change> changes;
+  Marks differ;
+  for (int v = 0; v < owner.rows && owner.cols > 0; ++v) add_changes(owner, v, differ, changes);
+  return changes;
+}
+
+/// The same once some pixels have got an owner, from those `before`.
+std::vector<Change> changes_after(const std::vector<Change>& before, const cv::Mat1w& owner,
+                                  const std::vector<cv::Point>& got) {
+  std::vector<bool> differs(static_cast<std::size_t>(owner.rows) + 1, false);  // from row -1 on
+  for (const cv::Point& at : got)
+    differs[static_cast<std::size_t>(at.y)] = differs[static_cast<std::size_t>(at.y) + 1] = true;
+  std::vector<Change> changes;
+  Marks differ;
+  auto from = before.begin();
+  for (int v = 0; v < owner.rows; ++v) {
+    const auto end = std::find_if(from, before.end(), [v](const Change& c) { return c.v > v; });
+    if (differs[static_cast<std::size_t>(v) + 1])
+      add_changes(owner, v, differ, changes);
+    else
+      changes.insert(changes.end(), from, end);
+    from = end;
   }
   return changes;
 }
 
-/// Masks with their grooves closed.
-struct ClosedMasks {
-  cv::Mat1w owner;                ///< the masks' own image where there are none
-  std::vector<cv::Rect> grooves;  ///< the boxes about them by band of kGrooveRows rows
-};
-
-/// Closes grooves half by each mask, rows first.
-ClosedMasks without_grooves(const cv::Mat1w& masks, const std::vector<Change>& changes) {
+/// Closes grooves of masks, half by each, rows first. Returns their pixels.
+std::vector<cv::Point> close_grooves(const std::vector<Change>& changes, cv::Mat1w& owners) {
   /// The last pixel of a mask in a row or column.
   struct Rim {
     int at = -OutlineField::kGroove_px - 2;
     std::uint16_t owner = 0;
   };
-  ClosedMasks closed{masks, {}};
+  std::vector<cv::Point> closed;
   const auto close = [&](const Rim& rim, int end, std::uint16_t owner, auto&& pixel_at) {
     const int gap = end - rim.at - 1;
     if (gap > OutlineField::kGroove_px || rim.owner == owner) return;
-    if (closed.grooves.empty()) {
-      closed.owner = masks.clone();
-      closed.grooves.resize(static_cast<std::size_t>(masks.rows / kGrooveRows + 1));
-    }
     for (int n = 0; n < gap; ++n) {
       const cv::Point at = pixel_at(rim.at + 1 + n);
-      if (closed.owner(at) != 0) continue;
-      closed.owner(at) = 2 * n < gap ? rim.owner : owner;
-      closed.grooves[static_cast<std::size_t>(at.y / kGrooveRows)] |= cv::Rect(at, cv::Size(1, 1));
+      if (owners(at) != 0) continue;
+      owners(at) = 2 * n < gap ? rim.owner : owner;
+      closed.push_back(at);
     }
   };
-  std::vector<Rim> columns(static_cast<std::size_t>(masks.cols));
+  std::vector<Rim> columns(static_cast<std::size_t>(owners.cols));
   Rim rim;
   int row = -1;
   for (const auto& [u, v, own, right, below] : changes) {
@@ -137,14 +141,11 @@ void count_elements(const std::vector<Change>& changes, const cv::Size& image,
   }
 }
 
-/// Fills distances beyond a window; `beyond_border` may be empty.
-void fill_far(const cv::Mat1w& owner, const cv::Rect& window, cv::Mat1f& distance,
-              cv::Mat1f& beyond_border) {
+/// Fills distances beyond a window.
+void fill_far(const cv::Mat1w& owner, const cv::Rect& window, cv::Mat1f& distance) {
   const auto fill = [&](int v, int begin, int end) {
     for (int u = begin; u < end; ++u)
       distance(v, u) = owner(v, u) != 0 ? -OutlineField::kFar : OutlineField::kFar;
-    if (!beyond_border.empty())
-      std::fill(beyond_border[v] + begin, beyond_border[v] + end, kNoBorder);
   };
   for (int v = 0; v < owner.rows; ++v) {
     const bool is_within = v >= window.y && v < window.br().y;
@@ -153,14 +154,12 @@ void fill_far(const cv::Mat1w& owner, const cv::Rect& window, cv::Mat1f& distanc
   }
 }
 
-cv::Rect grown(const cv::Rect& box, int by_px, const cv::Size& image) {
-  return cv::Rect(box.x - by_px, box.y - by_px, box.width + 2 * by_px, box.height + 2 * by_px) &
-         cv::Rect({0, 0}, image);
-}
-
-/// The boxes in which grooves change distances that votes tell apart: one for bands that follow
-/// each other where that is less to measure.
-std::vector<cv::Rect> near_grooves(const std::vector<cv::Rect>& grooves, const cv::Size& image) {
+/// The boxes in which grooves change distances that votes tell apart: by band of kGrooveRows rows,
+/// or one for bands that follow each other where that is less to measure.
+std::vector<cv::Rect> near_grooves(const std::vector<cv::Point>& pixels, const cv::Size& image) {
+  std::vector<cv::Rect> grooves(static_cast<std::size_t>(image.height / kGrooveRows + 1));
+  for (const cv::Point& at : pixels)
+    grooves[static_cast<std::size_t>(at.y / kGrooveRows)] |= cv::Rect(at, cv::Size(1, 1));
   const auto cost = [&](const cv::Rect& box) {
     return grown(box, 2 * kWithinVotes_px, image).area();
   };
@@ -174,19 +173,6 @@ std::vector<cv::Rect> near_grooves(const std::vector<cv::Rect>& grooves, const c
   }
   for (cv::Rect& box : near) box = grown(box, kWithinVotes_px, image);
   return near;
-}
-
-/// Distances of the masks as they are: those of the closed ones but near their grooves.
-cv::Mat1f distance_with_grooves(const cv::Mat1w& masks, const std::vector<cv::Rect>& grooves,
-                                const cv::Mat1f& closed_distance) {
-  cv::Mat1f distance = closed_distance.clone();
-  for (const cv::Rect& near : near_grooves(grooves, masks.size())) {
-    const cv::Rect about = grown(near, kWithinVotes_px, masks.size());
-    cv::Mat1f measured(about.size());
-    measure_outline_distance(masks(about), measured);
-    measured(near - about.tl()).copyTo(distance(near));
-  }
-  return distance;
 }
 
 std::array<cv::Mat1b, 4> coarse_maps(const std::array<cv::Mat1f, 4>& cells) {
@@ -257,27 +243,31 @@ cv::Mat1w spread_owners(const cv::Mat1w& masks, int reach_px) {
 OutlineField outline_field(const std::vector<Detection>& detections, int width_px, int height_px,
                            int reach_px) {
   OutlineField field;
-  field.masks = painted(detections, width_px, height_px);
-  std::vector<Change> changes = changes_of(field.masks);
-  const ClosedMasks closed = without_grooves(field.masks, changes);
-  field.owner = closed.owner;
-  if (!closed.grooves.empty()) changes = changes_of(field.owner);
+  field.owner = painted(detections, width_px, height_px);
+  std::vector<Change> changes = changes_of(field.owner);
+  field.closed = close_grooves(changes, field.owner);
+  if (!field.closed.empty()) changes = changes_after(changes, field.owner, field.closed);
   count_elements(changes, field.owner.size(), field);
   field.coarse = coarse_maps(field.elements);
   field.distance.create(height_px, width_px);
-  if (std::ranges::any_of(changes, &Change::is_border))
-    field.beyond_border.create(height_px, width_px);
-  cv::Rect window = window_of(detections, {width_px, height_px}, reach_px);
-  if (field.length_px == 0) window = {};
-  fill_far(field.owner, window, field.distance, field.beyond_border);
-  if (!window.empty())
-    measure_outline_distance(
-        field.owner(window), field.distance(window),
-        field.beyond_border.empty() ? cv::Mat1f() : field.beyond_border(window));
-  field.mask_distance = closed.grooves.empty()
-                            ? field.distance
-                            : distance_with_grooves(field.masks, closed.grooves, field.distance);
+  cv::Rect window;
+  for (const Detection& detection : detections)
+    if (field.length_px > 0) window |= grown(rect_of(detection.box), reach_px, field.owner.size());
+  fill_far(field.owner, window, field.distance);
+  if (!window.empty()) measure_outline_distance(field.owner(window), field.distance(window));
   return field;
+}
+
+MaskField open_grooves(OutlineField field) {
+  const cv::Size image = field.owner.size();
+  for (const cv::Point& at : field.closed) field.owner(at) = 0;
+  for (const cv::Rect& near : near_grooves(field.closed, image)) {
+    const cv::Rect about = grown(near, kWithinVotes_px, image);
+    cv::Mat1f measured(about.size());
+    measure_outline_distance(field.owner(about), measured);
+    measured(near - about.tl()).copyTo(field.distance(near));
+  }
+  return {field.owner, field.distance};
 }
 
 }  // namespace mapscore

@@ -21,15 +21,10 @@ namespace mapscore {
 struct OutlineField {
   /// 1 + index of the detection whose mask holds the pixel, 0 for none; grooves closed.
   cv::Mat1w owner;
-  /// Pixels to the nearest outline of `owner`, negative inside a mask; +-kFar far from all masks.
+  /// Pixels to the nearest outline of `owner`, negative inside a mask, in whose lowest bits is its
+  /// Border (outline_distance.hpp); +-kFar far from all masks.
   cv::Mat1f distance;
-  /// Where that outline is a border of two masks, pixels from it, negative in the mask of the lower
-  /// number and positive in the other; kNoBorder elsewhere. Empty where no masks touch.
-  cv::Mat1f beyond_border;
-  /// Owner and distance of the masks as they are; the distance up to 15.5 px, beyond it is more
-  /// than that. The same images where there is no groove.
-  cv::Mat1w masks;
-  cv::Mat1f mask_distance;
+  std::vector<cv::Point> closed;  ///< pixels of grooves, which no mask holds by itself
   /// How well an edge that faces Outward d fits at quarter size, 0 to 255: 255 on outlines that
   /// face the same way, less within 8 pixels and for those that face the other way.
   std::array<cv::Mat1b, 4> coarse;
@@ -52,5 +47,15 @@ struct OutlineField {
 /// `reach_px`: how far from the masks the field is wanted.
 [[nodiscard]] OutlineField outline_field(const std::vector<Detection>& detections, int width_px,
                                          int height_px, int reach_px);
+
+/// The masks of a frame as they are.
+struct MaskField {
+  cv::Mat1w owner;     ///< 1 + index of the detection whose mask holds the pixel, 0 for none
+  cv::Mat1f distance;  ///< pixels to the nearest outline up to 15.5, beyond it is more than that
+};
+
+/// Opens the grooves of a field again, in its own images: neither it nor a copy of it serves a fit
+/// any more.
+[[nodiscard]] MaskField open_grooves(OutlineField field);
 
 }  // namespace mapscore

@@ -3,7 +3,7 @@
 
 #include "core/segmentation/edge_aligned/pixel_votes.hpp"
 
-#include "core/segmentation/edge_aligned/edge_matching.hpp"
+#include "core/segmentation/edge_aligned/color_places.hpp"
 #include "core/segmentation/edge_aligned/filled_slits.hpp"
 #include "core/segmentation/edge_aligned/unseen_occluders.hpp"
 #include "core/wide_vectors.hpp"
@@ -30,69 +30,13 @@ constexpr float kFree_px = 0.5F;      // what no mask holds begins half a pixel 
 constexpr float kOutside_px = -1e4F;  // of what the colour camera does not see
 
 constexpr float kLeastParallax_px = 0.2F;   // between a surface and what hides it where masks meet
-constexpr float kLeastBaseline_m = 0.025F;  // counted at least: a fit may take a shift for a turn
+constexpr double kLeastBaseline_m = 0.025;  // counted at least: a fit may take a shift for a turn
 constexpr int kBesideMask_px = 2;  // where masks meet: both within so much of a colour pixel
 
 /// By how much more than noise a surface lies behind the nearest one of its colour pixel, 1/m.
 float behind(float nearest, float noise, float w) {
   return nearest * (1.0F - kHidden) - kNoise * noise - w;
 }
-
-/// From a depth pixel to the colour image.
-struct RayMotion {
-  Eigen::Matrix3f R;
-  Eigen::Vector3f t;
-  Projection color, depth;
-};
-
-/// Projects the pixels of a row of inverse depths w: with p = z ray, p_color / z = R ray + t w.
-MAPSCORE_WIDE_VECTORS
-void project_row(const RayMotion& motion, int v, const float* w, int columns, float* us,
-                 float* vs) {
-  const Eigen::Matrix3f& R = motion.R;
-  const Projection &color = motion.color, &depth = motion.depth;
-  const float y = (static_cast<float>(v) - depth.cy) / depth.fy, inverse_f = 1.0F / depth.fx;
-  const float xx = R(0, 0), xy = R(0, 1) * y, xz = R(0, 2), yx = R(1, 0), yy = R(1, 1) * y,
-              yz = R(1, 2), zx = R(2, 0), zy = R(2, 1) * y, zz = R(2, 2);
-  const float tx = motion.t.x(), ty = motion.t.y(), tz = motion.t.z();
-  const float fx = color.fx, fy = color.fy, cx = color.cx, cy = color.cy, centre = depth.cx;
-  for (int u = 0; u < columns; ++u) {
-    const float x = (static_cast<float>(u) - centre) * inverse_f;
-    const float X = xx * x + xy + xz + tx * w[u];
-    const float Y = yx * x + yy + yz + ty * w[u];
-    const float Z = zx * x + zy + zz + tz * w[u];
-    const float inverse_z = 1.0F / Z;
-    us[u] = fx * X * inverse_z + cx;
-    vs[u] = fy * Y * inverse_z + cy;
-  }
-}
-
-/// The pixels of an image, row-major, that hold some places; -1 beyond it.
-MAPSCORE_WIDE_VECTORS
-void find_pixels(const float* us, const float* vs, int count, const cv::Size& image, int* pixels) {
-  const int columns = image.width;
-  const float right = static_cast<float>(columns), bottom = static_cast<float>(image.height);
-  for (int n = 0; n < count; ++n) {
-    const float u = us[n] + 0.5F, v = vs[n] + 0.5F;
-    const bool within = (u >= 0) & (v >= 0) & (u < right) & (v < bottom);
-    const int column = static_cast<int>(within ? u : 0.0F);
-    const int row = static_cast<int>(within ? v : 0.0F);
-    pixels[n] = within ? row * columns + column : -1;
-  }
-}
-
-/// Marks the pixels of a row that do not lie beside the one before, in an image that holds both.
-MAPSCORE_WIDE_VECTORS
-void mark_jumps(const int* cells, int count, std::uint8_t* marks) {
-  for (int u = 1; u < count; ++u)
-    marks[u] = static_cast<std::uint8_t>((cells[u - 1] < 0) | (cells[u] != cells[u - 1] + 1));
-}
-
-/// Depth pixels of a row, from column `begin`, that lie in colour pixels beside each other, from
-/// `cell` on. Most runs are long, and read an image as fast as it can be copied.
-struct Run {
-  int begin, count, cell;
-};
 
 /// Some depth pixels in a row: inverse depth, 1/m, 0 where there is none, and place in a colour
 /// image, -1 beyond it.
@@ -104,17 +48,10 @@ struct PixelRow {
   [[nodiscard]] bool is_seen(int u) const { return (w[u] > 0) & (cells[u] >= 0); }
 };
 
-/// What an image holds where the runs of a row lie; the other values stay.
-template <typename Value>
-MAPSCORE_WIDE_VECTORS void look_up(const Value* image, std::span<const Run> runs,
-                                   Value* __restrict values) {
-  for (const auto& [begin, count, cell] : runs)
-    for (int n = 0; n < count; ++n) values[begin + n] = image[cell + n];
-}
-
 /// Keeps the largest inverse depth w of each place of an image, by the runs of a row.
 MAPSCORE_WIDE_VECTORS
-void keep_nearest(const float* w, std::span<const Run> runs, float* __restrict nearest) {
+void keep_nearest(const float* w, std::span<const ColorPlaces::Run> runs,
+                  float* __restrict nearest) {
   for (const auto& [begin, count, cell] : runs)
     for (int n = 0; n < count; ++n) {
       const float last = nearest[cell + n], here = w[begin + n];
@@ -159,83 +96,43 @@ void leave_out(const float* depth_in, int count, std::uint16_t* __restrict owner
 
 class Voting {
  public:
-  Voting(const DepthEdges& edges, const OutlineField& field, const OutlineAlignment& alignment,
-         const Calibration& believed, std::size_t detections)
+  Voting(const DepthEdges& edges, const MaskField& masks, const OutlineAlignment& alignment,
+         const OutlineShifts& shifts, const Calibration& believed, std::size_t detections)
       : edges_(edges),
-        field_(field),
+        masks_(masks),
         alignment_(alignment),
-        believed_(believed),
-        detections_(detections) {}
+        detections_(detections),
+        mended_(alignment.corrected(believed)),
+        shift_px_(static_cast<float>(
+            mended_.color.fx_px *
+            std::max(mended_.T_color_depth.translation().head<2>().norm(), kLeastBaseline_m))),
+        places_(color_places(edges.inverse_depth, mended_, shifts)) {}
 
-  /// Finds the colour pixel that each depth pixel lies in.
-  void locate(const OutlineShifts& shifts) {
-    const cv::Mat1f& w = edges_.inverse_depth;
-    cells_.create(w.rows, w.cols);
-    const Calibration mended = alignment_.corrected(believed_);
-    const Eigen::Isometry3f T_color_depth = mended.T_color_depth.cast<float>();
-    shift_px_ = Projection(mended.color).fx *
-                std::max(T_color_depth.translation().head<2>().norm(), kLeastBaseline_m);
-    const RayMotion motion{T_color_depth.linear(), T_color_depth.translation(),
-                           Projection(mended.color), Projection(mended.depth)};
-    std::vector<float> us(static_cast<std::size_t>(w.cols)), vs(us.size());
-    Marks jumps(us.size());
-    for (int v = 0; v < w.rows; ++v) {
-      project_row(motion, v, w[v], w.cols, us.data(), vs.data());
-      if (!shifts.nodes.empty())
-        for (std::size_t u = 0; u < us.size(); ++u) {
-          const cv::Vec2f by = shifts.at(us[u], vs[u]);
-          us[u] += by[0], vs[u] += by[1];
-        }
-      find_pixels(us.data(), vs.data(), w.cols, field_.masks.size(), cells_[v]);
-      mark_jumps(cells_[v], w.cols, jumps.data());
-      first_run_.push_back(runs_.size());
-      int begin = 0;
-      const auto end_at = [&](int u) {
-        const int cell = cells_(v, begin);
-        if (u > begin && cell >= 0) runs_.push_back({begin, u - begin, cell});
-        begin = u;
-      };
-      for_each_marked(jumps, end_at);
-      end_at(w.cols);
-    }
-    first_run_.push_back(runs_.size());
-  }
-
-  /// Nearest surface by colour pixel, as inverse depth, spread over the neighbouring pixels.
-  void find_nearest() {
-    const cv::Mat1f& w = edges_.inverse_depth;
-    cv::Mat1f hit(field_.masks.rows, field_.masks.cols, 0.0F);
-    for (int v = 0; v < w.rows; ++v) keep_nearest(w[v], runs_of(v), hit[0]);
-    cv::dilate(hit, nearest_, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
-    behind_unseen_ = unseen_occluders(edges_, cells_, field_, alignment_, believed_);
-  }
-
-  PixelVotes collect() {
-    const cv::Mat1f& w = edges_.inverse_depth;
+  [[nodiscard]] PixelVotes collect() const {
+    const cv::Mat1f &w = edges_.inverse_depth, near = nearest();
+    const cv::Mat1b behind_unseen = unseen_occluders(edges_, places_, masks_, alignment_, mended_);
     const int beyond_px = static_cast<int>(std::ceil(1.5F * alignment_.offset_px));
     const cv::Mat1w owners =
-        alignment_.offset_px > 0.5F ? spread_owners(field_.masks, beyond_px) : field_.masks;
+        alignment_.offset_px > 0.5F ? spread_owners(masks_.owner, beyond_px) : masks_.owner;
     PixelVotes votes{cv::Mat1w(w.rows, w.cols), cv::Mat1f(w.rows, w.cols)};
     const bool may_have_slits = alignment_.offset_px <= -kGrown_px;
     // Owners as the masks have them, before what lies outside of the mended ones is left out.
     cv::Mat1w grown = may_have_slits ? cv::Mat1w(w.rows, w.cols) : cv::Mat1w();
     const cv::Mat1f to_free = distance_to_free();
-    const std::uint16_t* const owner_of = owners[0];
     std::vector<float> distance(static_cast<std::size_t>(w.cols)), nearest(distance.size()),
         depths_in(distance.size());
     Marks may_be_hidden(distance.size());
     float* const depth_in = depths_in.data();
     for (int v = 0; v < w.rows; ++v) {
-      const PixelRow row{w[v], cells_[v], w.cols};
-      const auto runs = runs_of(v);
+      const PixelRow row{w[v], places_.cells()[v], w.cols};
       float* const weight = votes.weight[v];
       std::uint16_t* const owner = votes.owner[v];
-      look_up(owner_of, runs, owner);
-      look_up(field_.mask_distance[0], runs, distance.data());
-      look_up(nearest_[0], runs, nearest.data());
+      places_.look_up(owners[0], v, owner);
+      places_.look_up(masks_.distance[0], v, distance.data());
+      places_.look_up(near[0], v, nearest.data());
       find_depth_in(row, distance.data(), alignment_.offset_px, depth_in, owner);
       if (!to_free.empty()) hold_borders(row, to_free[0], distance.data(), depth_in);
-      const std::uint8_t* covered = behind_unseen_[v];
+      const std::uint8_t* covered = behind_unseen[v];
       weigh(row, depth_in, nearest.data(), covered, edges_.noise, weight, may_be_hidden.data());
       for_each_marked(may_be_hidden, [&](int u) {
         const float w_here = row.w[u], w_nearest = nearest[static_cast<std::size_t>(u)];
@@ -252,22 +149,26 @@ class Voting {
   }
 
  private:
-  [[nodiscard]] std::span<const Run> runs_of(int v) const {
-    const auto row = static_cast<std::size_t>(v);
-    return std::span(runs_).subspan(first_run_[row], first_run_[row + 1] - first_run_[row]);
+  /// Nearest surface by colour pixel, as inverse depth, spread over the neighbouring pixels.
+  [[nodiscard]] cv::Mat1f nearest() const {
+    const cv::Mat1f& w = edges_.inverse_depth;
+    cv::Mat1f hit(masks_.owner.size(), 0.0F), spread;
+    for (int v = 0; v < w.rows; ++v) keep_nearest(w[v], places_.runs_of(v), hit[0]);
+    cv::dilate(hit, spread, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
+    return spread;
   }
 
   /// Whether a colour pixel in a mask has another mask within kBesideMask_px.
   [[nodiscard]] bool masks_meet_at(int cell) const {
-    const cv::Mat1w& masks = field_.masks;
-    const cv::Point at(cell % masks.cols, cell / masks.cols);
-    const std::uint16_t own = masks(at);
+    const cv::Mat1w& owner = masks_.owner;
+    const cv::Point at(cell % owner.cols, cell / owner.cols);
+    const std::uint16_t own = owner(at);
     if (own == 0) return false;
-    for (int v = std::max(at.y - kBesideMask_px, 0); v < masks.rows && v <= at.y + kBesideMask_px;
+    for (int v = std::max(at.y - kBesideMask_px, 0); v < owner.rows && v <= at.y + kBesideMask_px;
          ++v)
-      for (int u = std::max(at.x - kBesideMask_px, 0); u < masks.cols && u <= at.x + kBesideMask_px;
+      for (int u = std::max(at.x - kBesideMask_px, 0); u < owner.cols && u <= at.x + kBesideMask_px;
            ++u)
-        if (masks(v, u) != 0 && masks(v, u) != own) return true;
+        if (owner(v, u) != 0 && owner(v, u) != own) return true;
     return false;
   }
 
@@ -276,7 +177,7 @@ class Voting {
   [[nodiscard]] cv::Mat1f distance_to_free() const {
     cv::Mat1f distance;
     if (detections_ > 1 && alignment_.offset_px < -kGrown_px)
-      cv::distanceTransform(field_.masks != 0, distance, cv::DIST_L2, cv::DIST_MASK_3);
+      cv::distanceTransform(masks_.owner != 0, distance, cv::DIST_L2, cv::DIST_MASK_3);
     return distance;
   }
 
@@ -316,27 +217,20 @@ class Voting {
   }
 
   const DepthEdges& edges_;
-  const OutlineField& field_;
+  const MaskField& masks_;
   const OutlineAlignment& alignment_;
-  const Calibration& believed_;
   std::size_t detections_;
-  float shift_px_ = 0;  ///< between the images, of a point at 1 m, kLeastBaseline_m at least
-  cv::Mat1i cells_;     ///< by depth pixel: place in a colour image, row-major; -1 beyond it
-  std::vector<Run> runs_;
-  std::vector<std::size_t> first_run_;  ///< of each row, and the end
-  cv::Mat1f nearest_;
-  cv::Mat1b behind_unseen_;  ///< by depth pixel, 255 or 0
+  Calibration mended_;
+  float shift_px_;  ///< between the images, of a point at 1 m, kLeastBaseline_m at least
+  ColorPlaces places_;
 };
 
 }  // namespace
 
-PixelVotes pixel_votes(const DepthEdges& edges, const OutlineField& field,
+PixelVotes pixel_votes(const DepthEdges& edges, const MaskField& masks,
                        const OutlineAlignment& alignment, const OutlineShifts& shifts,
                        const Calibration& believed, std::size_t detections) {
-  Voting voting(edges, field, alignment, believed, detections);
-  voting.locate(shifts);
-  voting.find_nearest();
-  return voting.collect();
+  return Voting(edges, masks, alignment, shifts, believed, detections).collect();
 }
 
 }  // namespace mapscore

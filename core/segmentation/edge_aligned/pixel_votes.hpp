@@ -22,7 +22,7 @@ struct PixelVotes {
 };
 
 /// The votes under the mended calibration, of masks as large as their objects are.
-[[nodiscard]] PixelVotes pixel_votes(const DepthEdges& edges, const OutlineField& field,
+[[nodiscard]] PixelVotes pixel_votes(const DepthEdges& edges, const MaskField& masks,
                                      const OutlineAlignment& alignment, const OutlineShifts& shifts,
                                      const Calibration& believed, std::size_t detections);
 

@@ -138,11 +138,11 @@ class ContestedBlocks {
 
 }  // namespace
 
-cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const OutlineField& field,
+cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const MaskField& masks,
                            const OutlineAlignment& alignment, const OutlineShifts& shifts,
                            const Calibration& believed, std::size_t detections, Continuity& on,
                            double reach_px) {
-  const PixelVotes votes = pixel_votes(edges, field, alignment, shifts, believed, detections);
+  const PixelVotes votes = pixel_votes(edges, masks, alignment, shifts, believed, detections);
   cv::Mat1w labels = votes.owner.clone();
   const int margin_px = static_cast<int>(std::ceil(kMargin * reach_px)) + 2;
   const ContestedBlocks contested(votes.owner, detections, margin_px, on);

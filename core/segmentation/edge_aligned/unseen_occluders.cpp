@@ -101,15 +101,25 @@ void keep_covered(const int* owners, const int* far_owners, int whole, int none,
   }
 }
 
+/// Marks pixels of a row that lie in `covered` ones of the colour image and do not run on.
+MAPSCORE_WIDE_VECTORS
+void hide_covered(const std::uint8_t* covered, const int* cells, const std::uint8_t* running_on,
+                  int count, std::uint8_t* __restrict hidden) {
+  for (int n = 0; n < count; ++n) {
+    const bool is_hidden = (covered[n] != 0) & (cells[n] >= 0) & (running_on[n] == 0);
+    hidden[n] = is_hidden ? std::uint8_t{255} : hidden[n];
+  }
+}
+
 class Occluders {
  public:
-  Occluders(const DepthEdges& edges, const cv::Mat1i& cells, const OutlineField& field,
-            const OutlineAlignment& alignment, const Calibration& believed)
+  Occluders(const DepthEdges& edges, const cv::Mat1i& cells, const MaskField& masks,
+            const OutlineAlignment& alignment, const Calibration& mended)
       : edges_(edges),
         cells_(cells),
-        field_(field),
+        masks_(masks),
         offset_px_(alignment.offset_px),
-        mended_(alignment.corrected(believed)) {
+        mended_(mended) {
     const Eigen::Vector3d& t = mended_.T_color_depth.translation();
     in_rows_ = std::abs(t.x()) >= std::abs(t.y());
     const int length = in_rows_ ? cells.cols : cells.rows;
@@ -121,9 +131,9 @@ class Occluders {
 
   /// 255 on what near objects cover in the colour image.
   [[nodiscard]] cv::Mat1b covered() {
-    owners_.create(field_.masks.size());
+    owners_.create(masks_.owner.size());
     for (int v = 0; v < owners_.rows; ++v)
-      keep_within(field_.masks[v], field_.mask_distance[v], offset_px_, owners_.cols, owners_[v]);
+      keep_within(masks_.owner[v], masks_.distance[v], offset_px_, owners_.cols, owners_[v]);
     const cv::Mat1b& hole = edges_.near_holes;
     // Behind the image a row for what covers nothing.
     cv::Mat1b with_none(owners_.rows + 1, owners_.cols, std::uint8_t{0});
@@ -186,16 +196,17 @@ class Occluders {
     const int lines = in_rows_ ? w.rows : w.cols, length = in_rows_ ? w.cols : w.rows;
     const int widest = std::min(length - 1, static_cast<int>(std::abs(parallax_px) * nearest) + 1);
     for (int line = 0; line < lines; ++line) {
-      bool is_free = false;  // the surface has no mask where nothing beside the view may hide it
+      bool has_before = false;  // on the surface, a pixel that nothing beside the view may hide:
+      cv::Point before;         // the last of these
       for (int from_border = widest; from_border >= 0; --from_border) {
         const int n = parallax_px > 0 ? length - 1 - from_border : from_border;
         const cv::Point at = place(line, n);
         const cv::Point link = parallax_px > 0 ? place(line, n - 1) : at;  // to the pixel before
-        if (from_border == widest || !(on(link) >= 1.0F)) is_free = false;
+        has_before = has_before && on(link) >= 1.0F;
         if (!(w(at) > 0)) continue;
         if (std::abs(parallax_px) * (nearest - static_cast<double>(w(at))) <= from_border)
-          is_free = owner_at(cells_(at)) == 0;
-        else if (is_free && owner_at(cells_(at)) != 0)
+          before = at, has_before = true;
+        else if (has_before && owner_at(cells_(before)) == 0 && owner_at(cells_(at)) != 0)
           hidden(at) = 255;
       }
     }
@@ -270,12 +281,12 @@ class Occluders {
 
   /// Whose mask holds a cell, as large as its object is; 0 for none.
   [[nodiscard]] int owner_at(int cell) const {
-    return cell < 0 || field_.mask_distance[0][cell] >= offset_px_ ? 0 : field_.masks[0][cell];
+    return cell < 0 || masks_.distance[0][cell] >= offset_px_ ? 0 : masks_.owner[0][cell];
   }
 
   const DepthEdges& edges_;
   const cv::Mat1i& cells_;
-  const OutlineField& field_;
+  const MaskField& masks_;
   float offset_px_;
   Calibration mended_;
   bool in_rows_ = true;  ///< the baseline
@@ -289,24 +300,22 @@ class Occluders {
 
 }  // namespace
 
-cv::Mat1b unseen_occluders(const DepthEdges& edges, const cv::Mat1i& cells,
-                           const OutlineField& field, const OutlineAlignment& alignment,
-                           const Calibration& believed) {
-  Occluders occluders(edges, cells, field, alignment, believed);
+cv::Mat1b unseen_occluders(const DepthEdges& edges, const ColorPlaces& places,
+                           const MaskField& masks, const OutlineAlignment& alignment,
+                           const Calibration& mended) {
+  const cv::Mat1i& cells = places.cells();
+  Occluders occluders(edges, cells, masks, alignment, mended);
   cv::Mat1b hidden(cells.size(), std::uint8_t{0});
-  if (!(believed.range_min_m > 0)) return hidden;
+  if (!(mended.range_min_m > 0)) return hidden;
   occluders.mark_beside_view(hidden);
   if (cv::countNonZero(edges.near_holes) == 0) return hidden;
   const cv::Mat1b covered = occluders.covered();
   if (cv::countNonZero(covered) == 0) return hidden;
   const cv::Mat1b running_on = occluders.running_on();
-  const std::uint8_t* const cover = covered[0];
+  Marks row(static_cast<std::size_t>(cells.cols));
   for (int v = 0; v < cells.rows; ++v) {
-    const int* const cell = cells[v];
-    const std::uint8_t* const on = running_on[v];
-    std::uint8_t* const to = hidden[v];
-    for (int u = 0; u < cells.cols; ++u)
-      if (on[u] == 0 && cell[u] >= 0 && cover[cell[u]] != 0) to[u] = 255;
+    places.look_up(covered[0], v, row.data());
+    hide_covered(row.data(), cells[v], running_on[v], cells.cols, hidden[v]);
   }
   return hidden;
 }

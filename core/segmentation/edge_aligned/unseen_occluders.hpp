@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/geometry/camera.hpp"
+#include "core/segmentation/edge_aligned/color_places.hpp"
 #include "core/segmentation/edge_aligned/depth_edges.hpp"
 #include "core/segmentation/edge_aligned/outline_alignment.hpp"
 #include "core/segmentation/edge_aligned/outline_field.hpp"
@@ -13,8 +14,8 @@
 namespace mapscore {
 
 /// What the colour camera does not see for objects that the depth camera does not see: 255 at depth
-/// pixels that may lie behind one. `cells`: by depth pixel its place in the colour image,
-/// row-major, -1 beyond it. Only what has a mask matters. Thread-safe.
+/// pixels that may lie behind one. `mended`: as `alignment` corrects it. Only what has a mask
+/// matters. Thread-safe.
 ///
 /// Objects nearer than the sensor's range are near holes (near_holes.hpp), of whose cells every
 /// second in both ways is tried. A hole counts where one mask holds it wherever it stood, as near
@@ -31,9 +32,8 @@ namespace mapscore {
 /// In lines along the baseline, a surface without a mask that runs on into a mask where such an
 /// object may hide it is taken to be hidden: its own outline would be a step or a crease. Of a
 /// range that begins at 0 nothing is nearer: all 0.
-[[nodiscard]] cv::Mat1b unseen_occluders(const DepthEdges& edges, const cv::Mat1i& cells,
-                                         const OutlineField& field,
-                                         const OutlineAlignment& alignment,
-                                         const Calibration& believed);
+[[nodiscard]] cv::Mat1b unseen_occluders(const DepthEdges& edges, const ColorPlaces& places,
+                                         const MaskField& masks, const OutlineAlignment& alignment,
+                                         const Calibration& mended);
 
 }  // namespace mapscore

@@ -45,7 +45,7 @@ TEST(EdgeMatching, AnImageOfOneRowHasNoMatches) {
 /// An edge on the border of two masks ends one of them: it counts fully, whichever way it faces.
 TEST(EdgeMatching, AnEdgeOnABorderOfTwoMasksCountsFully) {
   const OutlineField field = two_masks(0);
-  ASSERT_LT(std::abs(field.beyond_border(20, 29)), 1);
+  ASSERT_NE(border_of(field.distance(20, 29)), kNoBorder);
   for (const float outward : {1.0F, -1.0F}) {
     const EdgeMatch on = match(field, 29.5F, outward);
     EXPECT_NEAR(on.weight, 1, 1e-4);

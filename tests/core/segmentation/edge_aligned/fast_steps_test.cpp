@@ -5,7 +5,6 @@
 #include "core/random_stream.hpp"
 #include "core/segmentation/edge_aligned/matched_edges.hpp"
 #include "core/segmentation/edge_aligned/near_holes.hpp"
-#include "core/segmentation/edge_aligned/outline_equations.hpp"
 #include "core/segmentation/edge_aligned/pixel_votes.hpp"
 #include "core/segmentation/edge_aligned/settled_depth.hpp"
 #include "core/segmentation/edge_aligned/surface_vote.hpp"
@@ -110,9 +109,10 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
 
         Continuity on = is_noisy(edges) ? Continuity{edges.right.clone(), edges.down.clone()}
                                         : part_at_creases(edges);
-        cv::Mat1w labels = vote_on_surfaces(edges, field, alignment, shifts, scene.believed,
+        const MaskField masks = open_grooves(field);
+        cv::Mat1w labels = vote_on_surfaces(edges, masks, alignment, shifts, scene.believed,
                                             scene.detections.size(), on, 3.0);
-        EXPECT_EQ(cv::countNonZero(labels != plain_surface_votes(edges, field, alignment, shifts,
+        EXPECT_EQ(cv::countNonZero(labels != plain_surface_votes(edges, masks, alignment, shifts,
                                                                  scene.believed,
                                                                  scene.detections.size(), 3.0F)),
                   0);
@@ -144,14 +144,14 @@ TEST(EdgeAlignedFastSteps, VoteAsThePlainOnesWhereMasksMeet) {
                               {0.0, 0.3, 0.02, 0.3, z, 7}});
       const std::vector<Detection> detections = scene.detections();
       const DepthEdges edges = find_depth_edges(scene.depth(), scene.truth());
-      const OutlineField field = outline_field(detections, 320, 240, 60);
+      const MaskField masks = open_grooves(outline_field(detections, 320, 240, 60));
       OutlineAlignment alignment;
       alignment.offset_px = static_cast<float>(offset_px);
       Continuity on = part_at_creases(edges);
       const cv::Mat1w labels =
-          vote_on_surfaces(edges, field, alignment, {}, scene.truth(), detections.size(), on, 3.0);
+          vote_on_surfaces(edges, masks, alignment, {}, scene.truth(), detections.size(), on, 3.0);
       const cv::Mat1w plain =
-          plain_surface_votes(edges, field, alignment, {}, scene.truth(), detections.size(), 3.0F);
+          plain_surface_votes(edges, masks, alignment, {}, scene.truth(), detections.size(), 3.0F);
       EXPECT_EQ(cv::countNonZero(labels != plain), 0);
       labelled += cv::countNonZero(labels);
     }
@@ -206,8 +206,8 @@ TEST(EdgeAlignedFastSteps, MatchEdgesAsOneByOne) {
           ASSERT_EQ(matched.slope_v[n], plain.slope_v) << n;
           ASSERT_EQ(matched.slope_offset[n], plain.at_border ? 0 : -1) << n;
           ASSERT_EQ(Eigen::Vector2f(matched.u[n], matched.v[n]), at) << n;
-          ASSERT_EQ(Eigen::Vector3f(matched.x[n], matched.y[n], matched.z[n]),
-                    Eigen::Vector3f(p.x() / p.z(), p.y() / p.z(), p.z()))
+          ASSERT_EQ(Eigen::Vector3f(matched.x[n], matched.y[n], matched.nearness[n]),
+                    Eigen::Vector3f(p.x(), p.y(), 1) * (1 / p.z()))
               << n;
         }
         EXPECT_GT(weighed, 30);
@@ -235,7 +235,8 @@ TEST(EdgeAlignedFastSteps, AddUpEdgesAsOneByOne) {
   matched.for_each([&](std::size_t n) {
     // How the point moves with each parameter, in the colour camera's frame over its depth.
     const double f = static_cast<double>(focal_px), x = static_cast<double>(matched.x[n]),
-                 y = static_cast<double>(matched.y[n]), z = static_cast<double>(matched.z[n]);
+                 y = static_cast<double>(matched.y[n]),
+                 z = 1 / static_cast<double>(matched.nearness[n]);
     const Eigen::Vector3d p(x, y, 1);
     const Eigen::Vector2d g(static_cast<double>(matched.slope_u[n] * project.fx),
                             static_cast<double>(matched.slope_v[n] * project.fy));
@@ -283,8 +284,8 @@ TEST(EdgeAlignedFastSteps, ReadEachPixelOfAColourImageThatSeesLess) {
   Detection all;
   all.box = {0, 0, 99, 79};
   all.mask = cv::Mat1b(80, 100, std::uint8_t{255});
-  const OutlineField field = outline_field({all}, 100, 80, 20);
-  const cv::Mat1w owners = pixel_votes(edges, field, {}, {}, believed, 1).owner;
+  const MaskField masks = open_grooves(outline_field({all}, 100, 80, 20));
+  const cv::Mat1w owners = pixel_votes(edges, masks, {}, {}, believed, 1).owner;
   cv::Mat1w expected(240, 320, std::uint16_t{0});
   expected(cv::Rect(40, 30, 100, 80)) = 1;
   EXPECT_EQ(cv::countNonZero(owners != expected), 0);

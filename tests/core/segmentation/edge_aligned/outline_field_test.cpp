@@ -54,6 +54,11 @@ float plain_distance(const cv::Mat1w& owner, int v, int u) {
   return inside ? -0.5F - way : way - 0.5F;
 }
 
+/// The distance itself, which is a multiple of 1/16384 pixel: of up to 256 no bit is lost.
+float without_border(float distance) {
+  return std::bit_cast<float>(std::bit_cast<std::int32_t>(distance) & ~kBorderBits);
+}
+
 TEST(OutlineDistance, IsTheWayToTheNearestPixelOnTheOtherSide) {
   RandomStream stream(21, "owners");
   for (int round = 0; round < 60; ++round) {
@@ -62,17 +67,17 @@ TEST(OutlineDistance, IsTheWayToTheNearestPixelOnTheOtherSide) {
     measure_outline_distance(owner, distance);
     for (int v = 0; v < owner.rows; ++v)
       for (int u = 0; u < owner.cols; ++u)
-        ASSERT_EQ(distance(v, u), plain_distance(owner, v, u))
+        ASSERT_EQ(without_border(distance(v, u)), plain_distance(owner, v, u))
             << "round " << round << ", pixel " << u << ' ' << v;
   }
 }
 
 /// Of the nearest rim pixels of its mask: whether any touches a mask of a higher number, and if
 /// none does, one of a lower number.
-float plain_beyond_border(const cv::Mat1w& owner, int v, int u) {
+Border plain_border(const cv::Mat1w& owner, int v, int u) {
   if (owner(v, u) == 0) return kNoBorder;
   const float distance = plain_distance(owner, v, u);
-  bool at_none = false, at_later = false;
+  bool at_none = false, at_higher = false;
   for (int r = 0; r < owner.rows; ++r)
     for (int c = 0; c < owner.cols; ++c) {
       if (owner(r, c) == 0 || !on_rim(owner, r, c)) continue;
@@ -87,12 +92,12 @@ float plain_beyond_border(const cv::Mat1w& owner, int v, int u) {
         lowest = std::min(lowest, other), highest = std::max(highest, other);
       }
       if (highest > owner(r, c))
-        at_later = true;
+        at_higher = true;
       else if (lowest >= owner(r, c))
         at_none = true;
     }
-  // Of ways of one length that at no border counts first, then that at a later mask.
-  return at_none ? kNoBorder : at_later ? distance : -distance;
+  // Of ways of one length that at no border counts first, then that at a mask of a higher number.
+  return at_none ? kNoBorder : at_higher ? kBesideHigher : kBesideLower;
 }
 
 TEST(OutlineDistance, GoesOnBeyondABorderOfTwoMasks) {
@@ -101,14 +106,17 @@ TEST(OutlineDistance, GoesOnBeyondABorderOfTwoMasks) {
   for (int round = 0; round < 60; ++round) {
     const cv::Mat1w owner = random_owners(stream);
     if (cv::countNonZero(owner) == 0) continue;
-    cv::Mat1f distance(owner.rows, owner.cols), beyond(owner.rows, owner.cols);
-    measure_outline_distance(owner, distance, beyond);
+    cv::Mat1f distance(owner.rows, owner.cols);
+    measure_outline_distance(owner, distance);
     for (int v = 0; v < owner.rows; ++v)
       for (int u = 0; u < owner.cols; ++u) {
         const bool has_rim = distance(v, u) > -8000;
-        ASSERT_EQ(beyond(v, u), has_rim ? plain_beyond_border(owner, v, u) : kNoBorder)
+        const Border border = has_rim ? plain_border(owner, v, u) : kNoBorder;
+        ASSERT_EQ(border_of(distance(v, u)), border)
             << "round " << round << ", pixel " << u << ' ' << v;
-        at_border += beyond(v, u) < kNoBorder ? 1 : 0;
+        ASSERT_EQ(beyond_border(distance(v, u)),
+                  (border == kBesideLower ? -1 : 1) * distance(v, u));
+        at_border += border != kNoBorder ? 1 : 0;
       }
   }
   EXPECT_GT(at_border, 300);
@@ -197,7 +205,6 @@ TEST(OutlineField, GroovesAreClosedHalfByEachMaskRowsFirst) {
     const cv::Mat1w masks = random_owners(stream);
     const OutlineField field =
         outline_field(detections_of_owners(masks), masks.cols, masks.rows, 5);
-    ASSERT_EQ(cv::countNonZero(field.masks != masks), 0);
     for (int v = 0; v < masks.rows; ++v)
       for (int u = 0; u < masks.cols; ++u) {
         std::uint16_t expected = masks(v, u);
@@ -206,6 +213,7 @@ TEST(OutlineField, GroovesAreClosedHalfByEachMaskRowsFirst) {
         ASSERT_EQ(field.owner(v, u), expected) << "round " << round << ' ' << u << ' ' << v;
         closed += expected != masks(v, u);
       }
+    ASSERT_EQ(cv::countNonZero(open_grooves(field).owner != masks), 0);
   }
   EXPECT_GT(closed, 100);
 }
@@ -228,16 +236,17 @@ TEST(OutlineField, MeasuresMasksAsTheyAreNearThem) {
     }
     const OutlineField field =
         outline_field(detections_of_owners(masks), masks.cols, masks.rows, 60);
+    const cv::Mat1f closed = field.distance.clone(), opened = open_grooves(field).distance;
     cv::Mat1f distance(masks.size());
     measure_outline_distance(masks, distance);
     for (int v = 0; v < masks.rows; ++v)
       for (int u = 0; u < masks.cols; ++u) {
-        const float here = field.mask_distance(v, u);
+        const float here = opened(v, u);
         if (std::abs(distance(v, u)) < 16)
           ASSERT_EQ(here, distance(v, u)) << "round " << round << ' ' << u << ' ' << v;
         else
           ASSERT_TRUE(here >= 16 || here <= -16) << "round " << round << ' ' << u << ' ' << v;
-        near_grooves += here != field.distance(v, u);
+        near_grooves += here != closed(v, u);
       }
   }
   EXPECT_GT(near_grooves, 10000);

@@ -283,18 +283,15 @@ EdgeMatch plain_match(const OutlineField& field, const EdgeAt& edge, const Match
   if (!(edge.u >= 0 && edge.v >= 0 && edge.u < static_cast<float>(columns - 1) &&
         edge.v < static_cast<float>(rows - 1)))
     return match;
-  cv::Mat1f image = field.distance;
-  if (!field.beyond_border.empty()) {
-    const cv::Mat1f borders = field.beyond_border(cv::Rect(u, v, 2, 2));
-    match.at_border = cv::countNonZero(borders == kNoBorder) == 0;
-    if (match.at_border) image = field.beyond_border;
-  }
+  cv::Mat1f corners = field.distance(cv::Rect(u, v, 2, 2)).clone();
+  match.at_border = std::ranges::all_of(corners, border_of);
+  if (match.at_border) std::ranges::transform(corners, corners.begin(), beyond_border);
   const float a = edge.u - static_cast<float>(u), b = edge.v - static_cast<float>(v);
-  const float upper = (1 - a) * image(v, u) + a * image(v, u + 1);
-  const float lower = (1 - a) * image(v + 1, u) + a * image(v + 1, u + 1);
+  const float upper = (1 - a) * corners(0, 0) + a * corners(0, 1);
+  const float lower = (1 - a) * corners(1, 0) + a * corners(1, 1);
   Eigen::Vector2f slope(
-      (1 - b) * (image(v, u + 1) - image(v, u)) + b * (image(v + 1, u + 1) - image(v + 1, u)),
-      (1 - a) * (image(v + 1, u) - image(v, u)) + a * (image(v + 1, u + 1) - image(v, u + 1)));
+      (1 - b) * (corners(0, 1) - corners(0, 0)) + b * (corners(1, 1) - corners(1, 0)),
+      (1 - a) * (corners(1, 0) - corners(0, 0)) + a * (corners(1, 1) - corners(0, 1)));
   match.distance = (1 - b) * upper + b * lower;
   match.facing = slope.x() * edge.outward_u + slope.y() * edge.outward_v;
   if (match.at_border && match.facing < 0) {  // the object of the higher number ends here

@@ -30,7 +30,7 @@ namespace mapscore::testing {
 [[nodiscard]] Continuity plain_creases(const DepthEdges& edges);
 
 /// Of images without near holes.
-[[nodiscard]] cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field,
+[[nodiscard]] cv::Mat1w plain_surface_votes(const DepthEdges& edges, const MaskField& masks,
                                             const OutlineAlignment& alignment,
                                             const OutlineShifts& shifts,
                                             const Calibration& believed, std::size_t detections,

@@ -155,7 +155,7 @@ Continuity plain_creases(const DepthEdges& edges) {
   return {plainly_parted(edges, true), plainly_parted(edges, false)};
 }
 
-cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field,
+cv::Mat1w plain_surface_votes(const DepthEdges& edges, const MaskField& masks,
                               const OutlineAlignment& alignment, const OutlineShifts& shifts,
                               const Calibration& believed, std::size_t detections, float reach_px) {
   const cv::Mat1f& w = edges.inverse_depth;
@@ -164,8 +164,8 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field
   const Eigen::Vector3f t = mended.T_color_depth.translation().cast<float>();
   const Projection color(mended.color), depth(mended.depth);
   cv::Mat2i pixels(w.size());
-  cv::Mat1f nearest(field.masks.size(), 0.0F);
-  const cv::Rect image({0, 0}, field.masks.size());
+  cv::Mat1f nearest(masks.owner.size(), 0.0F);
+  const cv::Rect image({0, 0}, masks.owner.size());
   for (int v = 0; v < w.rows; ++v)
     for (int u = 0; u < w.cols; ++u) {
       const float x = (static_cast<float>(u) - depth.cx) * (1.0F / depth.fx);
@@ -185,9 +185,9 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field
     }
   const float k = alignment.offset_px;
   const cv::Mat1w owners =
-      k > 0.5F ? spread_owners(field.masks, static_cast<int>(std::ceil(1.5F * k))) : field.masks;
+      k > 0.5F ? spread_owners(masks.owner, static_cast<int>(std::ceil(1.5F * k))) : masks.owner;
   cv::Mat1f to_free;
-  cv::distanceTransform(field.masks != 0, to_free, cv::DIST_L2, cv::DIST_MASK_3);
+  cv::distanceTransform(masks.owner != 0, to_free, cv::DIST_L2, cv::DIST_MASK_3);
   cv::Mat1w owner(w.size(), std::uint16_t{0});
   cv::Mat1f inside(w.size(), -1e4F), weight(w.size(), 0.0F);
   for (int v = 0; v < w.rows; ++v)
@@ -195,14 +195,14 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const OutlineField& field
       const cv::Point pixel(pixels(v, u));
       if (!(w(v, u) > 0) || !image.contains(pixel)) continue;
       owner(v, u) = owners(pixel);
-      const float distance = field.mask_distance(pixel);
+      const float distance = masks.distance(pixel);
       inside(v, u) = k - distance;
       if (k < -0.5F && inside(v, u) <= 0 && to_free(pixel) > 0.5F - k) inside(v, u) = -distance;
       const float behind = nearest(pixel) * (1.0F - 0.015F) - 4.0F * edges.noise - w(v, u);
       const float parallax_px =
           (nearest(pixel) - w(v, u)) * (color.fx * std::max(t.head<2>().norm(), 0.025F));
-      const cv::Mat1w beside = field.masks(cv::Rect(pixel.x - 2, pixel.y - 2, 5, 5) & image);
-      const std::uint16_t mask = field.masks(pixel);
+      const cv::Mat1w beside = masks.owner(cv::Rect(pixel.x - 2, pixel.y - 2, 5, 5) & image);
+      const std::uint16_t mask = masks.owner(pixel);
       const bool masks_meet =
           mask != 0 && cv::countNonZero((beside != 0) & (beside != static_cast<double>(mask))) > 0;
       if (behind > 2.0F * plain_slope(edges, v, u) && (parallax_px > 0.2F || !masks_meet))

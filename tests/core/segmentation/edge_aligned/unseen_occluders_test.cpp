@@ -108,6 +108,10 @@ TEST(UnseenOccluders, HideNothingWhereTheRangeBeginsAtTheCamera) {
   EXPECT_GT(cv::countNonZero(label_depth(scene.detections(), depth, camera, {})), 1000);
 }
 
+ColorPlaces places_of(const cv::Mat1i& cells) {
+  return {cells.size(), [&](int v, int* row) { std::copy_n(cells[v], cells.cols, row); }};
+}
+
 /// A panel that comes nearer from left to right, and so ends at the least depth; its mask goes on.
 TEST(UnseenOccluders, DoNotHideTheSurfaceThatRunsOn) {
   const Calibration camera = PlateScene({}).truth();
@@ -116,9 +120,8 @@ TEST(UnseenOccluders, DoNotHideTheSurfaceThatRunsOn) {
   edges.right = edges.down = cv::Mat1f(240, 320, 1.0F);
   edges.near_holes = cv::Mat1b(120, 160, std::uint8_t{0});
   edges.near_holes.colRange(103, 160).setTo(255);
-  OutlineField field;
-  field.masks = cv::Mat1w(240, 320, std::uint16_t{1});
-  field.mask_distance = cv::Mat1f(240, 320, -OutlineField::kFar);
+  const MaskField masks{cv::Mat1w(240, 320, std::uint16_t{1}),
+                        cv::Mat1f(240, 320, -OutlineField::kFar)};
   cv::Mat1i cells(240, 320);
   for (int v = 0; v < 240; ++v)
     for (int u = 0; u < 320; ++u) {
@@ -128,9 +131,9 @@ TEST(UnseenOccluders, DoNotHideTheSurfaceThatRunsOn) {
           camera.color.project(camera.T_color_depth * camera.depth.back_project(u, v, z_m));
       cells(v, u) = u <= 200 && at.x() >= 0 ? v * 320 + static_cast<int>(at.x() + 0.5) : -1;
     }
-  EXPECT_EQ(cv::countNonZero(unseen_occluders(edges, cells, field, {}, camera)), 0);
+  EXPECT_EQ(cv::countNonZero(unseen_occluders(edges, places_of(cells), masks, {}, camera)), 0);
   edges.right.col(195).setTo(0.0F);  // a step: what lies left of it is something else
-  const cv::Mat1b hidden = unseen_occluders(edges, cells, field, {}, camera);
+  const cv::Mat1b hidden = unseen_occluders(edges, places_of(cells), masks, {}, camera);
   EXPECT_GT(cv::countNonZero(hidden), 0);
   EXPECT_EQ(cv::countNonZero(hidden.colRange(196, 201)), 0);
 }
@@ -138,9 +141,9 @@ TEST(UnseenOccluders, DoNotHideTheSurfaceThatRunsOn) {
 /// 255 on the colour pixels that a hole of an exact image covers: by the first pixel of every
 /// second of its cells in both ways, one by one, in lines along the baseline, as the definition
 /// says.
-cv::Mat1b plainly_covered(const cv::Mat1b& hole, const OutlineField& field,
+cv::Mat1b plainly_covered(const cv::Mat1b& hole, const MaskField& masks,
                           const Calibration& camera) {
-  cv::Mat1b covered(field.masks.size(), std::uint8_t{0});
+  cv::Mat1b covered(masks.owner.size(), std::uint8_t{0});
   const Eigen::Vector3d& t = camera.T_color_depth.translation();
   const bool in_rows = std::abs(t.x()) >= std::abs(t.y());
   const int lines = in_rows ? hole.rows : hole.cols, length = in_rows ? hole.cols : hole.rows;
@@ -153,11 +156,11 @@ cv::Mat1b plainly_covered(const cv::Mat1b& hole, const OutlineField& field,
         camera.T_color_depth * camera.depth.back_project(pixel.x, pixel.y, z_m));
     const cv::Point place(static_cast<int>(std::floor(at.x() + 0.5)),
                           static_cast<int>(std::floor(at.y() + 0.5)));
-    return place.inside(cv::Rect({0, 0}, field.masks.size())) ? place : cv::Point(-1, -1);
+    return place.inside(cv::Rect({0, 0}, masks.owner.size())) ? place : cv::Point(-1, -1);
   };
   const auto owner_of = [&](int line, int n, double z_m) {
     const cv::Point place = place_of(line, n, z_m);
-    return place.x >= 0 && field.mask_distance(place) < 0 ? field.masks(place) : 0;
+    return place.x >= 0 && masks.distance(place) < 0 ? masks.owner(place) : 0;
   };
   for (int line = 0; line < lines; line += 2)
     for (int n = 0, begin = 0; n < length; ++n) {
@@ -210,27 +213,25 @@ TEST(UnseenOccluders, CoverWhatEachPixelOfAHoleCovers) {
     DepthEdges edges;
     edges.inverse_depth = cv::Mat1f(240, 320, 0.5F);
     edges.right = edges.down = cv::Mat1f(240, 320, 1.0F);
-    OutlineField field;
-    field.masks = cv::Mat1w(240, 320, std::uint16_t{0});
+    MaskField masks{cv::Mat1w(240, 320, std::uint16_t{0}), cv::Mat1f(240, 320, 3.0F)};
     cv::Mat1b holes(120, 160, std::uint8_t{0}), no_depth;
     for (int n = 1; n < 6; ++n) {
       const cv::Rect mask(below(250), below(150), 10 + below(60), 90);
-      field.masks(mask).setTo(n);
+      masks.owner(mask).setTo(n);
       holes(cv::Rect(below(125), below(75), 2 + below(30), 45)).setTo(255);
     }
-    field.mask_distance = cv::Mat1f(240, 320, 3.0F);
-    field.mask_distance.setTo(-3.0F, field.masks != 0);
+    masks.distance.setTo(-3.0F, masks.owner != 0);
     cv::resize(holes, no_depth, {320, 240}, 0, 0, cv::INTER_NEAREST);
     edges.inverse_depth.setTo(0.0F, no_depth);
     cv::Mat1i cells(240, 320);
     for (int v = 0; v < 240; ++v)
       for (int u = 0; u < 320; ++u) cells(v, u) = no_depth(v, u) == 0 ? v * 320 + u : -1;
     edges.near_holes = cv::Mat1b(120, 160, std::uint8_t{0});
-    cv::Mat1b expected = unseen_occluders(edges, cells, field, {}, camera);
+    cv::Mat1b expected = unseen_occluders(edges, places_of(cells), masks, {}, camera);
     edges.near_holes = holes;
-    const cv::Mat1b covered = plainly_covered(holes, field, camera);
+    const cv::Mat1b covered = plainly_covered(holes, masks, camera);
     expected.setTo(255, covered & (no_depth == 0));
-    const cv::Mat1b hidden = unseen_occluders(edges, cells, field, {}, camera);
+    const cv::Mat1b hidden = unseen_occluders(edges, places_of(cells), masks, {}, camera);
     EXPECT_EQ(cv::countNonZero(hidden != expected), 0) << trial;
     covered_pixels += cv::countNonZero(covered & (no_depth == 0));
   }
