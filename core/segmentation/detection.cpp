@@ -63,10 +63,6 @@ void check(const ClassTable& table) {
   }
 }
 
-cv::Rect rect_of(const PixelBox& box) {
-  return {box.u_min, box.v_min, box.width(), box.height()};
-}
-
 std::string size_of(int width_px, int height_px) {
   return std::to_string(width_px) + " x " + std::to_string(height_px);
 }
@@ -98,7 +94,7 @@ std::vector<Detection> detections_of(const cv::Mat1w& label, const ClassTable& t
   for (const Instance& instance : table.instances) {
     const PixelBox& box = boxes[instance.id];
     if (!table.detected(instance.class_id) || box.u_max < box.u_min) continue;
-    const cv::Mat1b mask = label(rect_of(box)) == instance.id;
+    const cv::Mat1b mask = label(box.rect()) == instance.id;
     detections.push_back({instance.class_id, instance.id, 1.0, box, mask, label.size()});
   }
   return detections;
@@ -109,7 +105,7 @@ cv::Mat1b pixels_wanted(const std::vector<Detection>& detections, int width_px, 
   for (const Detection& detection : detections) {
     check(detection, width_px, height_px);
     const PixelBox& box = detection.box;
-    cv::Mat1b region = wanted(rect_of(box));
+    cv::Mat1b region = wanted(box.rect());
     region |= detection.mask;
     wanted((box.v_min + box.v_max) / 2, (box.u_min + box.u_max) / 2) = 255;
   }

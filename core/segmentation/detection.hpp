@@ -17,6 +17,7 @@ struct PixelBox {
 
   [[nodiscard]] int width() const { return u_max - u_min + 1; }
   [[nodiscard]] int height() const { return v_max - v_min + 1; }
+  [[nodiscard]] cv::Rect rect() const { return {u_min, v_min, width(), height()}; }
   bool operator==(const PixelBox&) const = default;
 };
 

@@ -24,8 +24,7 @@ bool named_apart(const std::vector<Detection>& detections) {
 /// Puts the mask into the first layer that is free there.
 int place(const Detection& detection, InstanceId id, cv::Size size,
           std::vector<cv::Mat1w>& layers) {
-  const PixelBox& box = detection.box;
-  const cv::Rect window(box.u_min, box.v_min, box.width(), box.height());
+  const cv::Rect window = detection.box.rect();
   for (std::size_t n = 0;; ++n) {
     if (n == layers.size()) layers.emplace_back(cv::Mat1w::zeros(size));
     cv::Mat1w part = layers[n](window);

@@ -74,10 +74,7 @@ ClassImages class_images(const std::vector<Detection>& detections, const cv::Mat
       images.truth(v, u) =
           u > 0 && truth(v, u) == truth(v, u - 1) ? images.truth(v, u - 1) : class_of(truth(v, u));
   for (const Detection& detection : detections)
-    images
-        .named(cv::Rect(detection.box.u_min, detection.box.v_min, detection.box.width(),
-                        detection.box.height()))
-        .setTo(detection.class_id, detection.mask);
+    images.named(detection.box.rect()).setTo(detection.class_id, detection.mask);
   return images;
 }
 

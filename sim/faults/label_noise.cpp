@@ -100,10 +100,6 @@ cv::Mat1b random_discs(const cv::Rect& window, double share, double radius_px, c
   return covered;
 }
 
-cv::Rect rect_of(const PixelBox& box) {
-  return {box.u_min, box.v_min, box.width(), box.height()};
-}
-
 /// Signed distance to the boundary of a mask in pixels, positive inside. The boundary runs between
 /// pixels, half a pixel from the centres to both sides; beyond the image the mask goes on.
 cv::Mat1f signed_distance(const cv::Mat1b& mask) {
@@ -128,11 +124,9 @@ class Canvas {
         reach_(label.size(), -1.0F),
         table_(table) {}
 
-  void miss(const Detection& detection) { label_(rect_of(detection.box)).setTo(0, detection.mask); }
+  void miss(const Detection& detection) { label_(detection.box.rect()).setTo(0, detection.mask); }
   /// To be called for all that are not missed before any of them is redrawn.
-  void own(const Detection& detection) {
-    owned_(rect_of(detection.box)).setTo(255, detection.mask);
-  }
+  void own(const Detection& detection) { owned_(detection.box.rect()).setTo(255, detection.mask); }
   /// Gives the pixels of `window` where `margin` >= 0 to the instance, and takes its others.
   void redraw(const cv::Mat1w& truth, InstanceId id, const cv::Rect& window,
               const cv::Mat1f& margin) {
@@ -174,7 +168,7 @@ class Canvas {
 /// The instance's box, so much wider on each side, within the image.
 cv::Rect widened(const Detection& detection, double by_px, const cv::Size& image) {
   const int by = static_cast<int>(std::ceil(by_px)) + 2;
-  const cv::Rect box = rect_of(detection.box);
+  const cv::Rect box = detection.box.rect();
   return cv::Rect(box.x - by, box.y - by, box.width + 2 * by, box.height + 2 * by) &
          cv::Rect({0, 0}, image);
 }

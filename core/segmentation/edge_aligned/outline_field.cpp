@@ -22,15 +22,11 @@ cv::Rect grown(const cv::Rect& box, int by_px, const cv::Size& image) {
          cv::Rect({0, 0}, image);
 }
 
-cv::Rect rect_of(const PixelBox& box) {
-  return {box.u_min, box.v_min, box.width(), box.height()};
-}
-
 cv::Mat1w painted(const std::vector<Detection>& detections, int width_px, int height_px) {
   cv::Mat1w owner(height_px, width_px, std::uint16_t{0});
   for (std::size_t n = 0; n < detections.size(); ++n) {
     if (detections[n].mask.empty()) continue;
-    owner(rect_of(detections[n].box)).setTo(static_cast<double>(n + 1), detections[n].mask);
+    owner(detections[n].box.rect()).setTo(static_cast<double>(n + 1), detections[n].mask);
   }
   return owner;
 }
@@ -252,7 +248,7 @@ OutlineField outline_field(const std::vector<Detection>& detections, int width_p
   field.distance.create(height_px, width_px);
   cv::Rect window;
   for (const Detection& detection : detections)
-    if (field.length_px > 0) window |= grown(rect_of(detection.box), reach_px, field.owner.size());
+    if (field.length_px > 0) window |= grown(detection.box.rect(), reach_px, field.owner.size());
   fill_far(field.owner, window, field.distance);
   if (!window.empty()) measure_outline_distance(field.owner(window), field.distance(window));
   return field;

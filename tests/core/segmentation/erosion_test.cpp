@@ -27,9 +27,8 @@ Detection detection_of(const cv::Mat1b& image_mask) {
 cv::Mat1b eroded(const cv::Mat1b& image_mask, int radius_px) {
   const Detection detection = detection_of(image_mask);
   cv::Mat1b result(image_mask.size(), std::uint8_t{0});
-  const cv::Rect box(detection.box.u_min, detection.box.v_min, detection.box.width(),
-                     detection.box.height());
-  erode_mask(detection, radius_px, image_mask.cols, image_mask.rows).copyTo(result(box));
+  erode_mask(detection, radius_px, image_mask.cols, image_mask.rows)
+      .copyTo(result(detection.box.rect()));
   return result;
 }
 
