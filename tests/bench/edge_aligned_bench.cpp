@@ -147,7 +147,7 @@ void edge_aligned_votes(benchmark::State& state) {
   beside_plain(
       state, [&] { return steps.votes(); },
       [&] {
-        return mapscore::testing::plain_surface_votes(steps.edges, steps.field, steps.alignment,
+        return mapscore::testing::plain_surface_votes(steps.edges, steps.masks, steps.alignment,
                                                       steps.shifts, steps.believed,
                                                       steps.detections.size(), 3.0F);
       });
