@@ -3,7 +3,7 @@
 
 #include "core/calibration/outline_evidence.hpp"
 
-#include "core/segmentation/edge_aligned/edge_matching.hpp"
+#include "core/segmentation/edge_aligned/matched_edges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,6 @@
 namespace mapscore {
 namespace {
 
-constexpr float kNearest_m = 0.05F;   // from the colour camera
 constexpr float kSame_px = 2.0F;      // between two outlines that are the same
 constexpr float kAgainst = 0;         // weight of edges that face against their outline
 constexpr std::size_t kSamples = 64;  // of an object's outline, roughly
@@ -49,22 +48,9 @@ OutlineEvidence::OutlineEvidence(const Sight& sight, const std::optional<FrameMo
     motion_ = adjoint(T_color_depth) * motion->velocity;
     lag_s_ = motion->lag_s;
   }
-  const Projection project(color_);
-  const auto distance_near = [&](const Eigen::Vector2f& at) {
-    const float u = std::clamp(at.x(), 0.0F, static_cast<float>(color_.width_px - 1));
-    const float v = std::clamp(at.y(), 0.0F, static_cast<float>(color_.height_px - 1));
-    return std::abs(field_.distance(static_cast<int>(v), static_cast<int>(u))) +
-           std::abs(u - at.x()) + std::abs(v - at.y());
-  };
   if (field_.length_px == 0) return;
-  const DepthEdges found = find_depth_edges(sight.depth(), sight.believed(), kCalibrationEdges);
-  for (const DepthEdge& edge : found.steps) {
-    const Eigen::Vector3f p = T_color_depth.linear().cast<float>() * edge.point +
-                              T_color_depth.translation().cast<float>();
-    if (!(p.z() > kNearest_m) || distance_near(project(p)) > static_cast<float>(reach_px)) continue;
-    edges_.push_back(
-        {p, direction_of(edge.outward), static_cast<std::uint8_t>(edge.outward), edge.strength});
-  }
+  edges_ = edges_near_outlines(find_depth_edges(sight.depth(), sight.believed(), kCalibrationEdges),
+                               field_, sight.believed(), static_cast<float>(reach_px));
 }
 
 std::vector<std::size_t> OutlineEvidence::repeated_in(const OutlineEvidence& other) const {
@@ -87,7 +73,7 @@ std::vector<std::size_t> OutlineEvidence::repeated_in(const OutlineEvidence& oth
 
 double OutlineEvidence::mean_inverse_depth() const {
   double sum = 0;
-  for (const Edge& edge : edges_) sum += 1.0 / static_cast<double>(edge.p.z());
+  for (const ProjectedEdge& edge : edges_) sum += 1.0 / static_cast<double>(edge.p.z());
   return edges_.empty() ? 0.0 : sum / static_cast<double>(edges_.size());
 }
 
@@ -125,7 +111,7 @@ double OutlineEvidence::coarse_match(const CalibrationCorrection& correction,
   const cv::Mat1b& any = field_.coarse[0];
   float sum = 0;
   for (std::size_t n = 0; n < edges_.size(); n += stride) {
-    const Edge& edge = edges_[n];
+    const ProjectedEdge& edge = edges_[n];
     const Eigen::Vector2f at = seen.project(seen.R * edge.p + seen.t) / OutlineField::kCell_px;
     if (!(at.x() >= 0 && at.y() >= 0 && at.x() < static_cast<float>(any.cols) &&
           at.y() < static_cast<float>(any.rows)))
@@ -141,9 +127,9 @@ double OutlineEvidence::explained(const CalibrationCorrection& correction, float
   std::array<cv::Mat1f, 4> votes;
   for (std::size_t way = 0; way < 4; ++way)
     votes[way] = cv::Mat1f(field_.elements[way].size(), 0.0F);
-  for (const Edge& edge : edges_) {
+  for (const ProjectedEdge& edge : edges_) {
     const Eigen::Vector3f p = seen.R * edge.p + seen.t;
-    if (!(p.z() > kNearest_m)) continue;
+    if (!(p.z() > MatchedEdges::kNearest_m)) continue;
     const Eigen::Vector2f at = seen.project(p);
     const EdgeMatch match =
         match_edge(field_, {at.x(), at.y(), edge.outward.x(), edge.outward.y(), edge.strength},
@@ -161,11 +147,11 @@ double OutlineEvidence::explained(const CalibrationCorrection& correction, float
   return sum;
 }
 
-OutlineEquation OutlineEvidence::equation_of(const Edge& edge, const Seen& seen,
+OutlineEquation OutlineEvidence::equation_of(const ProjectedEdge& edge, const Seen& seen,
                                              float sigma_px) const {
   OutlineEquation equation;
   const Eigen::Vector3f p = seen.R * edge.p + seen.t;
-  if (!(p.z() > kNearest_m)) return equation;
+  if (!(p.z() > MatchedEdges::kNearest_m)) return equation;
   const Eigen::Vector2f at = seen.project(p);
   const EdgeMatch match =
       match_edge(field_, {at.x(), at.y(), edge.outward.x(), edge.outward.y(), edge.strength},

@@ -81,12 +81,6 @@ class OutlineEvidence {
   }
 
  private:
-  struct Edge {
-    Eigen::Vector3f p;  ///< in the colour camera, by the start
-    Eigen::Vector2f outward;
-    std::uint8_t way;
-    float strength;
-  };
   /// A correction at this frame.
   struct Seen {
     Seen(const OutlineEvidence& frame, const CalibrationCorrection& correction);
@@ -99,7 +93,7 @@ class OutlineEvidence {
       return {fx * p.x() / p.z() + cx, fy * p.y() / p.z() + cy};
     }
   };
-  [[nodiscard]] OutlineEquation equation_of(const Edge& edge, const Seen& seen,
+  [[nodiscard]] OutlineEquation equation_of(const ProjectedEdge& edge, const Seen& seen,
                                             float sigma_px) const;
 
   CameraModel color_;
@@ -107,7 +101,7 @@ class OutlineEvidence {
   double lag_s_ = 0;
   OutlineField field_;
   std::vector<std::vector<cv::Point>> outlines_;  ///< by object, the first of none: some pixels
-  std::vector<Edge> edges_;
+  std::vector<ProjectedEdge> edges_;              ///< by the start
 };
 
 }  // namespace mapscore

@@ -10,6 +10,29 @@
 
 namespace mapscore {
 
+std::vector<ProjectedEdge> edges_near_outlines(const DepthEdges& edges, const OutlineField& field,
+                                               const Calibration& believed, float reach_px) {
+  const Eigen::Matrix3f R = believed.T_color_depth.linear().cast<float>();
+  const Eigen::Vector3f t = believed.T_color_depth.translation().cast<float>();
+  const Projection project(believed.color);
+  const Eigen::Array2f last(static_cast<float>(field.distance.cols - 1),
+                            static_cast<float>(field.distance.rows - 1));
+  std::vector<ProjectedEdge> near;
+  near.reserve(edges.steps.size());
+  for (const DepthEdge& edge : edges.steps) {
+    const Eigen::Vector3f p = R * edge.point + t;
+    if (!(p.z() > MatchedEdges::kNearest_m)) continue;
+    const Eigen::Array2f at = project(p), within = at.max(0.0F).min(last);
+    const float distance =
+        std::abs(field.distance(static_cast<int>(within.y()), static_cast<int>(within.x()))) +
+        (within - at).abs().sum();
+    if (distance <= reach_px)
+      near.push_back(
+          {p, direction_of(edge.outward), static_cast<std::uint8_t>(edge.outward), edge.strength});
+  }
+  return near;
+}
+
 EdgeColumns::EdgeColumns(const std::vector<ProjectedEdge>& edges, std::size_t most)
     : stride(1 + edges.size() / most) {
   const auto add = [this](const ProjectedEdge& edge, float edge_strength) {

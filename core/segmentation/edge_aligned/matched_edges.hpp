@@ -14,6 +14,13 @@
 
 namespace mapscore {
 
+/// The edges, in the colour camera's frame under the believed calibration, that lie ahead of it and
+/// within `reach_px` of an outline in its image; beyond the image the way to it counts too.
+[[nodiscard]] std::vector<ProjectedEdge> edges_near_outlines(const DepthEdges& edges,
+                                                             const OutlineField& field,
+                                                             const Calibration& believed,
+                                                             float reach_px);
+
 /// Every so-manieth of some edges, at most `most` of them, in columns: many are moved at once.
 struct EdgeColumns {
   /// Columns hold whole groups of so many, the last filled up with edges of strength 0.

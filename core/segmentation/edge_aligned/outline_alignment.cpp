@@ -100,20 +100,10 @@ class Aligner {
         project_(believed.color),
         cost_(project_, field.length_px),
         search_px_(static_cast<float>(search_px)) {
-    const Eigen::Matrix3f R = believed.T_color_depth.linear().cast<float>();
-    const Eigen::Vector3f t = believed.T_color_depth.translation().cast<float>();
     for (const cv::Mat1f& map : field.elements)
       elements_.insert(elements_.end(), map[0], map[0] + map.total());
-    std::vector<ProjectedEdge> projected;
-    projected.reserve(edges.steps.size());
-    for (const DepthEdge& edge : edges.steps) {
-      const Eigen::Vector3f p = R * edge.point + t;
-      if (!(p.z() > MatchedEdges::kNearest_m)) continue;
-      const Eigen::Vector2f at = project_(p);
-      if (distance_near(at) > 1.3F * search_px_ + 12.0F) continue;
-      projected.push_back(
-          {p, direction_of(edge.outward), static_cast<std::uint8_t>(edge.outward), edge.strength});
-    }
+    const std::vector<ProjectedEdge> projected =
+        edges_near_outlines(edges, field, believed, 1.3F * search_px_ + 12.0F);
     few_ = EdgeColumns(projected, kFewEdges);
     coarse_ = EdgeColumns(projected, kCoarseEdges);
     fine_ = EdgeColumns(projected, kFineEdges);
@@ -170,15 +160,6 @@ class Aligner {
       return {};
     best.sharpness = fine_score(best, 1.2F) / std::max(fine_score(best, 4.0F), 1e-6F);
     return best;
-  }
-
-  /// Distance to the nearest outline; beyond the image that of the nearest pixel, and the way to
-  /// it.
-  [[nodiscard]] float distance_near(const Eigen::Vector2f& at) const {
-    const float u = std::clamp(at.x(), 0.0F, static_cast<float>(field_.distance.cols - 1));
-    const float v = std::clamp(at.y(), 0.0F, static_cast<float>(field_.distance.rows - 1));
-    return std::abs(field_.distance(static_cast<int>(v), static_cast<int>(u))) +
-           std::abs(u - at.x()) + std::abs(v - at.y());
   }
 
   /// What the fit may change at its first stages: turns alone, or shifts alone, then all but the
