@@ -94,9 +94,9 @@ struct NormalEquations {
   float matched = 0, squares = 0;                    ///< w, w r^2
 };
 
-/// Adds up edges, moved and matched in whole groups (EdgeColumns::kTogether), in as many lanes, and
-/// these at last, in order. `project`: the one that matched
-/// them; `focal_px`: of the believed colour camera, in which parameters are counted.
+/// Adds up edges that were moved and matched in whole groups (EdgeColumns::kTogether): each place
+/// of a group by itself, then these places in order. `project`: the one that matched them;
+/// `focal_px`: of the believed colour camera, in which parameters are counted.
 [[nodiscard]] NormalEquations add_up(const MatchedEdges& edges, const Projection& project,
                                      float focal_px);
 

@@ -31,11 +31,12 @@ enum Border : std::int32_t { kNoBorder, kBesideHigher, kBesideLower, kBorderBits
 /// transformations in digital images); cv::distanceTransform(DIST_L2, DIST_MASK_3) gives the same
 /// within 1/30000 of it. d = 8192 without a rim. `owner`: an image or a window of one, 0 for none;
 /// `distance`: its size.
-/// In masks the lowest two bits of a distance are a Border (which changes it by less than 4e-7 of
-/// it): whether the nearest rim pixel touches
-/// another mask. One that touches several counts as beside one of a higher number; of rims equally
-/// near one that is no border comes first, then one beside a higher number. So in a strip of 1 to 3
-/// pixels between a mask of a lower and one of a higher number `beyond_border` may change its sign.
+/// In masks the lowest two bits of a distance are a Border, which tells whether the nearest rim
+/// pixel touches another mask; they change the distance by less than 4e-7 of it. A rim pixel that
+/// touches several masks counts as beside one of a higher number; of rims equally near one that is
+/// no border comes first, then one beside a higher number. So between a mask of a lower and one of
+/// a higher number `beyond_border` changes its sign once more in the middle of a strip, and a strip
+/// of one pixel has no border with the lower one.
 void measure_outline_distance(const cv::Mat1w& owner, cv::Mat1f distance);
 
 }  // namespace mapscore

@@ -79,7 +79,8 @@ std::vector<Change> changes_after(const std::vector<Change>& before, const cv::M
   return changes;
 }
 
-/// Closes grooves of masks, half by each, rows first. Returns their pixels.
+/// Closes grooves of masks, half by each, in the order in which they end, row by row; of two that
+/// end beside one pixel that of the row first. Returns their pixels.
 std::vector<cv::Point> close_grooves(const std::vector<Change>& changes, cv::Mat1w& owners) {
   /// The last pixel of a mask in a row or column.
   struct Rim {
@@ -254,7 +255,7 @@ OutlineField outline_field(const std::vector<Detection>& detections, int width_p
   return field;
 }
 
-MaskField open_grooves(OutlineField field) {
+MaskField open_grooves(OutlineField&& field) {
   const cv::Size image = field.owner.size();
   for (const cv::Point& at : field.closed) field.owner(at) = 0;
   for (const cv::Rect& near : near_grooves(field.closed, image)) {

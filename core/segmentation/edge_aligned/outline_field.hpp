@@ -44,18 +44,18 @@ struct OutlineField {
 /// gets the owner reached in the fewest steps, ties to the lower index.
 [[nodiscard]] cv::Mat1w spread_owners(const cv::Mat1w& masks, int reach_px);
 
-/// `reach_px`: how far from the masks the field is wanted.
+/// `reach_px`, at least 1: how far from the masks the field is wanted.
 [[nodiscard]] OutlineField outline_field(const std::vector<Detection>& detections, int width_px,
                                          int height_px, int reach_px);
 
 /// The masks of a frame as they are.
 struct MaskField {
   cv::Mat1w owner;     ///< 1 + index of the detection whose mask holds the pixel, 0 for none
-  cv::Mat1f distance;  ///< pixels to the nearest outline up to 15.5, beyond it is more than that
+  cv::Mat1f distance;  ///< as that of an OutlineField up to 15.5 px; beyond, only sign and more
 };
 
 /// Opens the grooves of a field again, in its own images: neither it nor a copy of it serves a fit
 /// any more.
-[[nodiscard]] MaskField open_grooves(OutlineField field);
+[[nodiscard]] MaskField open_grooves(OutlineField&& field);
 
 }  // namespace mapscore

@@ -21,7 +21,8 @@ struct PixelVotes {
   cv::Mat1f weight;  ///< 0 to 1; little where the colour camera does not see the surface
 };
 
-/// The votes under the mended calibration, of masks as large as their objects are.
+/// The votes under the mended calibration, of masks as large as their objects are. `masks`: of the
+/// size of the believed colour camera's images.
 [[nodiscard]] PixelVotes pixel_votes(const DepthEdges& edges, const MaskField& masks,
                                      const OutlineAlignment& alignment, const OutlineShifts& shifts,
                                      const Calibration& believed, std::size_t detections);

@@ -16,7 +16,7 @@ namespace mapscore {
 
 /// Labels the depth image: 1 + index of the detection that a pixel belongs to, 0 for none. `on`:
 /// along what votes spread; it is parted where two masks meet at a step, or where a surface plainly
-/// goes on. May be the edges' own images.
+/// goes on. May be the edges' own images. `masks`: of the size of the colour camera's images.
 [[nodiscard]] cv::Mat1w vote_on_surfaces(const DepthEdges& edges, const MaskField& masks,
                                          const OutlineAlignment& alignment,
                                          const OutlineShifts& shifts, const Calibration& believed,

@@ -15,6 +15,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <string>
+#include <utility>
 
 namespace mapscore {
 namespace {
@@ -93,7 +94,7 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
         expect_equal_steps(edges, plain_steps(edges, scene.believed));
         ASSERT_EQ(cv::countNonZero(edges.near_holes), 0);
 
-        const OutlineField field = outline_field(scene.detections, 320, 240, 60);
+        OutlineField field = outline_field(scene.detections, 320, 240, 60);
         OutlineAlignment alignment = align_outlines(edges, field, scene.believed, 40);
         if (shift_m > 0) alignment = {};  // so that something is left to shift
         alignment.score = 0.5F, alignment.sharpness = 0.5F;
@@ -109,7 +110,7 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
 
         Continuity on = is_noisy(edges) ? Continuity{edges.right.clone(), edges.down.clone()}
                                         : part_at_creases(edges);
-        const MaskField masks = open_grooves(field);
+        const MaskField masks = open_grooves(std::move(field));
         cv::Mat1w labels = vote_on_surfaces(edges, masks, alignment, shifts, scene.believed,
                                             scene.detections.size(), on, 3.0);
         EXPECT_EQ(cv::countNonZero(labels != plain_surface_votes(edges, masks, alignment, shifts,
