@@ -26,7 +26,7 @@ using Fitted = WindowPlanes::Row;
 struct Limits {
   float band_m, error_m;
 };
-constexpr Limits kFirst{1e6F, 1e6F}, kSecond{0.02F, 0.01F};
+constexpr Limits kFirst{1e6F, 1e6F}, kSecond{0.02F, 0.009F};
 
 /// Whether enough of the label's pixels lie near the plane of pixel n.
 inline bool is_on_surface(const WindowPlanes& fits, std::size_t n) {

@@ -18,7 +18,7 @@ namespace mapscore {
 /// through the pixel that rises from pixel to pixel by the medians over pairs of neighbours of the
 /// label. If these are too few as well, the pixel lies on no surface and its label becomes 0. So
 /// does that of a pixel whose depth is still uncertain: the standard error of its w in the second
-/// fit, with sigma the noise of each pixel's w, is more than 1 cm of depth. `labels`: 0 for none;
+/// fit, with sigma the noise of each pixel's w, is more than 9 mm of depth. `labels`: 0 for none;
 /// changed. Returns 1/m, 0 where there is no label.
 [[nodiscard]] cv::Mat1f settle_on_surfaces(const DepthEdges& edges, cv::Mat1w& labels);
 

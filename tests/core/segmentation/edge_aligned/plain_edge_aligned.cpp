@@ -389,7 +389,7 @@ cv::Mat1f settle_plainly(const DepthEdges& edges, cv::Mat1w& labels) {
   auto [settled, error] = fit_planes_plainly(once, edges.noise, 0.02F, labels);
   for (int v = 0; v < labels.rows; ++v)
     for (int u = 0; u < labels.cols; ++u)
-      if (error(v, u) > 0.01F * settled(v, u) * settled(v, u))
+      if (error(v, u) > 0.009F * settled(v, u) * settled(v, u))
         settled(v, u) = 0.0F, labels(v, u) = 0;
   return settled;
 }
