@@ -132,7 +132,8 @@ std::string advice_for(const std::string& direction, const CalibratorSettings& s
              "add frames with objects at other depths and at other places of the image; or the "
              "start is farther off than search_m and search_deg, or wrong in what is not looked "
              "for") +
-         (settings.focal_length ? "" : ", as focal_length");
+         (settings.focal_length ? "" : ", as focal_length") +
+         (settings.time_offset ? "; or do not look for time_offset" : "");
 }
 
 /// Why an estimate must not be used; empty where it may.

@@ -44,4 +44,9 @@ struct Segment {
   std::optional<double> confidence = {};
 };
 
+/// Whether a frame was mended with a confidence below 0.5. `segments`: all of the frame's.
+[[nodiscard]] inline bool is_unsure(const std::vector<Segment>& segments) {
+  return !segments.empty() && segments.front().confidence.value_or(1.0) < 0.5;
+}
+
 }  // namespace mapscore

@@ -165,7 +165,7 @@ void calibrate(const CalibrateFlags& flags) {
         "0.25 s apart; leave the flag out, or add poses",
         shown(flags.source.folder)));
   const CalibrationEstimate estimate = calibrator.estimate();
-  std::cout << fmt::format("{} frames that show objects, of {}\n", chosen.size(), asked.size())
+  std::cout << fmt::format("frames that show objects: {} of {}\n", chosen.size(), asked.size())
             << calibration_summary(estimate) << '\n';
   if (!estimate.weakest.empty())
     std::cout << calibration_numbers(estimate) << '\n' << calibration_frames(estimate, chosen);

@@ -100,8 +100,15 @@ std::string counts_text(const LabelledFolderCounts& labels, const MappedCounts& 
   if (counts.hits_beyond_span > 0)
     text += fmt::format("; {} hits left out, farther from the map's origin than an octree reaches",
                         counts.hits_beyond_span);
-  return text + fmt::format("\n{} detections, {} of them without points; {} points kept\n",
-                            counts.detections, counts.empty, counts.points);
+  text += fmt::format("\n{} detections, {} of them without points; {} points kept\n",
+                      counts.detections, counts.empty, counts.points);
+  if (counts.unsure > 0)
+    text += fmt::format(
+        "{} of {} frames: mended with a confidence below 0.5; see with `mapscore calibrate` "
+        "whether "
+        "depth lies to the labels as believed\n",
+        counts.unsure, counts.frames);
+  return text;
 }
 
 std::string class_lines(const SemanticMap& map, const ClassTable& table, double threshold) {

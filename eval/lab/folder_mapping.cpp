@@ -24,7 +24,9 @@ void take_into(Given& given, Mapper& mapper, MappedCounts& counts) {
     ++counts.left_out;
     return;
   }
-  for (const Segment& found : mapper.integrate(given.sight, given.belief, given.draws)) {
+  const std::vector<Segment> segments = mapper.integrate(given.sight, given.belief, given.draws);
+  if (is_unsure(segments)) ++counts.unsure;
+  for (const Segment& found : segments) {
     ++counts.detections;
     counts.points += static_cast<std::int64_t>(found.points.size());
     counts.empty += found.skipped == SkipReason::none ? 0 : 1;

@@ -27,6 +27,7 @@ struct FolderMapping {
 struct MappedCounts {
   std::int64_t frames = 0, detections = 0, points = 0;
   std::int64_t left_out = 0;          ///< of the frames: no key frames, so not mapped
+  std::int64_t unsure = 0;            ///< of the frames: mended with a confidence below 0.5
   std::int64_t empty = 0;             ///< detections that yielded nothing
   std::int64_t hits_beyond_span = 0;  ///< left out: the octree does not reach so far
 };

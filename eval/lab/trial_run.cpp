@@ -115,8 +115,7 @@ TrialResult TrialRun::finish() {
 void TrialRun::count(const std::vector<Segment>& segments,
                      const std::vector<Eigen::AlignedBox3d>& true_boxes, Counts& counts) {
   Accounting& accounting = result_.accounting;
-  if (!segments.empty() && segments.front().confidence.value_or(1.0) < 0.5)
-    ++accounting.frames_unsure;
+  if (is_unsure(segments)) ++accounting.frames_unsure;
   for (const Segment& found : segments) {
     ++accounting.detections;
     accounting.points += static_cast<std::int64_t>(found.points.size());

@@ -82,10 +82,12 @@ std::string calibration_summary(const CalibrationEstimate& estimate) {
   return fmt::format(
       "{}\n{}\nknown least: {}, to {:.2f} px (refused from {} on); condition number {:.0f} "
       "(refused "
-      "from {} on)\nobjects end {:.2f} px beyond their masks; what the next table does not list is "
-      "taken as exact, as lenses and the scale of depth\n",
+      "from {} on)\nobjects end {:.2f} px {} their masks; what the next table does not list is "
+      "taken as exact, as focal lengths, lenses and the scale of depth\n",
       verdict, shares, estimate.weakest, estimate.weakest_px, CalibrationEstimate::kMostWeak_px,
-      estimate.condition, CalibrationEstimate::kMostCondition, estimate.correction.offset_px);
+      estimate.condition, CalibrationEstimate::kMostCondition,
+      std::abs(estimate.correction.offset_px),
+      estimate.correction.offset_px < 0 ? "within" : "beyond");
 }
 
 std::string calibration_numbers(const CalibrationEstimate& estimate) {

@@ -137,6 +137,25 @@ TEST_F(MapFolder, ClassLabelsOfAnotherNumberingAndMillimetres) {
   EXPECT_GT(bytes_of(path("colour.ot")).size(), 100u);
 }
 
+/// Labels that depth knows nothing of.
+TEST_F(MapFolder, FramesWhoseCalibrationIsMendedUnsurelyAreCounted) {
+  strip();
+  std::vector<std::string> flags = described();
+  flags.insert(flags.end(), {"--segmentation", "edge_aligned"});
+  rewrite("label", [](cv::Mat1w label) {
+    label.setTo(0);
+    label(cv::Rect(2, 2, 5, 4)).setTo(1);
+    return label;
+  });
+  const Outcome outcome = map("theirs", "unsure.ot", flags);
+  expect_done(outcome);
+  EXPECT_THAT(outcome.out,
+              ::testing::HasSubstr("4 of 4 frames: mended with a confidence below 0.5; see"));
+  flags.back() = "direct";
+  EXPECT_THAT(map("theirs", "direct.ot", flags).out,
+              ::testing::Not(::testing::HasSubstr("confidence")));
+}
+
 TEST_F(MapFolder, PlyScoresAsTheMapDoes) {
   expect_done(map("ours", "map.ot", {"--ply", path("map.ply")}));
   const auto score = [&](const std::string& file) {
