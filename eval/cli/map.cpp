@@ -105,8 +105,7 @@ std::string counts_text(const LabelledFolderCounts& labels, const MappedCounts& 
   if (counts.unsure > 0)
     text += fmt::format(
         "{} of {} frames: mended with a confidence below 0.5; see with `mapscore calibrate` "
-        "whether "
-        "depth lies to the labels as believed\n",
+        "whether depth lies to the labels as believed\n",
         counts.unsure, counts.frames);
   return text;
 }

@@ -83,7 +83,7 @@ std::string calibration_summary(const CalibrationEstimate& estimate) {
       "{}\n{}\nknown least: {}, to {:.2f} px (refused from {} on); condition number {:.0f} "
       "(refused "
       "from {} on)\nobjects end {:.2f} px {} their masks; what the next table does not list is "
-      "taken as exact, as focal lengths, lenses and the scale of depth\n",
+      "taken as exact, be it a focal length, a lens or the scale of depth\n",
       verdict, shares, estimate.weakest, estimate.weakest_px, CalibrationEstimate::kMostWeak_px,
       estimate.condition, CalibrationEstimate::kMostCondition,
       std::abs(estimate.correction.offset_px),

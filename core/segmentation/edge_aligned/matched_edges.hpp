@@ -65,9 +65,9 @@ class MatchedEdges {
       if (weight[n] > 0) use(n);
   }
 
-  std::vector<float> x, y,
-      nearness;             ///< X / Z, Y / Z and 1 / Z (1/m) in the colour camera's frame, if moved
-  std::vector<float> u, v;  ///< place in the colour image, px
+  std::vector<float> x, y;      ///< X / Z, Y / Z in the colour camera's frame, if moved
+  std::vector<float> nearness;  ///< 1 / Z, 1/m, likewise
+  std::vector<float> u, v;      ///< place in the colour image, px
   std::vector<float> weight, residual, distance, facing, slope_u, slope_v;  ///< as in EdgeMatch
   std::vector<float> slope_offset;  ///< of the residual with the masks' offset: 0 at borders, or -1
 

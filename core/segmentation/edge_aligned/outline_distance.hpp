@@ -12,7 +12,8 @@ namespace mapscore {
 
 /// What the lowest two bits of a distance tell of the outline that is nearest to its pixel: it is
 /// no border of two masks, or the one beside a mask of a higher, or of a lower number.
-enum Border : std::int32_t { kNoBorder, kBesideHigher, kBesideLower, kBorderBits };
+enum Border : std::int32_t { kNoBorder, kBesideHigher, kBesideLower };
+inline constexpr std::int32_t kBorderBits = 3;
 
 [[nodiscard]] inline std::int32_t border_of(float distance) {
   return std::bit_cast<std::int32_t>(distance) & kBorderBits;

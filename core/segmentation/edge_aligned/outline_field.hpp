@@ -51,7 +51,7 @@ struct OutlineField {
 /// The masks of a frame as they are.
 struct MaskField {
   cv::Mat1w owner;     ///< 1 + index of the detection whose mask holds the pixel, 0 for none
-  cv::Mat1f distance;  ///< as that of an OutlineField up to 15.5 px; beyond, only sign and more
+  cv::Mat1f distance;  ///< as an OutlineField's up to 15.5 px; farther away it is more than that
 };
 
 /// Opens the grooves of a field again, in its own images: neither it nor a copy of it serves a fit

@@ -109,7 +109,7 @@ class Voting {
         places_(color_places(edges.inverse_depth, mended_, shifts)) {}
 
   [[nodiscard]] PixelVotes collect() const {
-    const cv::Mat1f &w = edges_.inverse_depth, near = nearest();
+    const cv::Mat1f &w = edges_.inverse_depth, near = nearest_surfaces();
     const cv::Mat1b behind_unseen = unseen_occluders(edges_, places_, masks_, alignment_, mended_);
     const int beyond_px = static_cast<int>(std::ceil(1.5F * alignment_.offset_px));
     const cv::Mat1w owners =
@@ -150,7 +150,7 @@ class Voting {
 
  private:
   /// Nearest surface by colour pixel, as inverse depth, spread over the neighbouring pixels.
-  [[nodiscard]] cv::Mat1f nearest() const {
+  [[nodiscard]] cv::Mat1f nearest_surfaces() const {
     const cv::Mat1f& w = edges_.inverse_depth;
     cv::Mat1f hit(masks_.owner.size(), 0.0F), spread;
     for (int v = 0; v < w.rows; ++v) keep_nearest(w[v], places_.runs_of(v), hit[0]);
