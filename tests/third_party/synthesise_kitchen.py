@@ -3,22 +3,21 @@
 """Makes one of scene-synthesizer's kitchens and converts it to MJCF: synthesise_kitchen.py KIND FILE.xml"""
 
 import os
-import random
 import sys
 
 import mujoco
-import numpy as np
 from scene_synthesizer import procedural_scenes
 
 
+SEED = 5
+
+
 def main(kind, file):
-    random.seed(5)
-    np.random.seed(5)
     file = os.path.abspath(file)
     folder = os.path.dirname(file)
     os.makedirs(folder, exist_ok=True)
     os.chdir(folder)
-    kitchen = getattr(procedural_scenes, kind)()
+    kitchen = getattr(procedural_scenes, kind)(seed=SEED)
     kitchen.export("kitchen.urdf")
     spec = mujoco.MjSpec.from_file("kitchen.urdf")
     spec.compiler.discardvisual = False
