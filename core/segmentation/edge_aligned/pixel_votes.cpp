@@ -31,11 +31,20 @@ constexpr float kOutside_px = -1e4F;  // of what the colour camera does not see
 
 constexpr float kLeastParallax_px = 0.2F;   // between a surface and what hides it where masks meet
 constexpr double kLeastBaseline_m = 0.025;  // counted at least: a fit may take a shift for a turn
-constexpr int kBesideMask_px = 2;  // where masks meet: both within so much of a colour pixel
+constexpr double kAlong = 0.5;       // of the baseline's other side: both ways, if it is oblique
+constexpr double kSamePitch = 0.02;  // a gap in fifty rows is none
+constexpr int kBesideMask_px = 2;    // where masks meet: both within so much of a colour pixel
 
 /// By how much more than noise a surface lies behind the nearest one of its colour pixel, 1/m.
 float behind(float nearest, float noise, float w) {
   return nearest * (1.0F - kHidden) - kNoise * noise - w;
+}
+
+/// Over how many pixels of a row or column of the colour image a surface is spread, if depth pixels
+/// beside each other lie `pitch` pixels apart there.
+int spread_px(bool is_along_baseline, double pitch) {
+  const int gap = static_cast<int>(std::ceil(pitch - kSamePitch)) - 1;
+  return 1 + 2 * std::max(gap, is_along_baseline ? 1 : 0);
 }
 
 /// Some depth pixels in a row: inverse depth, 1/m, 0 where there is none, and place in a colour
@@ -149,12 +158,17 @@ class Voting {
   }
 
  private:
-  /// Nearest surface by colour pixel, as inverse depth, spread over the neighbouring pixels.
+  /// Nearest surface by colour pixel, as inverse depth. It is spread by a pixel along the baseline,
+  /// where a surface moves before the one that it hides, and over the gaps between depth pixels.
   [[nodiscard]] cv::Mat1f nearest_surfaces() const {
     const cv::Mat1f& w = edges_.inverse_depth;
     cv::Mat1f hit(masks_.owner.size(), 0.0F), spread;
     for (int v = 0; v < w.rows; ++v) keep_nearest(w[v], places_.runs_of(v), hit[0]);
-    cv::dilate(hit, spread, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
+    const Eigen::Array2d t = mended_.T_color_depth.translation().head<2>().array().abs();
+    const CameraModel &color = mended_.color, &depth = mended_.depth;
+    const int width_px = spread_px(t.x() >= kAlong * t.y(), color.fx_px / depth.fx_px);
+    const int height_px = spread_px(t.y() >= kAlong * t.x(), color.fy_px / depth.fy_px);
+    cv::dilate(hit, spread, cv::Mat(height_px, width_px, CV_8U, cv::Scalar(1)));
     return spread;
   }
 

@@ -166,6 +166,13 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const MaskField& masks,
   cv::Mat2i pixels(w.size());
   cv::Mat1f nearest(masks.owner.size(), 0.0F);
   const cv::Rect image({0, 0}, masks.owner.size());
+  // Pixels that a surface is spread by: along the baseline, and over gaps between depth pixels.
+  const auto gap = [](float to, float from) {
+    return static_cast<int>(std::ceil(to / from - 0.02F)) - 1;
+  };
+  const float sideways = std::abs(t.x()), upright = std::abs(t.y());
+  const int wide = std::max(sideways >= 0.5F * upright ? 1 : 0, gap(color.fx, depth.fx));
+  const int high = std::max(upright >= 0.5F * sideways ? 1 : 0, gap(color.fy, depth.fy));
   for (int v = 0; v < w.rows; ++v)
     for (int u = 0; u < w.cols; ++u) {
       const float x = (static_cast<float>(u) - depth.cx) * (1.0F / depth.fx);
@@ -178,10 +185,10 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const MaskField& masks,
       if (!shifts.nodes.empty()) at += shifts.at(at[0], at[1]);
       const cv::Vec2i pixel(cvFloor(at[0] + 0.5F), cvFloor(at[1] + 0.5F));
       pixels(v, u) = pixel;
-      if (image.contains(cv::Point(pixel)))
-        for (int r = std::max(pixel[1] - 1, 0); r <= std::min(pixel[1] + 1, image.height - 1); ++r)
-          for (int c = std::max(pixel[0] - 1, 0); c <= std::min(pixel[0] + 1, image.width - 1); ++c)
-            nearest(r, c) = std::max(nearest(r, c), w(v, u));
+      const cv::Rect about(pixel[0] - wide, pixel[1] - high, 2 * wide + 1, 2 * high + 1);
+      if (!image.contains(cv::Point(pixel))) continue;
+      cv::Mat1f near = nearest(about & image);
+      near = cv::max(near, w(v, u));
     }
   const float k = alignment.offset_px;
   const cv::Mat1w owners =

@@ -46,6 +46,14 @@ class PlateScene {
     table_.classes.push_back({1, "thing", {}, true});
   }
 
+  /// The same view by a colour camera with more pixels.
+  [[nodiscard]] PlateScene with_finer_color(int times) const {
+    PlateScene finer = *this;
+    finer.truth_.color =
+        CameraModel::from_hfov(320 * times, 240 * times, 60 * std::numbers::pi / 180);
+    return finer;
+  }
+
   [[nodiscard]] const Calibration& truth() const { return truth_; }
   /// Believed calibration with the error E on the left.
   [[nodiscard]] Calibration misregistered(const Eigen::Vector3d& shift_m,
@@ -88,9 +96,9 @@ class PlateScene {
     return nearest;
   }
   [[nodiscard]] cv::Mat1w label_of(const CameraModel& camera, const Eigen::Vector3d& eye) const {
-    cv::Mat1w image(240, 320);
-    for (int v = 0; v < 240; ++v)
-      for (int u = 0; u < 320; ++u) image(v, u) = seen(camera, eye, u, v).first;
+    cv::Mat1w image(camera.height_px, camera.width_px);
+    for (int v = 0; v < image.rows; ++v)
+      for (int u = 0; u < image.cols; ++u) image(v, u) = seen(camera, eye, u, v).first;
     return image;
   }
 
