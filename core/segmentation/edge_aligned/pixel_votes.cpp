@@ -29,11 +29,8 @@ constexpr float kGrown_px = 0.5F;     // from here on masks may have filled slit
 constexpr float kFree_px = 0.5F;      // what no mask holds begins half a pixel before its centre
 constexpr float kOutside_px = -1e4F;  // of what the colour camera does not see
 
-constexpr float kLeastParallax_px = 0.2F;   // between a surface and what hides it where masks meet
-constexpr double kLeastBaseline_m = 0.025;  // counted at least: a fit may take a shift for a turn
 constexpr double kAlong = 0.5;       // of the baseline's other side: both ways, if it is oblique
 constexpr double kSamePitch = 0.02;  // a gap in fifty rows is none
-constexpr int kBesideMask_px = 2;    // where masks meet: both within so much of a colour pixel
 
 /// By how much more than noise a surface lies behind the nearest one of its colour pixel, 1/m.
 float behind(float nearest, float noise, float w) {
@@ -112,9 +109,6 @@ class Voting {
         alignment_(alignment),
         detections_(detections),
         mended_(alignment.corrected(believed)),
-        shift_px_(static_cast<float>(
-            mended_.color.fx_px *
-            std::max(mended_.T_color_depth.translation().head<2>().norm(), kLeastBaseline_m))),
         places_(color_places(edges.inverse_depth, mended_, shifts)) {}
 
   [[nodiscard]] PixelVotes collect() const {
@@ -144,10 +138,8 @@ class Voting {
       const std::uint8_t* covered = behind_unseen[v];
       weigh(row, depth_in, nearest.data(), covered, edges_.noise, weight, may_be_hidden.data());
       for_each_marked(may_be_hidden, [&](int u) {
-        const float w_here = row.w[u], w_nearest = nearest[static_cast<std::size_t>(u)];
-        const bool is_apart = (w_nearest - w_here) * shift_px_ > kLeastParallax_px;
-        const bool is_hidden = behind(w_nearest, edges_.noise, w_here) > kSlopes * slope_at(v, u) &&
-                               (is_apart || !masks_meet_at(row.cells[u]));
+        const float w_nearest = nearest[static_cast<std::size_t>(u)];
+        const bool is_hidden = behind(w_nearest, edges_.noise, row.w[u]) > kSlopes * slope_at(v, u);
         if (covered[u] != 0 || is_hidden) depth_in[u] = -1.0F, weight[u] = kHiddenVote;
       });
       if (may_have_slits) std::copy(owner, owner + w.cols, grown[v]);
@@ -170,20 +162,6 @@ class Voting {
     const int height_px = spread_px(t.y() >= kAlong * t.x(), color.fy_px / depth.fy_px);
     cv::dilate(hit, spread, cv::Mat(height_px, width_px, CV_8U, cv::Scalar(1)));
     return spread;
-  }
-
-  /// Whether a colour pixel in a mask has another mask within kBesideMask_px.
-  [[nodiscard]] bool masks_meet_at(int cell) const {
-    const cv::Mat1w& owner = masks_.owner;
-    const cv::Point at(cell % owner.cols, cell / owner.cols);
-    const std::uint16_t own = owner(at);
-    if (own == 0) return false;
-    for (int v = std::max(at.y - kBesideMask_px, 0); v < owner.rows && v <= at.y + kBesideMask_px;
-         ++v)
-      for (int u = std::max(at.x - kBesideMask_px, 0); u < owner.cols && u <= at.x + kBesideMask_px;
-           ++u)
-        if (owner(v, u) != 0 && owner(v, u) != own) return true;
-    return false;
   }
 
   /// By colour pixel, how far it is from what no mask holds; empty unless there are some masks that
@@ -235,7 +213,6 @@ class Voting {
   const OutlineAlignment& alignment_;
   std::size_t detections_;
   Calibration mended_;
-  float shift_px_;  ///< between the images, of a point at 1 m, kLeastBaseline_m at least
   ColorPlaces places_;
 };
 

@@ -206,13 +206,7 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const MaskField& masks,
       inside(v, u) = k - distance;
       if (k < -0.5F && inside(v, u) <= 0 && to_free(pixel) > 0.5F - k) inside(v, u) = -distance;
       const float behind = nearest(pixel) * (1.0F - 0.015F) - 4.0F * edges.noise - w(v, u);
-      const float parallax_px =
-          (nearest(pixel) - w(v, u)) * (color.fx * std::max(t.head<2>().norm(), 0.025F));
-      const cv::Mat1w beside = masks.owner(cv::Rect(pixel.x - 2, pixel.y - 2, 5, 5) & image);
-      const std::uint16_t mask = masks.owner(pixel);
-      const bool masks_meet =
-          mask != 0 && cv::countNonZero((beside != 0) & (beside != static_cast<double>(mask))) > 0;
-      if (behind > 2.0F * plain_slope(edges, v, u) && (parallax_px > 0.2F || !masks_meet))
+      if (behind > 2.0F * plain_slope(edges, v, u))
         inside(v, u) = -1.0F, weight(v, u) = 0.2F;
       else
         weight(v, u) = std::clamp(std::abs(inside(v, u)) / 2.0F, 0.05F, 1.0F);
