@@ -7,6 +7,7 @@
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 #include "eval/report/pictures/caption.hpp"
 
+#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace {
 constexpr int kScale = 2, kZoom = 4;  // of the whole image; of the part, over that
 constexpr int kOutlineColumn_px = 900;
 constexpr float kNearOutline_px = 6.0F;
-const Colour kStep{20, 20, 20};
+const Colour kStep{20, 20, 20}, kPart{0, 90, 200};
 
 /// Where a calibration puts the steps of a depth image, in pixels of the colour image.
 std::vector<cv::Point2d> steps_in_color(const DepthEdges& edges, const Calibration& calibration) {
@@ -102,15 +103,17 @@ cv::Mat3b outline_picture(const Sight& sight, const ClassTable& table,
       legend.push_back({c.colour, "outline of " + c.name});
     }
   legend.push_back({kStep, "step of depth"});
+  legend.push_back({kPart, fmt::format("drawn below, {} times as large", kZoom)});
   std::vector<CaptionedColumn> columns;
   const cv::Rect part = fullest_part(field, steps_in_color(edges, calibrations.back().calibration));
   for (const TitledCalibration& one : calibrations) {
     const auto steps = steps_in_color(edges, one.calibration);
-    columns.push_back({one.title,
-                       {drawn(field, sight.detections(), table, steps,
-                              {0, 0, color.width_px, color.height_px}, kScale),
-                        drawn(field, sight.detections(), table, steps, part, kScale * kZoom)},
-                       {}});
+    const auto draw = [&](const cv::Rect& what, int scale) {
+      return drawn(field, sight.detections(), table, steps, what, scale);
+    };
+    cv::Mat3b whole = draw({0, 0, color.width_px, color.height_px}, kScale);
+    cv::rectangle(whole, kScale * part.tl(), kScale * part.br(), bgr(kPart), kScale);
+    columns.push_back({one.title, {whole, draw(part, kScale * kZoom)}, {}});
   }
   columns.front().legend = legend;
   return in_columns(columns, kOutlineColumn_px);
