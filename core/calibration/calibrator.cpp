@@ -22,7 +22,9 @@ constexpr std::size_t kStarts = 6;
 const std::vector<double> kTimes_s{-0.15, -0.11, -0.07, -0.035, 0, 0.035, 0.07, 0.11, 0.15};
 constexpr float kShare_px = 1.5F;
 constexpr double kFinestSpreads = 1.15, kFinest_px = 0.5, kCoarsest_px = 2.0;
-constexpr double kLeastShare = 0.15;  // of the outlines, on which edges must lie
+/// Of the outlines, on which edges must lie if the last fit is a pixel wide or more. By chance they
+/// lie on more of them the wider it is, so of a narrower one less will do.
+constexpr double kLeastShare = 0.15, kLeastShareAt_px = 1.0;
 constexpr double kBehind = 0.002;  // of the outlines, by which an estimate may be behind the start
 /// Squared: an estimate can be worse than the start only if it is wrong by half of their
 /// difference.
@@ -138,7 +140,8 @@ std::string advice_for(const std::string& direction, const CalibratorSettings& s
 
 /// Why an estimate must not be used; empty where it may.
 std::string objection(const CalibrationEstimate& estimate, const CalibratorSettings& settings) {
-  if (estimate.explained < kLeastShare)
+  const auto width = static_cast<double>(estimate.sigma_px);
+  if (estimate.explained < kLeastShare * std::min(width / kLeastShareAt_px, 1.0))
     return "hardly any outline lies on a step of depth; see that masks and depth images belong "
            "together, that depth was not smoothed or averaged over steps, that focal lengths, "
            "principal points and the depth's scale are those of these images, and that the start "
