@@ -29,19 +29,24 @@ constexpr float kGrown_px = 0.5F;     // from here on masks may have filled slit
 constexpr float kFree_px = 0.5F;      // what no mask holds begins half a pixel before its centre
 constexpr float kOutside_px = -1e4F;  // of what the colour camera does not see
 
-constexpr double kAlong = 0.5;       // of the baseline's other side: both ways, if it is oblique
-constexpr double kSamePitch = 0.02;  // a gap in fifty rows is none
+// A surface moves before the one that it hides along a side of the baseline that is so many pixels,
+// of a point at 1 m, and so much of the other side; less is chance.
+constexpr double kLeastMove_px = 3.0, kLeastOfOther = 0.5;
+constexpr double kSamePitch = 0.02;    // a gap in fifty rows is none
+constexpr double kWidestPitch = 64.0;  // of depth pixels in the colour image, whose gaps are closed
 
 /// By how much more than noise a surface lies behind the nearest one of its colour pixel, 1/m.
 float behind(float nearest, float noise, float w) {
   return nearest * (1.0F - kHidden) - kNoise * noise - w;
 }
 
-/// Over how many pixels of a row or column of the colour image a surface is spread, if depth pixels
-/// beside each other lie `pitch` pixels apart there.
-int spread_px(bool is_along_baseline, double pitch) {
-  const int gap = static_cast<int>(std::ceil(pitch - kSamePitch)) - 1;
-  return 1 + 2 * std::max(gap, is_along_baseline ? 1 : 0);
+/// By how many pixels of a row or column of the colour image a surface is spread to either side, if
+/// it moves that way by `move_px` and the other way by `other_px`, and depth pixels beside each
+/// other lie `pitch` pixels apart.
+int spread_px(double move_px, double other_px, double pitch) {
+  const bool moves = move_px >= kLeastMove_px && move_px >= kLeastOfOther * other_px;
+  const double gap = (std::min(pitch, kWidestPitch) - 1.0 - kSamePitch) / 2.0;
+  return std::max(static_cast<int>(std::ceil(gap)), moves ? 1 : 0);
 }
 
 /// Some depth pixels in a row: inverse depth, 1/m, 0 where there is none, and place in a colour
@@ -156,11 +161,12 @@ class Voting {
     const cv::Mat1f& w = edges_.inverse_depth;
     cv::Mat1f hit(masks_.owner.size(), 0.0F), spread;
     for (int v = 0; v < w.rows; ++v) keep_nearest(w[v], places_.runs_of(v), hit[0]);
-    const Eigen::Array2d t = mended_.T_color_depth.translation().head<2>().array().abs();
     const CameraModel &color = mended_.color, &depth = mended_.depth;
-    const int width_px = spread_px(t.x() >= kAlong * t.y(), color.fx_px / depth.fx_px);
-    const int height_px = spread_px(t.y() >= kAlong * t.x(), color.fy_px / depth.fy_px);
-    cv::dilate(hit, spread, cv::Mat(height_px, width_px, CV_8U, cv::Scalar(1)));
+    const Eigen::Vector3d& t = mended_.T_color_depth.translation();
+    const double right_px = color.fx_px * std::abs(t.x()), down_px = color.fy_px * std::abs(t.y());
+    const int wide = spread_px(right_px, down_px, color.fx_px / depth.fx_px);
+    const int high = spread_px(down_px, right_px, color.fy_px / depth.fy_px);
+    cv::dilate(hit, spread, cv::Mat(2 * high + 1, 2 * wide + 1, CV_8U, cv::Scalar(1)));
     return spread;
   }
 

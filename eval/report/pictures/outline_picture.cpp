@@ -67,7 +67,7 @@ cv::Mat3b drawn(const OutlineField& field, const std::vector<Detection>& detecti
 
 /// The part of the image, a quarter as wide and high, that has most steps near outlines.
 cv::Rect fullest_part(const OutlineField& field, const std::vector<cv::Point2d>& steps) {
-  const cv::Size size(field.owner.cols / kZoom, field.owner.rows / kZoom);
+  const cv::Size size(std::max(field.owner.cols / kZoom, 1), std::max(field.owner.rows / kZoom, 1));
   cv::Mat1f near(field.owner.size(), 0.0F);
   const cv::Rect image({0, 0}, field.owner.size());
   for (const cv::Point2d& step : steps) {

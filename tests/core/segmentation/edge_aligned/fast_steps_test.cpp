@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -131,21 +132,27 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
 
 /// Where masks meet at small steps, of which some hide what lies behind them and some too little.
 TEST(EdgeAlignedFastSteps, VoteAsThePlainOnesWhereMasksMeet) {
-  int labelled = 0;
+  int labelled = 0, rigs = 0;
   for (const double offset_px : {-2.0, 0.0, 1.0})
     for (const double step_m : {0.005, 0.008, 0.012, 0.03, 0.05, 0.07}) {
       SCOPED_TRACE("offset " + std::to_string(offset_px) + " px, step " + std::to_string(step_m));
       const double z = 1.5;
-      const PlateScene scene({{-0.6, -0.2, -0.4, 0.0, z, 1},
+      const PlateScene front({{-0.6, -0.2, -0.4, 0.0, z, 1},
                               {-0.2, 0.0, -0.4, 0.0, z + step_m, 2},
                               {0.0, 0.012, -0.4, 0.0, z + 2 * step_m, 3},
                               {0.012, 0.3, -0.4, 0.0, z, 4},
                               {-0.6, 0.0, 0.0, 0.3, z + step_m, 5},
                               {0.0, 0.3, 0.0, 0.02, z + step_m, 6},
                               {0.0, 0.3, 0.02, 0.3, z, 7}});
+      const int rig = rigs++ % 4;  // beside each other, above each other, oblique, in one place
+      const CameraModel color =
+          CameraModel::from_hfov(320 * (rig + 1), 240 * (rig + 1), 60 * std::numbers::pi / 180);
+      const PlateScene scene = front.seen_by(
+          color, {rig % 2 == 0 ? 0.025 : 0.0, rig == 1 || rig == 2 ? 0.02 : 0.0, 0.0});
       const std::vector<Detection> detections = scene.detections();
       const DepthEdges edges = find_depth_edges(scene.depth(), scene.truth());
-      const MaskField masks = open_grooves(outline_field(detections, 320, 240, 60));
+      const MaskField masks =
+          open_grooves(outline_field(detections, color.width_px, color.height_px, 60));
       OutlineAlignment alignment;
       alignment.offset_px = static_cast<float>(offset_px);
       Continuity on = part_at_creases(edges);

@@ -166,13 +166,18 @@ cv::Mat1w plain_surface_votes(const DepthEdges& edges, const MaskField& masks,
   cv::Mat2i pixels(w.size());
   cv::Mat1f nearest(masks.owner.size(), 0.0F);
   const cv::Rect image({0, 0}, masks.owner.size());
-  // Pixels that a surface is spread by: along the baseline, and over gaps between depth pixels.
-  const auto gap = [](float to, float from) {
-    return static_cast<int>(std::ceil(to / from - 0.02F)) - 1;
+  // Pixels that a surface is spread by: along the baseline, and over half of a gap between depth
+  // pixels.
+  const auto half_gap = [](double to, double from) {
+    return static_cast<int>(std::ceil((std::min(to / from, 64.0) - 1.02) / 2));
   };
-  const float sideways = std::abs(t.x()), upright = std::abs(t.y());
-  const int wide = std::max(sideways >= 0.5F * upright ? 1 : 0, gap(color.fx, depth.fx));
-  const int high = std::max(upright >= 0.5F * sideways ? 1 : 0, gap(color.fy, depth.fy));
+  const CameraModel &fine = mended.color, &coarse = mended.depth;
+  const Eigen::Vector3d& by = mended.T_color_depth.translation();
+  const double sideways = fine.fx_px * std::abs(by.x()), upright = fine.fy_px * std::abs(by.y());
+  const int wide = std::max(sideways >= 3 && sideways >= upright / 2 ? 1 : 0,
+                            half_gap(fine.fx_px, coarse.fx_px));
+  const int high =
+      std::max(upright >= 3 && upright >= sideways / 2 ? 1 : 0, half_gap(fine.fy_px, coarse.fy_px));
   for (int v = 0; v < w.rows; ++v)
     for (int u = 0; u < w.cols; ++u) {
       const float x = (static_cast<float>(u) - depth.cx) * (1.0F / depth.fx);

@@ -46,12 +46,12 @@ class PlateScene {
     table_.classes.push_back({1, "thing", {}, true});
   }
 
-  /// The same view by a colour camera with more pixels.
-  [[nodiscard]] PlateScene with_finer_color(int times) const {
-    PlateScene finer = *this;
-    finer.truth_.color =
-        CameraModel::from_hfov(320 * times, 240 * times, 60 * std::numbers::pi / 180);
-    return finer;
+  /// The same by another colour camera, which stands at `eye` in depth_optical.
+  [[nodiscard]] PlateScene seen_by(const CameraModel& color, const Eigen::Vector3d& eye) const {
+    PlateScene scene = *this;
+    scene.truth_.color = color;
+    scene.truth_.T_color_depth.translation() = -eye;
+    return scene;
   }
 
   [[nodiscard]] const Calibration& truth() const { return truth_; }
@@ -75,7 +75,9 @@ class PlateScene {
     return image;
   }
   [[nodiscard]] cv::Mat1w depth_label() const { return label_of(truth_.depth, {0, 0, 0}); }
-  [[nodiscard]] cv::Mat1w label() const { return label_of(truth_.color, {0.025, 0, 0}); }
+  [[nodiscard]] cv::Mat1w label() const {
+    return label_of(truth_.color, -truth_.T_color_depth.translation());
+  }
   [[nodiscard]] std::vector<Detection> detections() const { return detections_of(label(), table_); }
   [[nodiscard]] std::vector<Detection> detections(const cv::Mat1w& label) const {
     return detections_of(label, table_);
