@@ -25,8 +25,8 @@ struct Board {
 };
 
 /// Boards before a wall at 6 m, drawn by chance for each frame: each at a depth of its own, or all
-/// at `plane_m`. The wall may be papered with squares of one
-/// mask, `paper_px` wide, whose outlines are no steps.
+/// at `plane_m`. The wall may be papered with squares of one mask, `paper_px` wide, whose outlines
+/// are no steps.
 class BoardScene {
  public:
   explicit BoardScene(std::optional<double> plane_m = {}, int paper_px = 0)
