@@ -19,7 +19,7 @@ namespace {
 constexpr int kScale = 2, kZoom = 4;  // of the whole image; of the part, over that
 constexpr int kOutlineColumn_px = 900;
 constexpr float kNearOutline_px = 6.0F;
-const Colour kStep{20, 20, 20}, kPart{0, 90, 200};
+const Colour kStep{20, 20, 20}, kPart{128, 128, 128};
 
 /// Where a calibration puts the steps of a depth image, in pixels of the colour image.
 std::vector<cv::Point2d> steps_in_color(const DepthEdges& edges, const Calibration& calibration) {

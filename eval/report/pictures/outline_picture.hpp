@@ -22,7 +22,7 @@ struct TitledCalibration {
 
 /// The outlines of a frame's masks, in the colours of their classes, and the steps of its depth
 /// image where each calibration puts them, in black: a column a calibration, the whole image above
-/// a part of it, four times as large, where most steps lie near outlines. A blue rectangle shows
+/// a part of it, four times as large, where most steps lie near outlines. A grey rectangle shows
 /// where the part lies.
 [[nodiscard]] cv::Mat3b outline_picture(const Sight& sight, const ClassTable& table,
                                         const std::vector<TitledCalibration>& calibrations);
