@@ -32,6 +32,11 @@ constexpr float kStep_px = 0.1F, kStep_m = 0.0004F;  // of a step that changes n
 constexpr float kLeastScore = 0.15F;     // below, the edges show nothing of the masks,
 constexpr float kLeastLength_px = 100;   // unless they lie on so much of a long outline
 constexpr float kLeastLever_px = 40.0F;  // for roll and focal length to be fitted
+/// Masks that seem to be smaller than their objects by more than this may be right, and what the
+/// objects are set into may end close around them.
+constexpr float kSetIn_px = 1.0F;
+constexpr float kSetInGain_px = 100;  // of outline, that show that the masks are too small,
+constexpr float kSetInShare = 0.2F;   // unless the believed fit has less than this of the other's
 constexpr float kPrior = 3.0F;
 constexpr float kLeastPrior = 0.01F;  // of it, where exact edges say nothing of a correction
 
@@ -152,14 +157,25 @@ class Aligner {
       const float value = candidate.score - cost_(candidate);
       if (value > most) most = value, best = static_cast<OutlineAlignment>(candidate);
     }
-    refine(best, 2.0F, 2, fine_, free);
-    refine(best, 1.2F, 4, fine_, free);
-    best.score = fine_score(best, 1.5F);
+    finish(best, free);
+    if (best.offset_px > kSetIn_px) {
+      OutlineAlignment believed;
+      refine(believed, 2.0F, 4, coarse_, free);
+      finish(believed, free);
+      const float gain = (best.score - believed.score) * static_cast<float>(field_.length_px);
+      if (gain < kSetInGain_px && believed.score > kSetInShare * best.score) best = believed;
+    }
     if (best.score < kLeastScore &&
         best.score * static_cast<float>(field_.length_px) < kLeastLength_px)
       return {};
     best.sharpness = fine_score(best, 1.2F) / std::max(fine_score(best, 4.0F), 1e-6F);
     return best;
+  }
+
+  void finish(OutlineAlignment& a, const Parameters& free) {
+    refine(a, 2.0F, 2, fine_, free);
+    refine(a, 1.2F, 4, fine_, free);
+    a.score = fine_score(a, 1.5F);
   }
 
   /// What the fit may change at its first stages: turns alone, or shifts alone, then all but the
