@@ -298,6 +298,18 @@ TEST(EdgeAligned, AKnownCalibrationIsBelieved) {
   EXPECT_TRUE(alignment.rotation.isIdentity(0) && alignment.translation.isZero(0));
 }
 
+/// A door, flush with its undetected case, that ends with it at its sides and 5 px above its
+/// bottom.
+TEST(EdgeAligned, WhereTheCalibrationIsKnownAnOutlineDoesNotMoveToWhatRunsBesideIt) {
+  const PlateScene scene({{-0.2, 0.2, -0.2, 0.2, 1.4999, 1}, {-0.2, 0.2, -0.4, 0.227, 1.5, 0}});
+  const std::vector<Detection> detections = scene.detections();
+  const Agreement found =
+      agreement(label_depth(detections, scene.depth(), scene.truth(), {.fit = OutlineFit::masks}),
+                detections, scene.depth_label());
+  EXPECT_GE(found.precision, 0.995);
+  EXPECT_GE(found.recall, 0.9);
+}
+
 TEST(EdgeAligned, ADoubtfulCalibrationIsMendedInEachFrame) {
   const PlateScene scene = plain_scene();
   // Farther than local shifts reach.
