@@ -35,8 +35,8 @@ constexpr float kLeastLever_px = 40.0F;  // for roll and focal length to be fitt
 /// Masks that seem to be smaller than their objects by more than this may be right, and what the
 /// objects are set into may end close around them.
 constexpr float kSetIn_px = 1.0F;
-constexpr float kSetInGain_px = 100;  // of outline, that show that the masks are too small,
-constexpr float kSetInShare = 0.2F;   // unless the believed fit has less than this of the other's
+constexpr float kSetInGain_px = 100;  // of outline, that show such a fit,
+constexpr float kSetInShare = 0.2F;   // unless what is believed explains no more than this part
 constexpr float kPrior = 3.0F;
 constexpr float kLeastPrior = 0.01F;  // of it, where exact edges say nothing of a correction
 
@@ -159,9 +159,10 @@ class Aligner {
     }
     finish(best, free);
     if (best.offset_px > kSetIn_px) {
+      const Parameters size = Parameters::Unit(kOffset);
       OutlineAlignment believed;
-      refine(believed, 2.0F, 4, coarse_, free);
-      finish(believed, free);
+      refine(believed, 2.0F, 4, coarse_, size);
+      finish(believed, size);
       const float gain = (best.score - believed.score) * static_cast<float>(field_.length_px);
       if (gain < kSetInGain_px && believed.score > kSetInShare * best.score) best = believed;
     }
