@@ -21,10 +21,6 @@ namespace mapscore {
 namespace {
 
 constexpr double kSharpReach = 2.0 / 3.0;  // of the reach: outlines are right to a pixel
-/// Share of the outlines that edges explain from which on parts of the image may have moved by
-/// themselves, where the calibration is known: below, what runs beside outlines without steps, as
-/// the edge of a cabinet beside its doors, would be taken for theirs.
-constexpr float kToldOfKnown = 0.5F;
 
 }  // namespace
 
@@ -47,9 +43,8 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
   labelled.alignment = is_known ? fit_mask_size(edges, field, believed)
                                 : align_outlines(edges, field, believed, params.search_px);
   if (!is_known) labelled.confidence = confidence_of(labelled.alignment, field.length_px);
-  const bool may_move = !is_known || labelled.alignment.score >= kToldOfKnown;
   const OutlineShifts shifts =
-      may_move ? find_outline_shifts(edges, field, labelled.alignment, believed) : OutlineShifts{};
+      find_outline_shifts(edges, field, labelled.alignment, believed, is_known);
   const double reach =
       labelled.alignment.is_sharp() ? kSharpReach * params.reach_px : params.reach_px;
   labelled.labels = vote_on_surfaces(edges, open_grooves(std::move(field)), labelled.alignment,

@@ -173,6 +173,7 @@ class Aligner {
     return best;
   }
 
+  /// The last refinements, by all edges, and the score.
   void finish(OutlineAlignment& a, const Parameters& free) {
     refine(a, 2.0F, 2, fine_, free);
     refine(a, 1.2F, 4, fine_, free);

@@ -17,6 +17,9 @@ namespace {
 
 constexpr int kPitch = OutlineShifts::kPitch_px;
 constexpr float kTold = 0.25F;  // an alignment that explains less knows too little to tell
+/// The same where the calibration is known: with less, what runs beside outlines without steps, as
+/// the edge of a cabinet beside its doors, would be taken for theirs.
+constexpr float kToldOfKnown = 0.5F;
 constexpr float kSupport_px = 1.5F * kPitch;
 constexpr float kFine_px = 1.5F, kWide_px = 3.0F;  // sigmas of the matches
 constexpr float kGood = 0.6F;                      // share of an outline that shows a good fit
@@ -239,8 +242,9 @@ cv::Vec2f OutlineShifts::at(float u, float v) const {
 }
 
 OutlineShifts find_outline_shifts(const DepthEdges& edges, const OutlineField& field,
-                                  const OutlineAlignment& alignment, const Calibration& believed) {
-  if (alignment.is_sharp() || alignment.score < kTold) return {};
+                                  const OutlineAlignment& alignment, const Calibration& believed,
+                                  bool is_known) {
+  if (alignment.is_sharp() || alignment.score < (is_known ? kToldOfKnown : kTold)) return {};
   return ShiftFinder(edges, field, alignment, believed).find();
 }
 

@@ -22,8 +22,10 @@ struct OutlineShifts {
   [[nodiscard]] cv::Vec2f at(float u, float v) const;
 };
 
+/// None where the alignment is sharp, or explains too few of the outlines: a quarter, or half where
+/// `is_known` says that `believed` is right. Thread-safe.
 [[nodiscard]] OutlineShifts find_outline_shifts(const DepthEdges& edges, const OutlineField& field,
                                                 const OutlineAlignment& alignment,
-                                                const Calibration& believed);
+                                                const Calibration& believed, bool is_known = false);
 
 }  // namespace mapscore
