@@ -52,7 +52,7 @@ std::vector<Segment> Mapper::integrate(const Sight& sight, const PoseBelief& bel
   const double start_s = thread_seconds();
   const bool by_voxels = mapping_.place == Place::voxels;
   std::vector<Segment> segments =
-      segment(sight, mapping_.segmentation, mapping_.voxel_m, by_voxels);
+      segment_after(told_, sight, mapping_.segmentation, mapping_.voxel_m, by_voxels);
   times_.segmentation_s = thread_seconds() - start_s;
   const auto placed = [by_voxels](Segment& segment) -> std::vector<Eigen::Vector3d>& {
     return by_voxels ? segment.voxel_centres : segment.points;

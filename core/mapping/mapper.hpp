@@ -82,6 +82,7 @@ class Mapper {
   std::size_t class_count_;
   SemanticMap map_;
   FrameChoice choice_;
+  CalibrationEvidence told_;  ///< by the frames so far
   FrameTimes times_;
 };
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/classes.hpp"
+#include "core/segmentation/calibration_evidence.hpp"
 
 #include <Eigen/Geometry>
 #include <array>
@@ -42,6 +43,8 @@ struct Segment {
   /// Probability that the method mended the frame's registration well; none of a method that mends
   /// none.
   std::optional<double> confidence = {};
+  /// What the frame tells of the believed calibration, likewise.
+  std::optional<FrameFits> fits = {};
 };
 
 /// Whether a frame was mended with a confidence below 0.5. `segments`: all of the frame's.

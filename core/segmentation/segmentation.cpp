@@ -65,4 +65,12 @@ std::vector<Segment> segment(const Sight& sight, const Segmentation& segmentatio
       segmentation);
 }
 
+std::vector<Segment> segment_after(CalibrationEvidence& told, const Sight& sight,
+                                   const Segmentation& segmentation, double voxel_m,
+                                   bool with_voxels) {
+  std::vector<Segment> segments = segment(sight.after(told), segmentation, voxel_m, with_voxels);
+  if (!segments.empty() && segments.front().fits) told.add(*segments.front().fits);
+  return segments;
+}
+
 }  // namespace mapscore

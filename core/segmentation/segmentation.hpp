@@ -37,6 +37,12 @@ concept ByDetection = requires(const Kind& kind, const Detection& detection,
 [[nodiscard]] std::vector<Segment> segment(const Sight& sight, const Segmentation& segmentation,
                                            double voxel_m, bool with_voxels);
 
+/// The same of frames in the order of a map: `told` is what those before it tell of the believed
+/// calibration, and learns from this one.
+[[nodiscard]] std::vector<Segment> segment_after(CalibrationEvidence& told, const Sight& sight,
+                                                 const Segmentation& segmentation, double voxel_m,
+                                                 bool with_voxels);
+
 /// Throws Error when one detection cannot be segmented: voxels without a positive edge, or a mask
 /// that does not fit the cloud's colour image.
 void check_input(const Detection& detection, const RegisteredCloud& cloud, double voxel_m);

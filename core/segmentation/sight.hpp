@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/geometry/camera.hpp"
+#include "core/segmentation/calibration_evidence.hpp"
 #include "core/segmentation/detection.hpp"
 #include "core/segmentation/registered_cloud.hpp"
 
@@ -31,6 +32,15 @@ class Sight {
   /// for.
   [[nodiscard]] const RegisteredCloud& cloud() const;
 
+  /// What frames before it told of the believed calibration; nothing of a frame by itself.
+  [[nodiscard]] const CalibrationEvidence& told() const { return told_; }
+  /// The same frame, after others.
+  [[nodiscard]] Sight after(const CalibrationEvidence& told) const {
+    Sight later = *this;
+    later.told_ = told;
+    return later;
+  }
+
  private:
   struct Registered {
     std::once_flag once;
@@ -40,6 +50,7 @@ class Sight {
   Calibration believed_;
   cv::Mat1w depth_;
   std::vector<Detection> detections_;
+  CalibrationEvidence told_;
   std::shared_ptr<Registered> registered_ = std::make_shared<Registered>();
 };
 

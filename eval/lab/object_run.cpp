@@ -58,7 +58,8 @@ ObjectChanges ObjectRun::advance(const Frame& frame) {
   if (!frame.depth_label.empty())
     seen_.add(frame, truth, map_frame_.T_map_world() * frame.T_world_base);
   if (!choice_.takes(sight.depth(), believed, belief.T_map_odom * belief.T_odom_base)) return {};
-  const std::vector<Segment> segments = segment(sight, segmentation_, map_frame_.edge_m, false);
+  const std::vector<Segment> segments =
+      segment_after(told_, sight, segmentation_, map_frame_.edge_m, false);
   return map_.integrate(object_detections(segments, T_map_depth, options_), frame.stamp_s, &view);
 }
 

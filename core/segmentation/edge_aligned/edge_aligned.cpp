@@ -38,13 +38,19 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
   const int reach_px = static_cast<int>(std::ceil(1.3 * params.search_px)) + 16;
   OutlineField field =
       outline_field(detections, believed.color.width_px, believed.color.height_px, reach_px);
-  const bool is_known = params.fit == OutlineFit::masks && !believed.is_doubtful;
   LabelledDepth labelled;
-  labelled.alignment = is_known ? fit_mask_size(edges, field, believed)
-                                : align_outlines(edges, field, believed, params.search_px);
-  if (!is_known) labelled.confidence = confidence_of(labelled.alignment, field.length_px);
+  if (params.fit == OutlineFit::masks && !believed.is_doubtful) {
+    labelled.alignment = fit_mask_size(edges, field, believed);
+    labelled.is_as_believed = true;
+  } else {
+    const OutlineFits fits = align_outlines(edges, field, believed, params.search_px);
+    labelled.fits = fits.evidence;
+    labelled.is_as_believed = sight.told().stands_in(*labelled.fits);
+    labelled.alignment = labelled.is_as_believed ? fits.believed : fits.mended;
+    labelled.confidence = confidence_of(labelled.alignment, field.length_px);
+  }
   const OutlineShifts shifts =
-      find_outline_shifts(edges, field, labelled.alignment, believed, is_known);
+      find_outline_shifts(edges, field, labelled.alignment, believed, labelled.is_as_believed);
   const double reach =
       labelled.alignment.is_sharp() ? kSharpReach * params.reach_px : params.reach_px;
   labelled.labels = vote_on_surfaces(edges, open_grooves(std::move(field)), labelled.alignment,
@@ -55,7 +61,7 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
 
 std::vector<Segment> EdgeAligned::segment(const Sight& sight, double voxel_m,
                                           bool with_voxels) const {
-  const auto [labels, inverse_depth, alignment, confidence] = label_surfaces(sight, *this);
+  const LabelledDepth labelled = label_surfaces(sight, *this);
   const cv::Mat1w& depth = sight.depth();
   std::vector<Segment> segments;
   segments.reserve(sight.detections().size());
@@ -64,12 +70,13 @@ std::vector<Segment> EdgeAligned::segment(const Sight& sight, double voxel_m,
     segment.class_id = detection.class_id;
     segment.instance = detection.instance;
     segment.score = detection.score;
-    segment.confidence = confidence;
+    segment.confidence = labelled.confidence;
+    segment.fits = labelled.fits;
   }
   const DepthRays rays(sight.believed().depth);
   for (int v = 0; v < depth.rows; ++v) {
-    const std::uint16_t *label = labels[v], *units = depth[v];
-    const float* settled = inverse_depth.empty() ? nullptr : inverse_depth[v];
+    const std::uint16_t *label = labelled.labels[v], *units = depth[v];
+    const float* settled = labelled.inverse_depth.empty() ? nullptr : labelled.inverse_depth[v];
     for (int u = 0; u < depth.cols; ++u) {
       if (label[u] == 0) continue;
       Segment& segment = segments[label[u] - std::size_t{1}];

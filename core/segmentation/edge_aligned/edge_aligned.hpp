@@ -62,6 +62,9 @@ struct LabelledDepth {
   cv::Mat1f inverse_depth;           ///< of the surface at labelled pixels, 1/m; empty: as measured
   OutlineAlignment alignment;        ///< what was mended
   std::optional<double> confidence;  ///< confidence_of; none of a calibration that is known
+  std::optional<FrameFits> fits;     ///< what the frame tells of the calibration; likewise
+  bool is_as_believed = false;       ///< the calibration: known, or as believed though a correction
+                                     ///< explains more
 };
 
 /// Labels a frame's depth pixels; of a noisy depth image settles them on their surfaces too

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,7 @@ constexpr std::size_t kFewEdges = 200, kCoarseEdges = 800, kFineEdges = 4000;
 constexpr float kOne_px = 0.4F, kOne_m = 0.0016F;    // between starts that are one
 constexpr float kStep_px = 0.1F, kStep_m = 0.0004F;  // of a step that changes nothing to speak of
 
+constexpr float kScored_px = 1.5F;       // sigma of a score
 constexpr float kLeastScore = 0.15F;     // below, the edges show nothing of the masks,
 constexpr float kLeastLength_px = 100;   // unless they lie on so much of a long outline
 constexpr float kLeastLever_px = 40.0F;  // for roll and focal length to be fitted
@@ -115,15 +117,24 @@ class Aligner {
     votes_.resize(elements_.size(), 0.0F);
   }
 
-  OutlineAlignment align() {
+  OutlineFits align() {
     if (fine_.x.empty() || field_.length_px == 0) return {};
     const Levers levers = levers_of(field_, project_);
     Parameters free = Parameters::Ones();
     free[kRoll] = levers.roll_px > kLeastLever_px ? 1.0F : 0.0F;
     free[kFocal] = levers.focal_px > kLeastLever_px ? 1.0F : 0.0F;
-    return fit(
-        alignment_starts(few_, coarse_, field_, project_, cost_, search_px_, free[kRoll] > 0),
-        free);
+    OutlineFits fits;
+    fits.mended =
+        fit(alignment_starts(few_, coarse_, field_, project_, cost_, search_px_, free[kRoll] > 0),
+            free);
+    const float apart_px = moved_px(fits.mended);
+    fits.believed = apart_px > kOne_px ? judged(as_believed()) : fits.mended;
+    fits.evidence = {.mended_px = explained_px(fits.mended, kScored_px),
+                     .believed_px = explained_px(fits.believed, kScored_px),
+                     .sharpness = static_cast<double>(fits.believed.sharpness),
+                     .offset_px = static_cast<double>(fits.believed.offset_px),
+                     .apart_px = static_cast<double>(apart_px)};
+    return fits;
   }
 
   OutlineAlignment fit_size() {
@@ -153,31 +164,54 @@ class Aligner {
       }
       if (!is_new(candidate, Family::none)) continue;
       refine(candidate, 2.0F, 4, coarse_, free);
-      candidate.score = fine_score(candidate, 1.5F);
+      candidate.score = fine_score(candidate, kScored_px);
       const float value = candidate.score - cost_(candidate);
       if (value > most) most = value, best = static_cast<OutlineAlignment>(candidate);
     }
     finish(best, free);
     if (best.offset_px > kSetIn_px) {
-      const Parameters size = Parameters::Unit(kOffset);
-      OutlineAlignment believed;
-      refine(believed, 2.0F, 4, coarse_, size);
-      finish(believed, size);
+      const OutlineAlignment& believed = as_believed();
       const float gain = (best.score - believed.score) * static_cast<float>(field_.length_px);
       if (gain < kSetInGain_px && believed.score > kSetInShare * best.score) best = believed;
     }
-    if (best.score < kLeastScore &&
-        best.score * static_cast<float>(field_.length_px) < kLeastLength_px)
+    return judged(best);
+  }
+
+  /// No correction, with the masks' size fitted from where it is.
+  [[nodiscard]] const OutlineAlignment& as_believed() {
+    if (!believed_) {
+      const Parameters size = Parameters::Unit(kOffset);
+      believed_.emplace();
+      refine(*believed_, 2.0F, 4, coarse_, size);
+      finish(*believed_, size);
+    }
+    return *believed_;
+  }
+
+  /// A fit with its sharpness; nothing where the edges show nothing of the masks.
+  [[nodiscard]] OutlineAlignment judged(OutlineAlignment fit) {
+    if (fit.score < kLeastScore &&
+        fit.score * static_cast<float>(field_.length_px) < kLeastLength_px)
       return {};
-    best.sharpness = fine_score(best, 1.2F) / std::max(fine_score(best, 4.0F), 1e-6F);
-    return best;
+    fit.sharpness = fine_score(fit, 1.2F) / std::max(fine_score(fit, 4.0F), 1e-6F);
+    return fit;
+  }
+
+  [[nodiscard]] float moved_px(const OutlineAlignment& a) const {
+    const Projection project = project_.scaled(a.focal);
+    float squares = 0;
+    for (std::size_t n = 0; n < coarse_.x.size(); ++n) {
+      const Eigen::Vector3f p(coarse_.x[n], coarse_.y[n], coarse_.z[n]);
+      squares += (project(a.rotation * p + a.translation) - project_(p)).squaredNorm();
+    }
+    return std::sqrt(squares / static_cast<float>(coarse_.x.size()));
   }
 
   /// The last refinements, by all edges, and the score.
   void finish(OutlineAlignment& a, const Parameters& free) {
     refine(a, 2.0F, 2, fine_, free);
     refine(a, 1.2F, 4, fine_, free);
-    a.score = fine_score(a, 1.5F);
+    a.score = fine_score(a, kScored_px);
   }
 
   /// What the fit may change at its first stages: turns alone, or shifts alone, then all but the
@@ -190,9 +224,15 @@ class Aligner {
     return free;
   }
 
-  /// Share of the outline elements that edges lie on. However many edges crowd around an element,
-  /// it counts once.
+  /// Share of the outline elements that edges lie on.
   [[nodiscard]] float fine_score(const OutlineAlignment& a, float sigma) {
+    const auto [sideways, upright] = explained_px(a, sigma);
+    return static_cast<float>(sideways + upright) / static_cast<float>(field_.length_px);
+  }
+
+  /// Outline elements that edges lie on, as FrameFits has them. However many edges crowd around an
+  /// element, it counts once.
+  [[nodiscard]] FrameFits::Explained explained_px(const OutlineAlignment& a, float sigma) {
     const float weight = static_cast<float>(fine_.stride);
     voted_.clear();
     matched_.match(fine_, a, project_.scaled(a.focal), sigma);
@@ -205,12 +245,13 @@ class Aligner {
       if (votes_[at] <= 0) voted_.push_back(at);
       votes_[at] += weight * matched_.weight[n];
     }
-    double sum = 0;
+    FrameFits::Explained sums = {};
+    const std::size_t upright = 2 * field_.elements[0].total();
     for (const std::size_t at : voted_) {
-      sum += static_cast<double>(std::min(votes_[at], elements_[at]));
+      sums[at < upright ? 0 : 1] += static_cast<double>(std::min(votes_[at], elements_[at]));
       votes_[at] = 0;
     }
-    return static_cast<float>(sum) / static_cast<float>(field_.length_px);
+    return sums;
   }
 
   /// Gauss-Newton with weights of the last step (Welsch), pulled weakly to no correction at all, of
@@ -278,6 +319,7 @@ class Aligner {
   float search_px_;
   EdgeColumns few_, coarse_, fine_;
   MatchedEdges matched_{field_};
+  std::optional<OutlineAlignment> believed_;
   std::vector<int> feet_;           ///< of the matched edges
   std::vector<float> elements_;     ///< the field's, of all ways behind each other
   std::vector<float> votes_;        ///< for each of them; 0 between two scores
@@ -294,8 +336,8 @@ double confidence_of(const OutlineAlignment& fit, int outline_px) {
   return 1.0 / (1.0 + std::exp(-logit));
 }
 
-OutlineAlignment align_outlines(const DepthEdges& edges, const OutlineField& field,
-                                const Calibration& believed, double search_px) {
+OutlineFits align_outlines(const DepthEdges& edges, const OutlineField& field,
+                           const Calibration& believed, double search_px) {
   return Aligner(edges, field, believed, search_px).align();
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/geometry/camera.hpp"
+#include "core/segmentation/calibration_evidence.hpp"
 #include "core/segmentation/edge_aligned/depth_edges.hpp"
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 
@@ -40,6 +41,13 @@ struct OutlineAlignment {
   }
 };
 
+/// The fits of a frame's outlines.
+struct OutlineFits {
+  OutlineAlignment mended;    ///< with the correction that explains most
+  OutlineAlignment believed;  ///< without one: of the masks' size alone
+  FrameFits evidence = {};    ///< the two, compared
+};
+
 /// Probability that a fit by align_outlines is right: that across the outlines it leaves less than
 /// 2 px, root mean square, between the masks and where their objects are. A logistic regression on
 /// what it explains, of how much outline, and how sharply, in images of 640 x 480 (which ones:
@@ -47,8 +55,8 @@ struct OutlineAlignment {
 [[nodiscard]] double confidence_of(const OutlineAlignment& fit, int outline_px);
 
 /// Fits the outlines of a frame to its depth edges.
-[[nodiscard]] OutlineAlignment align_outlines(const DepthEdges& edges, const OutlineField& field,
-                                              const Calibration& believed, double search_px);
+[[nodiscard]] OutlineFits align_outlines(const DepthEdges& edges, const OutlineField& field,
+                                         const Calibration& believed, double search_px);
 
 /// The same where the believed registration is right: only the masks' size is fitted.
 [[nodiscard]] OutlineAlignment fit_mask_size(const DepthEdges& edges, const OutlineField& field,

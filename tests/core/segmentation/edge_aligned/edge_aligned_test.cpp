@@ -71,7 +71,8 @@ PlateScene wide_scene() {
 
 OutlineAlignment fit_of(const PlateScene& scene, const Calibration& believed) {
   return align_outlines(find_depth_edges(scene.depth(), believed),
-                        outline_field(scene.detections(), 320, 240, 68), believed, 40);
+                        outline_field(scene.detections(), 320, 240, 68), believed, 40)
+      .mended;
 }
 
 double roll_deg(const OutlineAlignment& fit) {

@@ -96,7 +96,7 @@ TEST(EdgeAlignedFastSteps, EqualThePlainOnes) {
         ASSERT_EQ(cv::countNonZero(edges.near_holes), 0);
 
         OutlineField field = outline_field(scene.detections, 320, 240, 60);
-        OutlineAlignment alignment = align_outlines(edges, field, scene.believed, 40);
+        OutlineAlignment alignment = align_outlines(edges, field, scene.believed, 40).mended;
         if (shift_m > 0) alignment = {};  // so that something is left to shift
         alignment.score = 0.5F, alignment.sharpness = 0.5F;
         alignment.offset_px = static_cast<float>(-grown_px);

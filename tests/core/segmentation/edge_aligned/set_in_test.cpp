@@ -19,7 +19,8 @@ using namespace mapscore::testing;
 OutlineAlignment fit_of_drawer(const std::vector<Detection>& detections, const PlateScene& scene,
                                const Calibration& believed) {
   return align_outlines(find_depth_edges(scene.depth(), believed),
-                        outline_field(detections, 320, 240, 68), believed, 40);
+                        outline_field(detections, 320, 240, 68), believed, 40)
+      .mended;
 }
 
 void expect_grown(const PlateScene& scene, const Calibration& believed,
