@@ -16,7 +16,7 @@ struct FrameFits {
   Explained mended_px = {};    ///< with the correction
   Explained believed_px = {};  ///< without one, with the masks' size fitted alone
   double sharpness = 1;  ///< without one: what edges near the outlines explain over what those
-                         ///< farther away do too (OutlineAlignment::sharpness)
+                         ///< farther away do too (OutlineAlignment::sharpness); 0 of no fit
   double offset_px = 0;  ///< without one: by which the masks seem too small
   double apart_px = 0;   ///< how far the correction moves edges, root mean square
 };

@@ -129,11 +129,12 @@ class Aligner {
             free);
     const float apart_px = moved_px(fits.mended);
     fits.believed = apart_px > kOne_px ? judged(as_believed()) : fits.mended;
-    fits.evidence = {.mended_px = explained_px(fits.mended, kScored_px),
-                     .believed_px = explained_px(fits.believed, kScored_px),
-                     .sharpness = static_cast<double>(fits.believed.sharpness),
-                     .offset_px = static_cast<double>(fits.believed.offset_px),
-                     .apart_px = static_cast<double>(apart_px)};
+    fits.evidence = {
+        .mended_px = explained_px(fits.mended, kScored_px),
+        .believed_px = explained_px(fits.believed, kScored_px),
+        .sharpness = fits.believed.score > 0 ? static_cast<double>(fits.believed.sharpness) : 0,
+        .offset_px = static_cast<double>(fits.believed.offset_px),
+        .apart_px = static_cast<double>(apart_px)};
     return fits;
   }
 
