@@ -6,6 +6,9 @@
 #include "core/geometry/pose.hpp"
 #include "core/wide_vectors.hpp"
 
+#include <opencv2/imgproc.hpp>
+
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -126,6 +129,33 @@ void CoarseOutlines::weigh(const EdgeColumns& edges, const Eigen::Matrix3f& R,
 }
 
 }  // namespace
+
+Levers levers_of(const OutlineField& field, const Projection& project) {
+  const Eigen::Vector2d middle = Eigen::Vector2f(project.cx, project.cy).cast<double>();
+  Eigen::Matrix3d to_px;  // from a cell's place to that of its middle
+  to_px << 1, 0, 0, 1.5 - middle.x(), OutlineField::kCell_px, 0, 1.5 - middle.y(), 0,
+      OutlineField::kCell_px;
+  Eigen::Matrix<double, 5, 5> H = Eigen::Matrix<double, 5, 5>::Zero();
+  cv::Mat1b cells;
+  for (std::size_t way = 0; way < 4; ++way) {
+    field.elements[way].convertTo(cells, CV_8U);  // moments of these are quicker
+    const cv::Moments m = cv::moments(cells);
+    Eigen::Matrix3d moments;  // of (1, column, row), then of (1, x, y) from the image's middle
+    moments << m.m00, m.m10, m.m01, m.m10, m.m20, m.m11, m.m01, m.m11, m.m02;
+    moments = to_px * moments * to_px.transpose();
+    const Eigen::Vector2d n = direction_of(static_cast<Outward>(way)).cast<double>();
+    Eigen::Matrix<double, 5, 3> J;
+    J << n.x(), 0, 0, n.y(), 0, 0, 0, n.y(), -n.x(), 0, n.x(), n.y(), 1, 0, 0;
+    H += J * moments * J.transpose();
+  }
+  const double length = field.length_px;
+  H.diagonal().array() += 1e-9 * length;
+  const Eigen::Matrix<double, 5, 5> covariance = H.inverse();
+  const auto lever = [&](int n) {
+    return static_cast<float>(1.0 / std::sqrt(covariance(n, n) * length));
+  };
+  return {lever(2), lever(3)};
+}
 
 float CorrectionCost::unexplained(float share) {
   return std::clamp(squared(kToldOffset / std::max(share, 1e-3F)), 1.0F, kMostUnexplained);

@@ -16,6 +16,13 @@ struct AlignmentStart : OutlineAlignment {
   enum class Family { none, turn, shift } family = Family::none;
 };
 
+/// How far from the image's middle the outlines' pixels lie, root mean square, as far as this tells
+/// a roll, and a focal length, from turns, the masks' size and the other of the two.
+struct Levers {
+  float roll_px = 0, focal_px = 0;
+};
+[[nodiscard]] Levers levers_of(const OutlineField& field, const Projection& project);
+
 /// What corrections cost, as a share of the outlines: they need evidence, and a short outline holds
 /// little, since it fits somewhere by chance.
 class CorrectionCost {

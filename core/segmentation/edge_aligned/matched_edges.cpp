@@ -138,6 +138,30 @@ void MatchedEdges::match_placed(const std::vector<float>& outward_u,
 }
 
 MAPSCORE_WIDE_VECTORS
+void MatchedEdges::find_feet(const std::vector<std::uint8_t>& ways, std::vector<int>& feet) const {
+  feet.resize(weight.size());
+  const int count = static_cast<int>(weight.size()), columns = field_.elements[0].cols,
+            rows = field_.elements[0].rows;
+  const float *us = u.data(), *vs = v.data(), *weights = weight.data(),
+              *distances = distance.data(), *facings = facing.data(), *slopes_u = slope_u.data(),
+              *slopes_v = slope_v.data();
+  const std::uint8_t* const way_of = ways.data();
+  int* __restrict const cell_of = feet.data();
+  constexpr float kCells = 1.0F / OutlineField::kCell_px;
+  const float right = static_cast<float>(columns), bottom = static_cast<float>(rows);
+  for (int n = 0; n < count; ++n) {
+    const float foot_u = (us[n] - distances[n] * slopes_u[n]) * kCells,
+                foot_v = (vs[n] - distances[n] * slopes_v[n]) * kCells;
+    const bool counts =
+        (weights[n] > 0) & (foot_u >= 0) & (foot_v >= 0) & (foot_u < right) & (foot_v < bottom);
+    const int way = facings[n] > 0 ? way_of[n] : way_of[n] ^ 1;
+    const int column = static_cast<int>(counts ? foot_u : 0.0F),
+              row = static_cast<int>(counts ? foot_v : 0.0F);
+    cell_of[n] = counts ? (way * rows + row) * columns + column : -1;
+  }
+}
+
+MAPSCORE_WIDE_VECTORS
 NormalEquations add_up(const MatchedEdges& edges, const Projection& project, float focal_px) {
   constexpr int kLanes = EdgeColumns::kTogether, kRows = kParameters + 2;
   const float *xs = edges.x.data(), *ys = edges.y.data(), *nearnesses = edges.nearness.data();

@@ -59,6 +59,12 @@ class MatchedEdges {
   void match_shifted(const PlacedEdges& edges, const Eigen::Vector2f& shift, float offset_px,
                      float sigma_px);
 
+  /// Of each edge the cell that holds the nearest point of its outline, the foot of the
+  /// perpendicular: an index into the field's four maps of `elements`, laid end to end. -1 where
+  /// the edge has no weight, or that point lies beyond the image. `ways`: of the edges, as
+  /// EdgeColumns.
+  void find_feet(const std::vector<std::uint8_t>& ways, std::vector<int>& feet) const;
+
   /// Calls use(n) for each edge n that has a weight, in order.
   void for_each(auto&& use) const {
     for (std::size_t n = 0; n < weight.size(); ++n)

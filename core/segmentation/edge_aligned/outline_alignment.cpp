@@ -7,16 +7,11 @@
 #include "core/segmentation/edge_aligned/alignment_starts.hpp"
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
 #include "core/segmentation/edge_aligned/matched_edges.hpp"
-#include "core/wide_vectors.hpp"
-
-#include <opencv2/imgproc.hpp>
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -41,63 +36,6 @@ constexpr float kSetInGain_px = 100;  // of outline, that show such a fit,
 constexpr float kSetInShare = 0.2F;   // unless what is believed explains no more than this part
 constexpr float kPrior = 3.0F;
 constexpr float kLeastPrior = 0.01F;  // of it, where exact edges say nothing of a correction
-
-/// How far from the image's middle the outlines' pixels lie, root mean square, as far as this tells
-/// a roll, and a focal length, from turns, the masks' size and the other of the two.
-struct Levers {
-  float roll_px = 0, focal_px = 0;
-};
-
-Levers levers_of(const OutlineField& field, const Projection& project) {
-  const Eigen::Vector2d middle = Eigen::Vector2f(project.cx, project.cy).cast<double>();
-  Eigen::Matrix3d to_px;  // from a cell's place to that of its middle
-  to_px << 1, 0, 0, 1.5 - middle.x(), OutlineField::kCell_px, 0, 1.5 - middle.y(), 0,
-      OutlineField::kCell_px;
-  Eigen::Matrix<double, 5, 5> H = Eigen::Matrix<double, 5, 5>::Zero();
-  cv::Mat1b cells;
-  for (std::size_t way = 0; way < 4; ++way) {
-    field.elements[way].convertTo(cells, CV_8U);  // moments of these are quicker
-    const cv::Moments m = cv::moments(cells);
-    Eigen::Matrix3d moments;  // of (1, column, row), then of (1, x, y) from the image's middle
-    moments << m.m00, m.m10, m.m01, m.m10, m.m20, m.m11, m.m01, m.m11, m.m02;
-    moments = to_px * moments * to_px.transpose();
-    const Eigen::Vector2d n = direction_of(static_cast<Outward>(way)).cast<double>();
-    Eigen::Matrix<double, 5, 3> J;
-    J << n.x(), 0, 0, n.y(), 0, 0, 0, n.y(), -n.x(), 0, n.x(), n.y(), 1, 0, 0;
-    H += J * moments * J.transpose();
-  }
-  const double length = field.length_px;
-  H.diagonal().array() += 1e-9 * length;
-  const Eigen::Matrix<double, 5, 5> covariance = H.inverse();
-  const auto lever = [&](int n) {
-    return static_cast<float>(1.0 / std::sqrt(covariance(n, n) * length));
-  };
-  return {lever(2), lever(3)};
-}
-
-/// Of each matched edge the cell that holds the nearest point of its outline, the foot of the
-/// perpendicular: an index into the field's four maps of `elements`, laid end to end. -1 where the
-/// edge has no weight, or that point lies beyond the image.
-MAPSCORE_WIDE_VECTORS
-void find_feet(const MatchedEdges& edges, const std::uint8_t* ways, const cv::Size& cells,
-               int* __restrict feet) {
-  const int count = static_cast<int>(edges.weight.size()), columns = cells.width,
-            rows = cells.height;
-  const float *us = edges.u.data(), *vs = edges.v.data(), *weights = edges.weight.data(),
-              *distances = edges.distance.data(), *facings = edges.facing.data(),
-              *slopes_u = edges.slope_u.data(), *slopes_v = edges.slope_v.data();
-  constexpr float kCells = 1.0F / OutlineField::kCell_px;
-  const float right = static_cast<float>(columns), bottom = static_cast<float>(rows);
-  for (int n = 0; n < count; ++n) {
-    const float u = (us[n] - distances[n] * slopes_u[n]) * kCells,
-                v = (vs[n] - distances[n] * slopes_v[n]) * kCells;
-    const bool counts = (weights[n] > 0) & (u >= 0) & (v >= 0) & (u < right) & (v < bottom);
-    const int way = facings[n] > 0 ? ways[n] : ways[n] ^ 1;
-    const int column = static_cast<int>(counts ? u : 0.0F),
-              row = static_cast<int>(counts ? v : 0.0F);
-    feet[n] = counts ? (way * rows + row) * columns + column : -1;
-  }
-}
 
 class Aligner {
  public:
@@ -227,8 +165,8 @@ class Aligner {
 
   /// Share of the outline elements that edges lie on.
   [[nodiscard]] float fine_score(const OutlineAlignment& a, float sigma) {
-    const auto [sideways, upright] = explained_px(a, sigma);
-    return static_cast<float>(sideways + upright) / static_cast<float>(field_.length_px);
+    const auto [sideways, up_or_down] = explained_px(a, sigma);
+    return static_cast<float>(sideways + up_or_down) / static_cast<float>(field_.length_px);
   }
 
   /// Outline elements that edges lie on, as FrameFits has them. However many edges crowd around an
@@ -237,8 +175,7 @@ class Aligner {
     const float weight = static_cast<float>(fine_.stride);
     voted_.clear();
     matched_.match(fine_, a, project_.scaled(a.focal), sigma);
-    feet_.resize(matched_.weight.size());
-    find_feet(matched_, fine_.way.data(), field_.elements[0].size(), feet_.data());
+    matched_.find_feet(fine_.way, feet_);
     for (std::size_t n = 0; n < feet_.size(); ++n) {
       if (feet_[n] < 0) continue;
       const auto at = static_cast<std::size_t>(feet_[n]);
@@ -247,9 +184,9 @@ class Aligner {
       votes_[at] += weight * matched_.weight[n];
     }
     FrameFits::Explained sums = {};
-    const std::size_t upright = 2 * field_.elements[0].total();
+    const std::size_t sideways = 2 * field_.elements[0].total();
     for (const std::size_t at : voted_) {
-      sums[at < upright ? 0 : 1] += static_cast<double>(std::min(votes_[at], elements_[at]));
+      sums[at < sideways ? 0 : 1] += static_cast<double>(std::min(votes_[at], elements_[at]));
       votes_[at] = 0;
     }
     return sums;
