@@ -35,11 +35,12 @@ std::vector<Eigen::Vector3d> points_of(const PosedDepth& seen) {
 
 }  // namespace
 
-Mapper::Mapper(const Mapping& mapping, std::size_t class_count)
+Mapper::Mapper(const Mapping& mapping, std::size_t class_count, CalibrationEvidence told)
     : mapping_(mapping),
       class_count_(class_count),
       map_(mapping.voxel_m, mapping.occupancy),
-      choice_(mapping.frames) {
+      choice_(mapping.frames),
+      told_(std::move(told)) {
   check(mapping.fusion.rule);
 }
 

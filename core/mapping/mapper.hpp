@@ -50,8 +50,10 @@ struct FrameTimes {
 /// Makes a semantic map of frames. Used by one thread at a time.
 class Mapper {
  public:
-  /// `class_count`: size of the class table. Throws Error when a parameter is out of range.
-  Mapper(const Mapping& mapping, std::size_t class_count);
+  /// `class_count`: size of the class table. `told`: what a first look at the frames told of the
+  /// believed calibration; unless that is closed, frames learn from those before them. Throws Error
+  /// when a parameter is out of range.
+  Mapper(const Mapping& mapping, std::size_t class_count, CalibrationEvidence told = {});
 
   /// Whether a frame is one that this map is made of (FrameChoice). Ask once a frame, in their
   /// order; the others are not to be integrated. Throws Error as FrameChoice.
@@ -82,7 +84,7 @@ class Mapper {
   std::size_t class_count_;
   SemanticMap map_;
   FrameChoice choice_;
-  CalibrationEvidence told_;  ///< by the frames so far
+  CalibrationEvidence told_;
   FrameTimes times_;
 };
 

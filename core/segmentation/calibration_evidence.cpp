@@ -4,46 +4,53 @@
 #include "core/segmentation/calibration_evidence.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace mapscore {
 namespace {
 
-// A fit without a correction is no chance where it is so sharp and leaves the masks' size as it is.
-constexpr double kSharpFit = 0.6, kSameSize_px = 1.0;
-constexpr double kStands = 0.4;            // of what corrections explain, in both directions
-constexpr double kFarCorrection_px = 3.0;  // beyond, a correction needs what lies elsewhere
-constexpr double kToThePixel = 0.8;        // sharpness of what leaves nothing to correct,
-constexpr double kEnoughSeen_px = 300.0;   // if so much outline was explained before
-constexpr double kLeastOfMended = 0.15;    // of what a frame's own correction explains,
+constexpr double kLeastOfOthers_px = 100;  // of outline that corrections explain in other frames
+constexpr double kStands = 0.6;            // of that, what is explained without them,
+constexpr double kAsMuch = 0.95;           // and of what the frame's own correction explains there
+constexpr double kLeastOfMended = 0.15;    // of what a frame's own correction explains in itself,
 constexpr double kMostGain_px = 500;       // and outline that it explains beyond: then it moved
 
-double sum(const FrameFits::Explained& explained_px) {
-  return explained_px[0] + explained_px[1];
+/// No frame fits better as believed than with its own correction.
+double as_believed_px(const FittedFrame& frame) {
+  return std::min(frame.believed_px(), frame.mended_px());
+}
+
+/// The same view, as of a robot that stands, has the same chances.
+bool is_same(const FittedFrame& a, const FittedFrame& b) {
+  return a.mended_px() == b.mended_px() && a.believed_px() == b.believed_px();
 }
 
 }  // namespace
 
-void CalibrationEvidence::add(const FrameFits& frame) {
-  const bool stands = frame.sharpness > kSharpFit && std::abs(frame.offset_px) < kSameSize_px;
-  for (std::size_t n = 0; n < 2; ++n) {
-    mended_px_[n] += frame.mended_px[n];
-    if (stands) standing_px_[n] += std::min(frame.believed_px[n], frame.mended_px[n]);
-  }
-  believed_px_ += sum(frame.believed_px);
-  sharp_px_ += frame.sharpness * sum(frame.believed_px);
+void CalibrationEvidence::add(std::shared_ptr<const FittedFrame> frame) {
+  if (is_closed_ || !frame) return;
+  if (added_++ % step_ == 0) frames_.push_back(std::move(frame));
+  if (frames_.size() <= kMostFrames) return;
+  for (std::size_t n = 0; 2 * n < frames_.size(); ++n) frames_[n] = frames_[2 * n];
+  frames_.resize((frames_.size() + 1) / 2);
+  step_ *= 2;
 }
 
-bool CalibrationEvidence::stands_in(const FrameFits& frame) const {
-  CalibrationEvidence all = *this;
-  all.add(frame);
-  for (std::size_t n = 0; n < 2; ++n)
-    if (all.standing_px_[n] < kStands * all.mended_px_[n]) return false;
-  const bool to_the_pixel =
-      sum(mended_px_) > kEnoughSeen_px && all.sharp_px_ > kToThePixel * all.believed_px_;
-  const double mended_px = sum(frame.mended_px), believed_px = sum(frame.believed_px);
-  return (to_the_pixel || frame.apart_px > kFarCorrection_px) &&
-         believed_px > kLeastOfMended * mended_px && mended_px - believed_px < kMostGain_px;
+bool CalibrationEvidence::stands_in(const FittedFrame& frame) const {
+  if (frame.believed_px() <= kLeastOfMended * frame.mended_px() ||
+      frame.mended_px() - frame.believed_px() >= kMostGain_px)
+    return false;
+  double mended_px = 0, believed_px = 0, by_this_px = 0;
+  for (const auto& other : frames_) {
+    if (is_same(*other, frame)) continue;
+    mended_px += other->mended_px();
+    believed_px += as_believed_px(*other);
+  }
+  if (mended_px < kLeastOfOthers_px || believed_px < kStands * mended_px) return false;
+  for (const auto& other : frames_)
+    if (!is_same(*other, frame))
+      by_this_px += std::min(other->explained_px(frame), other->mended_px());
+  return believed_px >= kAsMuch * by_this_px;
 }
 
 }  // namespace mapscore

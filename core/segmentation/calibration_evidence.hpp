@@ -3,41 +3,55 @@
 
 #pragma once
 
-#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
 
 namespace mapscore {
 
-/// How well a frame's masks fit its depth edges with the correction of the calibration that
-/// explains most, and without one.
-struct FrameFits {
-  /// Length of the masks' outlines on which edges lie: of those that face left or right, and of
-  /// those that face up or down, since a shift along the ones leaves them where they are.
-  using Explained = std::array<double, 2>;
-  Explained mended_px = {};    ///< with the correction
-  Explained believed_px = {};  ///< without one, with the masks' size fitted alone
-  double sharpness = 1;  ///< without one: what edges near the outlines explain over what those
-                         ///< farther away do too (OutlineAlignment::sharpness); 0 of no fit
-  double offset_px = 0;  ///< without one: by which the masks seem too small
-  double apart_px = 0;   ///< how far the correction moves edges, root mean square
-};
-
-/// What the frames of a map tell, one after the other, of the calibration that is believed
-/// (docs/segmentation.md, "Frames before it"). A wrong one fits by chance in single frames, and so
-/// does a wrong correction, but not in all. Safe to read from several threads.
-class CalibrationEvidence {
+/// A frame whose masks' outlines were fitted to its depth edges, with the correction of the
+/// believed calibration that explains most of them and without one. Safe to read from several
+/// threads.
+class FittedFrame {
  public:
-  /// Takes a frame into account.
-  void add(const FrameFits& frame);
+  FittedFrame(double mended_px, double believed_px)
+      : mended_px_(mended_px), believed_px_(believed_px) {}
+  virtual ~FittedFrame() = default;
+  FittedFrame(const FittedFrame&) = delete;
+  FittedFrame& operator=(const FittedFrame&) = delete;
 
-  /// Whether a frame's calibration is as believed, by what was added and by the frame itself,
-  /// though a correction explains more of its outlines.
-  [[nodiscard]] bool stands_in(const FrameFits& frame) const;
+  /// Length of the outlines on which edges lie with the correction, px.
+  [[nodiscard]] double mended_px() const { return mended_px_; }
+  /// Without one, with the masks' size fitted alone, px.
+  [[nodiscard]] double believed_px() const { return believed_px_; }
+  /// With the correction of another frame of the same method, px.
+  [[nodiscard]] virtual double explained_px(const FittedFrame& other) const = 0;
 
  private:
-  FrameFits::Explained mended_px_ = {};    ///< by each frame's correction
-  FrameFits::Explained standing_px_ = {};  ///< without one, where it fits sharply
-  double believed_px_ = 0;                 ///< without one, in all frames
-  double sharp_px_ = 0;                    ///< these, times the fit's sharpness
+  double mended_px_, believed_px_;
+};
+
+/// Frames that tell whether the believed calibration stands: a wrong correction fits by chance in a
+/// single frame, but not in the others (docs/segmentation.md, "Other frames"). Copies share the
+/// frames. Safe to read from several threads.
+class CalibrationEvidence {
+ public:
+  static constexpr std::size_t kMostFrames = 8;  ///< that are kept, each of about 2 MB
+
+  /// Takes a frame into account, if there is one, unless it is closed. Of many it keeps some,
+  /// spread evenly over all that were added.
+  void add(std::shared_ptr<const FittedFrame> frame);
+  /// Takes no more: all frames that tell something were added.
+  void close() { is_closed_ = true; }
+
+  /// Whether a frame's calibration is as believed, though a correction explains more of its
+  /// outlines: by what that correction explains of the others'. A frame is no witness of itself.
+  [[nodiscard]] bool stands_in(const FittedFrame& frame) const;
+
+ private:
+  std::vector<std::shared_ptr<const FittedFrame>> frames_;
+  std::size_t added_ = 0, step_ = 1;  ///< every so-manieth is kept
+  bool is_closed_ = false;
 };
 
 }  // namespace mapscore

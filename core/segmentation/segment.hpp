@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -43,8 +44,8 @@ struct Segment {
   /// Probability that the method mended the frame's registration well; none of a method that mends
   /// none.
   std::optional<double> confidence = {};
-  /// What the frame tells of the believed calibration, likewise.
-  std::optional<FrameFits> fits = {};
+  /// The frame as that method fitted it, likewise.
+  std::shared_ptr<const FittedFrame> fit = {};
 };
 
 /// Whether a frame was mended with a confidence below 0.5. `segments`: all of the frame's.

@@ -69,8 +69,18 @@ std::vector<Segment> segment_after(CalibrationEvidence& told, const Sight& sight
                                    const Segmentation& segmentation, double voxel_m,
                                    bool with_voxels) {
   std::vector<Segment> segments = segment(sight.after(told), segmentation, voxel_m, with_voxels);
-  if (!segments.empty() && segments.front().fits) told.add(*segments.front().fits);
+  if (!segments.empty()) told.add(segments.front().fit);
   return segments;
+}
+
+bool mends_calibration(const Segmentation& segmentation, const Calibration& believed) {
+  const auto* aligned = std::get_if<EdgeAligned>(&segmentation);
+  return aligned != nullptr && mends_calibration(*aligned, believed);
+}
+
+std::shared_ptr<const FittedFrame> fitted(const Sight& sight, const Segmentation& segmentation) {
+  const auto* aligned = std::get_if<EdgeAligned>(&segmentation);
+  return aligned != nullptr ? fitted(sight, *aligned) : nullptr;
 }
 
 }  // namespace mapscore

@@ -14,6 +14,7 @@
 #include "core/segmentation/segment.hpp"
 #include "core/segmentation/sight.hpp"
 
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -37,11 +38,20 @@ concept ByDetection = requires(const Kind& kind, const Detection& detection,
 [[nodiscard]] std::vector<Segment> segment(const Sight& sight, const Segmentation& segmentation,
                                            double voxel_m, bool with_voxels);
 
-/// The same of frames in the order of a map: `told` is what those before it tell of the believed
-/// calibration, and learns from this one.
+/// The same of frames of a map: `told` is what others tell of the believed calibration, and learns
+/// from this one.
 [[nodiscard]] std::vector<Segment> segment_after(CalibrationEvidence& told, const Sight& sight,
                                                  const Segmentation& segmentation, double voxel_m,
                                                  bool with_voxels);
+
+/// Whether the segmentation mends the calibration by itself, so that frames tell each other.
+[[nodiscard]] bool mends_calibration(const Segmentation& segmentation, const Calibration& believed);
+
+/// A frame as the segmentation fits it, for CalibrationEvidence, without the rest of its work; none
+/// where it does not mend the calibration. Throws Error on parameters out
+/// of range. Thread-safe.
+[[nodiscard]] std::shared_ptr<const FittedFrame> fitted(const Sight& sight,
+                                                        const Segmentation& segmentation);
 
 /// Throws Error when one detection cannot be segmented: voxels without a positive edge, or a mask
 /// that does not fit the cloud's colour image.

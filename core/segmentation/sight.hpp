@@ -32,9 +32,9 @@ class Sight {
   /// for.
   [[nodiscard]] const RegisteredCloud& cloud() const;
 
-  /// What frames before it told of the believed calibration; nothing of a frame by itself.
+  /// What other frames tell of the believed calibration; nothing of a frame by itself.
   [[nodiscard]] const CalibrationEvidence& told() const { return told_; }
-  /// The same frame, after others.
+  /// The same frame, among others.
   [[nodiscard]] Sight after(const CalibrationEvidence& told) const {
     Sight later = *this;
     later.told_ = told;

@@ -102,11 +102,7 @@ std::string fit_text(const LabelledDepth& labelled, OutlineFit fitted) {
     return "fit: none, too few depth edges lie about outlines; masks lie as the calibration has "
            "them\n";
   std::string text = "fit: ";
-  if (labelled.fits && labelled.is_as_believed) {
-    text +=
-        fmt::format("the calibration as believed, though a correction of {:.1f} px explains more; ",
-                    labelled.fits->apart_px);
-  } else if (fitted == OutlineFit::calibration) {
+  if (fitted == OutlineFit::calibration) {
     const Eigen::AngleAxisf turn(fit.rotation);
     const Eigen::Vector3d degrees = (turn.angle() * turn.axis()).cast<double>() / kDegree;
     text += fmt::format(

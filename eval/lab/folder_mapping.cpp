@@ -5,6 +5,7 @@
 
 #include "core/refinement/map_refinement.hpp"
 #include "core/segmentation/detection.hpp"
+#include "eval/lab/sights.hpp"
 
 #include <utility>
 
@@ -35,9 +36,12 @@ void take_into(Given& given, Mapper& mapper, MappedCounts& counts) {
 }
 
 SemanticMap map_frames(const std::vector<int>& frames, const std::function<Given(int)>& give,
-                       std::size_t class_count, const FolderMapping& mapping, MappedCounts& counts,
+                       const Calibration& believed, std::size_t class_count,
+                       const FolderMapping& mapping, MappedCounts& counts,
                        const FramesDone& shown) {
-  Mapper mapper(mapping.mapping, class_count);
+  Mapper mapper(mapping.mapping, class_count,
+                first_look(mapping.mapping.segmentation, believed, frames,
+                           [&](int position) { return give(position).sight; }));
   for (const int position : frames) {
     Given given = give(position);
     take_into(given, mapper, counts);
@@ -65,7 +69,8 @@ SemanticMap map_folder(const LabelledFolder& folder, const std::vector<int>& fra
             {mapping.T_map_world, folder.T_world_base(index)},
             RandomStream(0, "belief")};  // of a pose that is known; nothing is drawn
   };
-  return map_frames(frames, give, folder.table().classes.size(), mapping, counts, shown);
+  return map_frames(frames, give, folder.calibration(), folder.table().classes.size(), mapping,
+                    counts, shown);
 }
 
 SemanticMap map_trial(const TrialFolder& folder, const std::vector<int>& frames,
@@ -79,7 +84,8 @@ SemanticMap map_trial(const TrialFolder& folder, const std::vector<int>& frames,
         RandomStream(folder.sheet().draw_seed, "belief", {static_cast<std::uint64_t>(frame.index)}),
         reads_colour ? folder.color(position) : cv::Mat3b()};
   };
-  return map_frames(frames, give, folder.sheet().classes.size(), mapping, counts, shown);
+  return map_frames(frames, give, folder.sheet().believed, folder.sheet().classes.size(), mapping,
+                    counts, shown);
 }
 
 }  // namespace mapscore::eval

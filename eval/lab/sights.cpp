@@ -120,6 +120,21 @@ std::map<int, Sight> sights_of_objects(const std::vector<int>& frames, int most,
   return sights;
 }
 
+CalibrationEvidence first_look(const Segmentation& segmentation, const Calibration& believed,
+                               const std::vector<int>& frames,
+                               const std::function<Sight(int)>& sight) {
+  CalibrationEvidence told;
+  if (!mends_calibration(segmentation, believed)) return told;
+  static_cast<void>(spread_over(frames, CalibrationEvidence::kMostFrames, [&](int frame) {
+    const Sight seen = sight(frame);
+    if (seen.detections().empty()) return false;
+    told.add(fitted(seen, segmentation));
+    return true;
+  }));
+  told.close();
+  return told;
+}
+
 Calibration believed_calibration(const Calibration& truth, const Task& task) {
   const std::uint64_t seed = trial_seed(task);
   const Calibration misregistered =
@@ -151,10 +166,7 @@ Sights::Sights(const Task& task, const Recording& recording, const ClassTable& t
 }
 
 void Sights::calibrate(const Recording& recording, const CalibratorSettings& settings) {
-  const auto sight = [&](int index) {
-    return of(recording.read(index, depth_of(index),
-                             {.color = false, .label = true, .depth = true, .depth_label = false}));
-  };
+  const auto sight = [&](int index) { return read(recording, index); };
   Calibrator calibrator(believed_, settings);
   for (const auto& [index, seen] :
        sights_of_objects(FrameSelection().of(recording.frame_count()), settings.frames, sight))
@@ -241,6 +253,11 @@ bool Sights::keeps_labels() const {
 
 bool Sights::keeps_verdicts() const {
   return sim::is_zero(faults_.labels.dose());
+}
+
+Sight Sights::read(const Recording& recording, int frame) const {
+  return of(recording.read(frame, depth_of(frame),
+                           {.color = false, .label = true, .depth = true, .depth_label = false}));
 }
 
 Sight Sights::of(const Frame& frame) const {

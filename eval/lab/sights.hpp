@@ -7,6 +7,7 @@
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/shape.hpp"
+#include "core/segmentation/segmentation.hpp"
 #include "core/segmentation/sight.hpp"
 #include "eval/foreign/network_labels.hpp"
 #include "eval/lab/shared_cache.hpp"
@@ -75,6 +76,9 @@ class Sights {
   /// image cannot be read.
   [[nodiscard]] Sight of(const Frame& frame) const;
 
+  /// The same of a frame that is read from the recording. Throws Error as it does, too.
+  [[nodiscard]] Sight read(const Recording& recording, int frame) const;
+
   /// How sure a network was of each pixel of a frame, before any fault of labels; none where no
   /// network says so. Throws Error likewise.
   [[nodiscard]] std::optional<PixelVerdicts> verdicts_of(int frame) const {
@@ -106,6 +110,14 @@ class Sights {
 /// a calibration is estimated from. Throws Error as `sight`.
 [[nodiscard]] std::map<int, Sight> sights_of_objects(const std::vector<int>& frames, int most,
                                                      const std::function<Sight(int)>& sight);
+
+/// What some of these frames that show objects, spread evenly, tell together of the believed
+/// calibration, so that the first frames of a map know what later ones show; closed. Nothing where
+/// the segmentation does not mend the calibration. Throws Error as `sight`.
+[[nodiscard]] CalibrationEvidence first_look(const Segmentation& segmentation,
+                                             const Calibration& believed,
+                                             const std::vector<int>& frames,
+                                             const std::function<Sight(int)>& sight);
 
 /// The true calibration with a task's calibration faults: what its method believes, or where the
 /// calibration is estimated, what the estimate starts from.

@@ -22,12 +22,15 @@ namespace {
 
 constexpr double kSharpReach = 2.0 / 3.0;  // of the reach: outlines are right to a pixel
 
-}  // namespace
+/// What is fitted to what.
+struct Outlined {
+  DepthEdges edges;
+  Continuity on;  ///< of the depth image's surfaces
+  OutlineField field;
+};
 
-LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
-  check_ranges(params);
+Outlined outlined(const Sight& sight, const EdgeAligned& params) {
   const Calibration& believed = sight.believed();
-  const std::vector<Detection>& detections = sight.detections();
   DepthEdges edges = find_depth_edges(sight.depth(), believed);
   Continuity on{edges.right, edges.down};
   if (!is_noisy(edges)) {
@@ -36,16 +39,32 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
     edges.steps.insert(edges.steps.end(), contacts.begin(), contacts.end());
   }
   const int reach_px = static_cast<int>(std::ceil(1.3 * params.search_px)) + 16;
-  OutlineField field =
-      outline_field(detections, believed.color.width_px, believed.color.height_px, reach_px);
+  return {std::move(edges), std::move(on),
+          outline_field(sight.detections(), believed.color.width_px, believed.color.height_px,
+                        reach_px)};
+}
+
+}  // namespace
+
+std::shared_ptr<const FittedFrame> fitted(const Sight& sight, const EdgeAligned& params) {
+  check_ranges(params);
+  if (!mends_calibration(params, sight.believed())) return nullptr;
+  const Outlined frame = outlined(sight, params);
+  return align_outlines(frame.edges, frame.field, sight.believed(), params.search_px).frame;
+}
+
+LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
+  check_ranges(params);
+  const Calibration& believed = sight.believed();
+  auto [edges, on, field] = outlined(sight, params);
   LabelledDepth labelled;
-  if (params.fit == OutlineFit::masks && !believed.is_doubtful) {
+  if (!mends_calibration(params, believed)) {
     labelled.alignment = fit_mask_size(edges, field, believed);
     labelled.is_as_believed = true;
   } else {
     const OutlineFits fits = align_outlines(edges, field, believed, params.search_px);
-    labelled.fits = fits.evidence;
-    labelled.is_as_believed = sight.told().stands_in(*labelled.fits);
+    labelled.fit = fits.frame;
+    labelled.is_as_believed = fits.frame && sight.told().stands_in(*fits.frame);
     labelled.alignment = labelled.is_as_believed ? fits.believed : fits.mended;
     labelled.confidence = confidence_of(labelled.alignment, field.length_px);
   }
@@ -54,7 +73,7 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
   const double reach =
       labelled.alignment.is_sharp() ? kSharpReach * params.reach_px : params.reach_px;
   labelled.labels = vote_on_surfaces(edges, open_grooves(std::move(field)), labelled.alignment,
-                                     shifts, believed, detections.size(), on, reach);
+                                     shifts, believed, sight.detections().size(), on, reach);
   if (is_noisy(edges)) labelled.inverse_depth = settle_on_surfaces(edges, labelled.labels);
   return labelled;
 }
@@ -71,7 +90,7 @@ std::vector<Segment> EdgeAligned::segment(const Sight& sight, double voxel_m,
     segment.instance = detection.instance;
     segment.score = detection.score;
     segment.confidence = labelled.confidence;
-    segment.fits = labelled.fits;
+    segment.fit = labelled.fit;
   }
   const DepthRays rays(sight.believed().depth);
   for (int v = 0; v < depth.rows; ++v) {

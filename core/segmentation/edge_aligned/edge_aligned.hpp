@@ -62,10 +62,21 @@ struct LabelledDepth {
   cv::Mat1f inverse_depth;           ///< of the surface at labelled pixels, 1/m; empty: as measured
   OutlineAlignment alignment;        ///< what was mended
   std::optional<double> confidence;  ///< confidence_of; none of a calibration that is known
-  std::optional<FrameFits> fits;     ///< what the frame tells of the calibration; likewise
-  bool is_as_believed = false;       ///< the calibration: known, or as believed though a correction
-                                     ///< explains more
+  std::shared_ptr<const FittedFrame> fit;  ///< for other frames; likewise
+  bool is_as_believed = false;  ///< the calibration: known, or as believed though a correction
+                                ///< explains more
 };
+
+/// Whether frames are fitted with corrections of the calibration: it is not known.
+[[nodiscard]] inline bool mends_calibration(const EdgeAligned& params,
+                                            const Calibration& believed) {
+  return params.fit == OutlineFit::calibration || believed.is_doubtful;
+}
+
+/// The frame's fits alone; none of a calibration that is known, or of a frame whose edges show
+/// nothing of its masks. Throws Error likewise.
+[[nodiscard]] std::shared_ptr<const FittedFrame> fitted(const Sight& sight,
+                                                        const EdgeAligned& params);
 
 /// Labels a frame's depth pixels; of a noisy depth image settles them on their surfaces too
 /// (settled_depth.hpp). Throws Error on parameters out of range.

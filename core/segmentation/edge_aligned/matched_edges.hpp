@@ -87,6 +87,26 @@ class MatchedEdges {
   const OutlineField& field_;
 };
 
+/// Measures how much of a frame's outlines its edges explain. `field` and `edges` must outlive it.
+class ExplainedOutlines {
+ public:
+  ExplainedOutlines(const OutlineField& field, const EdgeColumns& edges, const Projection& project)
+      : matched_(field), field_(field), edges_(edges), project_(project) {}
+
+  /// Number of outline elements on which edges lie where `a` moves them, at a width of `sigma_px`.
+  /// However many edges crowd around an element, it counts once.
+  [[nodiscard]] float px(const OutlineAlignment& a, float sigma_px);
+
+ private:
+  MatchedEdges matched_;
+  const OutlineField& field_;
+  const EdgeColumns& edges_;
+  Projection project_;
+  std::vector<int> feet_;           ///< of the matched edges
+  std::vector<float> votes_;        ///< for each of the field's elements; 0 between two measures
+  std::vector<std::size_t> voted_;  ///< those that have votes
+};
+
 /// What a fit changes: turns about x and y, in pixels at the image's middle; roll and the logarithm
 /// of the focal length, in pixels as far from it as the focal length; shifts along x and y, m; the
 /// masks' offset, px.

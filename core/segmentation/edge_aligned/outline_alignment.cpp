@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,6 +38,33 @@ constexpr float kSetInShare = 0.2F;   // unless what is believed explains no mor
 constexpr float kPrior = 3.0F;
 constexpr float kLeastPrior = 0.01F;  // of it, where exact edges say nothing of a correction
 
+/// What is kept of a frame to try corrections on it.
+class KeptOutlines final : public FittedFrame {
+ public:
+  KeptOutlines(const OutlineField& field, EdgeColumns edges, const Projection& project,
+               const OutlineAlignment& mended, float mended_px, float believed_px)
+      : FittedFrame(static_cast<double>(mended_px), static_cast<double>(believed_px)),
+        field_(field),
+        edges_(std::move(edges)),
+        project_(project),
+        mended_(mended) {
+    field_.owner.release();  // edges are matched without it
+  }
+
+  [[nodiscard]] double explained_px(const FittedFrame& other) const override {
+    const auto* kept = dynamic_cast<const KeptOutlines*>(&other);
+    if (kept == nullptr) return 0;
+    return static_cast<double>(
+        ExplainedOutlines(field_, edges_, project_).px(kept->mended_, kScored_px));
+  }
+
+ private:
+  OutlineField field_;
+  EdgeColumns edges_;
+  Projection project_;
+  OutlineAlignment mended_;
+};
+
 class Aligner {
  public:
   Aligner(const DepthEdges& edges, const OutlineField& field, const Calibration& believed,
@@ -45,14 +73,11 @@ class Aligner {
         project_(believed.color),
         cost_(project_, field.length_px),
         search_px_(static_cast<float>(search_px)) {
-    for (const cv::Mat1f& map : field.elements)
-      elements_.insert(elements_.end(), map[0], map[0] + map.total());
     const std::vector<ProjectedEdge> projected =
         edges_near_outlines(edges, field, believed, 1.3F * search_px_ + 12.0F);
     few_ = EdgeColumns(projected, kFewEdges);
     coarse_ = EdgeColumns(projected, kCoarseEdges);
     fine_ = EdgeColumns(projected, kFineEdges);
-    votes_.resize(elements_.size(), 0.0F);
   }
 
   OutlineFits align() {
@@ -65,14 +90,12 @@ class Aligner {
     fits.mended =
         fit(alignment_starts(few_, coarse_, field_, project_, cost_, search_px_, free[kRoll] > 0),
             free);
-    const float apart_px = moved_px(fits.mended);
-    fits.believed = apart_px > kOne_px ? judged(as_believed()) : fits.mended;
-    fits.evidence = {
-        .mended_px = explained_px(fits.mended, kScored_px),
-        .believed_px = explained_px(fits.believed, kScored_px),
-        .sharpness = fits.believed.score > 0 ? static_cast<double>(fits.believed.sharpness) : 0,
-        .offset_px = static_cast<double>(fits.believed.offset_px),
-        .apart_px = static_cast<double>(apart_px)};
+    const bool is_one = moved_px(fits.mended) <= kOne_px;
+    fits.believed = is_one ? fits.mended : judged(as_believed());
+    if (fits.mended.score > 0)
+      fits.frame = std::make_shared<const KeptOutlines>(field_, fine_, project_, fits.mended,
+                                                        explained_.px(fits.mended, kScored_px),
+                                                        explained_.px(fits.believed, kScored_px));
     return fits;
   }
 
@@ -165,31 +188,7 @@ class Aligner {
 
   /// Share of the outline elements that edges lie on.
   [[nodiscard]] float fine_score(const OutlineAlignment& a, float sigma) {
-    const auto [sideways, up_or_down] = explained_px(a, sigma);
-    return static_cast<float>(sideways + up_or_down) / static_cast<float>(field_.length_px);
-  }
-
-  /// Outline elements that edges lie on, as FrameFits has them. However many edges crowd around an
-  /// element, it counts once.
-  [[nodiscard]] FrameFits::Explained explained_px(const OutlineAlignment& a, float sigma) {
-    const float weight = static_cast<float>(fine_.stride);
-    voted_.clear();
-    matched_.match(fine_, a, project_.scaled(a.focal), sigma);
-    matched_.find_feet(fine_.way, feet_);
-    for (std::size_t n = 0; n < feet_.size(); ++n) {
-      if (feet_[n] < 0) continue;
-      const auto at = static_cast<std::size_t>(feet_[n]);
-      if (elements_[at] <= 0) continue;
-      if (votes_[at] <= 0) voted_.push_back(at);
-      votes_[at] += weight * matched_.weight[n];
-    }
-    FrameFits::Explained sums = {};
-    const std::size_t sideways = 2 * field_.elements[0].total();
-    for (const std::size_t at : voted_) {
-      sums[at < sideways ? 0 : 1] += static_cast<double>(std::min(votes_[at], elements_[at]));
-      votes_[at] = 0;
-    }
-    return sums;
+    return explained_.px(a, sigma) / static_cast<float>(field_.length_px);
   }
 
   /// Gauss-Newton with weights of the last step (Welsch), pulled weakly to no correction at all, of
@@ -258,10 +257,7 @@ class Aligner {
   EdgeColumns few_, coarse_, fine_;
   MatchedEdges matched_{field_};
   std::optional<OutlineAlignment> believed_;
-  std::vector<int> feet_;           ///< of the matched edges
-  std::vector<float> elements_;     ///< the field's, of all ways behind each other
-  std::vector<float> votes_;        ///< for each of them; 0 between two scores
-  std::vector<std::size_t> voted_;  ///< those that have votes
+  ExplainedOutlines explained_{field_, fine_, project_};
 };
 
 }  // namespace

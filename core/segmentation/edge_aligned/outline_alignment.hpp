@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <memory>
 
 namespace mapscore {
 
@@ -45,7 +46,8 @@ struct OutlineAlignment {
 struct OutlineFits {
   OutlineAlignment mended;    ///< with the correction that explains most
   OutlineAlignment believed;  ///< without one: of the masks' size alone
-  FrameFits evidence = {};    ///< the two, compared
+  /// The two for other frames; none where edges show nothing of the masks.
+  std::shared_ptr<const FittedFrame> frame = {};
 };
 
 /// Probability that a fit by align_outlines is right: that across the outlines it leaves less than

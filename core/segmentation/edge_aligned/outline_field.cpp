@@ -257,6 +257,7 @@ OutlineField outline_field(const std::vector<Detection>& detections, int width_p
 
 MaskField open_grooves(OutlineField&& field) {
   const cv::Size image = field.owner.size();
+  if (!field.closed.empty()) field.distance = field.distance.clone();  // a fit may keep it
   for (const cv::Point& at : field.closed) field.owner(at) = 0;
   for (const cv::Rect& near : near_grooves(field.closed, image)) {
     const cv::Rect about = grown(near, kWithinVotes_px, image);

@@ -8,153 +8,175 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace mapscore {
 namespace {
 
 using testing::PlateScene;
 
-/// A correction by 12 px explains twice as much as what is believed, which fits sharply.
-constexpr FrameFits kTwice{.mended_px = {100, 100},
-                           .believed_px = {50, 50},
-                           .sharpness = 0.9,
-                           .offset_px = 0.2,
-                           .apart_px = 12};
-/// What is believed explains next to nothing of what a correction does.
-constexpr FrameFits kWrong{.mended_px = {400, 400},
-                           .believed_px = {40, 40},
-                           .sharpness = 0.4,
-                           .offset_px = 0.2,
-                           .apart_px = 12};
-
-CalibrationEvidence after(const FrameFits& frame, int times) {
-  CalibrationEvidence told;
-  for (int n = 0; n < times; ++n) told.add(frame);
-  return told;
-}
-
-bool stands_alone(const FrameFits& frame) {
-  return CalibrationEvidence().stands_in(frame);
-}
-
-TEST(CalibrationEvidence, AFrameAloneKeepsWhatFitsSharplyInBothDirections) {
-  EXPECT_TRUE(stands_alone(kTwice));
-  FrameFits frame = kTwice;
-  frame.believed_px = {39, 50};  // a shift along the rows leaves rows where they are
-  EXPECT_FALSE(stands_alone(frame));
-  frame.believed_px = {50, 39};
-  EXPECT_FALSE(stands_alone(frame));
-  frame.believed_px = {41, 41};
-  EXPECT_TRUE(stands_alone(frame));
-}
-
-TEST(CalibrationEvidence, ABluntFitAndOneOfGrownMasksMayBeChance) {
-  FrameFits frame = kTwice;
-  frame.sharpness = 0.59;
-  EXPECT_FALSE(stands_alone(frame));
-  frame.sharpness = 0.61;
-  EXPECT_TRUE(stands_alone(frame));
-  for (const double offset_px : {-1.1, 1.1}) {
-    frame.offset_px = offset_px;
-    EXPECT_FALSE(stands_alone(frame)) << offset_px;
+/// A frame of which every other correction explains the same.
+class Witness : public FittedFrame {
+ public:
+  Witness(double mended_px, double believed_px, double by_others_px)
+      : FittedFrame(mended_px, believed_px), by_others_px_(by_others_px) {}
+  [[nodiscard]] double explained_px(const FittedFrame& /*other*/) const override {
+    ++asked;
+    return by_others_px_;
   }
-  frame.offset_px = -0.9;
-  EXPECT_TRUE(stands_alone(frame));
+  mutable int asked = 0;
+
+ private:
+  double by_others_px_;
+};
+
+const Witness kFrame(400, 200, 0);  ///< the one that is judged, twice as good with its correction
+
+bool stands_beside(double mended_px, double believed_px, double by_others_px) {
+  CalibrationEvidence told;
+  told.add(std::make_shared<Witness>(mended_px, believed_px, by_others_px));
+  return told.stands_in(kFrame);
 }
 
-TEST(CalibrationEvidence, FramesBeforeItOutweighAFrame) {
-  EXPECT_FALSE(after(kWrong, 1).stands_in(kTwice));
-  FrameFits right = kTwice;
-  right.believed_px = right.mended_px;
-  right.apart_px = 0;
-  FrameFits frame = kTwice;
-  frame.believed_px = {20, 20};  // by itself too little
-  EXPECT_FALSE(stands_alone(frame));
-  EXPECT_TRUE(after(right, 1).stands_in(frame));
+TEST(CalibrationEvidence, AFrameByItselfIsMended) {
+  CalibrationEvidence told;
+  EXPECT_FALSE(told.stands_in(kFrame));
+  told.add(nullptr);  // of a method that mends nothing
+  EXPECT_FALSE(told.stands_in(kFrame));
+}
+
+TEST(CalibrationEvidence, ACorrectionIsTakenThatExplainsMoreOfOtherFrames) {
+  EXPECT_TRUE(stands_beside(1000, 800, 700));
+  EXPECT_TRUE(stands_beside(1000, 800, 840));
+  EXPECT_FALSE(stands_beside(1000, 800, 844));  // 800 are 95 % of 842
+}
+
+TEST(CalibrationEvidence, OtherFramesThatCorrectionsExplainFarBetterDoNotStand) {
+  EXPECT_TRUE(stands_beside(1000, 601, 0));
+  EXPECT_FALSE(stands_beside(1000, 599, 0));
+}
+
+TEST(CalibrationEvidence, OtherFramesMustShowSomething) {
+  EXPECT_TRUE(stands_beside(101, 101, 0));
+  EXPECT_FALSE(stands_beside(99, 99, 0));
+}
+
+TEST(CalibrationEvidence, NoFrameCountsForMoreThanItsOwnCorrectionExplains) {
+  CalibrationEvidence told;
+  told.add(std::make_shared<Witness>(300, 110, 50));
+  told.add(std::make_shared<Witness>(200, 900, 0));  // as believed 200: with 110 more than 60 %
+  EXPECT_TRUE(told.stands_in(kFrame));
+  told.add(std::make_shared<Witness>(150, 10, 0));  // 320 of 650 are less
+  EXPECT_FALSE(told.stands_in(kFrame));
+  EXPECT_TRUE(stands_beside(100, 100, 900));  // by others 100, too
 }
 
 TEST(CalibrationEvidence, AFrameThatMovedIsMended) {
-  FrameFits right = kTwice;
-  right.mended_px = right.believed_px = {5000, 5000};
-  const CalibrationEvidence told = after(right, 3);
-  FrameFits frame = kTwice;
-  frame.believed_px = {16, 16};
-  EXPECT_TRUE(told.stands_in(frame));
-  frame.believed_px = {14, 14};
-  EXPECT_FALSE(told.stands_in(frame));
-  frame.believed_px = {200, 200};
-  frame.mended_px = {449, 449};
-  EXPECT_TRUE(told.stands_in(frame));
-  frame.mended_px = {451, 451};
-  EXPECT_FALSE(told.stands_in(frame));
+  CalibrationEvidence told;
+  told.add(std::make_shared<Witness>(5000, 5000, 0));
+  EXPECT_TRUE(told.stands_in(Witness(400, 61, 0)));
+  EXPECT_FALSE(told.stands_in(Witness(400, 59, 0)));  // 15 %
+  EXPECT_TRUE(told.stands_in(Witness(1499, 1000, 0)));
+  EXPECT_FALSE(told.stands_in(Witness(1501, 1000, 0)));  // by 500 px
 }
 
-TEST(CalibrationEvidence, ASmallCorrectionIsKeptUnlessAllFitsToThePixel) {
-  FrameFits small = kTwice;
-  small.believed_px = {90, 90};
-  small.apart_px = 2.9;
-  EXPECT_FALSE(stands_alone(small));
-  EXPECT_FALSE(after(small, 1).stands_in(small));  // of 200 px
-  EXPECT_TRUE(after(small, 2).stands_in(small));
-  FrameFits blunt = small;
-  blunt.sharpness = 0.79;
-  EXPECT_FALSE(after(blunt, 9).stands_in(blunt));
-  blunt.apart_px = 3.1;
-  EXPECT_TRUE(after(blunt, 9).stands_in(blunt));
+TEST(CalibrationEvidence, AFrameIsNoWitnessOfItself) {
+  CalibrationEvidence told;
+  told.add(std::make_shared<Witness>(400, 200, 0));  // the same view again
+  told.add(std::make_shared<Witness>(400, 200, 0));
+  EXPECT_FALSE(told.stands_in(kFrame));
+  told.add(std::make_shared<Witness>(400, 399, 0));
+  EXPECT_TRUE(told.stands_in(kFrame));
 }
 
-PlateScene two_plates() {
-  return PlateScene({{-0.6, -0.1, -0.4, 0.3, 1.4, 1}, {0.2, 0.7, -0.3, 0.4, 2.0, 2}});
+TEST(CalibrationEvidence, OfManyFramesItKeepsAFewSpreadOverAll) {
+  CalibrationEvidence told;
+  std::vector<std::shared_ptr<Witness>> frames;
+  for (int n = 0; n < 100; ++n) {
+    frames.push_back(std::make_shared<Witness>(500 + n, 500, 0));
+    told.add(frames.back());
+  }
+  EXPECT_TRUE(told.stands_in(kFrame));
+  std::vector<int> asked;
+  for (int n = 0; n < 100; ++n)
+    if (frames[static_cast<std::size_t>(n)]->asked > 0) asked.push_back(n);
+  EXPECT_EQ(asked, (std::vector<int>{0, 16, 32, 48, 64, 80, 96}));
+}
+
+TEST(CalibrationEvidence, TakesNoMoreOnceItIsClosed) {
+  CalibrationEvidence told;
+  told.close();
+  told.add(std::make_shared<Witness>(1000, 1000, 0));
+  EXPECT_FALSE(told.stands_in(kFrame));
+}
+
+PlateScene two_plates(double aside_m) {
+  return PlateScene({{-0.6 + aside_m, -0.1 + aside_m, -0.4, 0.3, 1.4, 1},
+                     {0.2 + aside_m, 0.7 + aside_m, -0.3, 0.4, 2.0, 2}});
 }
 
 Sight seen(const PlateScene& scene, const Calibration& believed) {
   return {believed, scene.depth(), scene.detections()};
 }
 
-TEST(CalibrationEvidence, IsWhatAFrameOfRightAndOfWrongCalibrationTells) {
-  const PlateScene scene = two_plates();
-  const LabelledDepth right = label_surfaces(seen(scene, scene.truth()), {});
-  ASSERT_TRUE(right.fits);
-  EXPECT_LT(right.fits->apart_px, 1);
-  EXPECT_GT(right.fits->sharpness, 0.8);
-  for (std::size_t n = 0; n < 2; ++n)
-    EXPECT_NEAR(right.fits->believed_px[n], right.fits->mended_px[n],
-                0.1 * right.fits->mended_px[n]);
-
-  const LabelledDepth wrong =
-      label_surfaces(seen(scene, scene.misregistered({0.04, 0, 0}, {0, 0, 0})), {});
-  ASSERT_TRUE(wrong.fits);
-  EXPECT_FALSE(wrong.is_as_believed);
-  EXPECT_NEAR(wrong.fits->apart_px, 0.04 * 277 / 1.6, 2);
-  EXPECT_LT(wrong.fits->believed_px[0], 0.3 * wrong.fits->mended_px[0]);
-  EXPECT_GT(wrong.fits->believed_px[1], 0.7 * wrong.fits->mended_px[1]);
-  for (std::size_t n = 0; n < 2; ++n)
-    EXPECT_NEAR(wrong.fits->mended_px[n], right.fits->mended_px[n], 0.1 * right.fits->mended_px[n]);
+TEST(CalibrationEvidence, FramesOfEdgeAlignedTryEachOthersCorrections) {
+  const PlateScene here = two_plates(0), there = two_plates(0.1);
+  const auto fit = [](const PlateScene& scene, const Calibration& believed) {
+    return label_surfaces(seen(scene, believed), {}).fit;
+  };
+  const Calibration off = here.misregistered({0.04, 0, 0}, {0, 0, 0});
+  const auto right = fit(here, here.truth()), wrong = fit(here, off), too = fit(there, off);
+  ASSERT_TRUE(right && wrong && too);
+  EXPECT_NEAR(right->believed_px(), right->mended_px(), 0.1 * right->mended_px());
+  EXPECT_NEAR(wrong->mended_px(), right->mended_px(), 0.1 * right->mended_px());
+  EXPECT_LT(wrong->believed_px(), 0.7 * wrong->mended_px());
+  EXPECT_NEAR(wrong->explained_px(*wrong), wrong->mended_px(), 1e-3);
+  EXPECT_GT(wrong->explained_px(*too), 0.8 * wrong->mended_px());
+  EXPECT_LT(right->explained_px(*too), 0.7 * right->mended_px());
+  EXPECT_EQ(wrong->explained_px(kFrame), 0);  // of another method
 }
 
-TEST(CalibrationEvidence, FramesInTheirOrderLearnFromThoseBefore) {
-  const PlateScene scene = two_plates();
+TEST(CalibrationEvidence, IsWhatFramesWithoutTheirVotesTell) {
+  const PlateScene scene = two_plates(0);
+  const Calibration off = scene.misregistered({0.04, 0, 0}, {0, 0, 0});
+  const auto alone = fitted(seen(scene, off), Segmentation(EdgeAligned())),
+             labelled = label_surfaces(seen(scene, off), {}).fit;
+  ASSERT_TRUE(alone && labelled);
+  EXPECT_EQ(alone->mended_px(), labelled->mended_px());
+  EXPECT_EQ(alone->believed_px(), labelled->believed_px());
+  EXPECT_EQ(alone->explained_px(*labelled), labelled->explained_px(*alone));
+  EXPECT_FALSE(fitted(seen(scene, off), Segmentation(Direct())));
+}
+
+TEST(CalibrationEvidence, FramesLearnFromOthers) {
+  const PlateScene scene = two_plates(0);
+  const Calibration off = scene.misregistered({0.03, 0, 0}, {0, 0, 0});
   const Segmentation method = EdgeAligned();
   CalibrationEvidence told;
-  const auto of = [&](const Calibration& believed) {
-    return segment_after(told, seen(scene, believed), method, 0.05, false).front();
+  const auto of = [&](double aside_m, const Calibration& believed) {
+    return segment_after(told, seen(two_plates(aside_m), believed), method, 0.05, false).front();
   };
-  const Calibration off = scene.misregistered({0.03, 0, 0}, {0, 0, 0});
-  const std::size_t alone = of(off).points.size();
+  const std::size_t alone = of(0, off).points.size();
   told = {};
-  for (int n = 0; n < 9; ++n) static_cast<void>(of(scene.truth()));
-  const Sight later = seen(scene, off).after(told);
-  EXPECT_TRUE(label_surfaces(later, {}).is_as_believed);
-  EXPECT_EQ(label_surfaces(later, {}).alignment.translation, Eigen::Vector3f(0, 0, 0));
+  for (const double aside_m : {0.1, -0.1}) static_cast<void>(of(aside_m, scene.truth()));
+  const LabelledDepth later = label_surfaces(seen(scene, off).after(told), {});
+  EXPECT_TRUE(later.is_as_believed);
+  EXPECT_EQ(later.alignment.translation, Eigen::Vector3f(0, 0, 0));
+  EXPECT_NE(of(0, off).points.size(), alone);
   EXPECT_FALSE(label_surfaces(seen(scene, off), {}).is_as_believed);
-  EXPECT_NE(of(off).points.size(), alone);
+
+  told = {};
+  for (const double aside_m : {0.1, -0.1}) static_cast<void>(of(aside_m, off));
+  EXPECT_FALSE(label_surfaces(seen(scene, off).after(told), {}).is_as_believed);
 }
 
 TEST(CalibrationEvidence, IsNoneWhereTheCalibrationIsKnown) {
-  const PlateScene scene = two_plates();
-  const LabelledDepth known =
-      label_surfaces(seen(scene, scene.truth()), {.fit = OutlineFit::masks});
-  EXPECT_FALSE(known.fits);
-  EXPECT_TRUE(known.is_as_believed);
+  const PlateScene scene = two_plates(0);
+  const EdgeAligned known{.fit = OutlineFit::masks};
+  const LabelledDepth labelled = label_surfaces(seen(scene, scene.truth()), known);
+  EXPECT_FALSE(labelled.fit);
+  EXPECT_TRUE(labelled.is_as_believed);
+  EXPECT_FALSE(fitted(seen(scene, scene.truth()), known));
 }
 
 }  // namespace
