@@ -24,7 +24,8 @@ class FittedFrame {
   [[nodiscard]] double mended_px() const { return mended_px_; }
   /// Without one, with the masks' size fitted alone, px.
   [[nodiscard]] double believed_px() const { return believed_px_; }
-  /// With the correction of another frame of the same method, px.
+  /// With the correction of another frame, and with that one's size of masks, px; 0 if another
+  /// method fitted it. Both must believe the same calibration.
   [[nodiscard]] virtual double explained_px(const FittedFrame& other) const = 0;
 
  private:
@@ -36,7 +37,7 @@ class FittedFrame {
 /// frames. Safe to read from several threads.
 class CalibrationEvidence {
  public:
-  static constexpr std::size_t kMostFrames = 8;  ///< that are kept, each of about 2 MB
+  static constexpr std::size_t kMostFrames = 8;  ///< that are kept, each of about 2 MB at 640 x 480
 
   /// Takes a frame into account, if there is one, unless it is closed. Of many it keeps some,
   /// spread evenly over all that were added.

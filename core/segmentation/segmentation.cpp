@@ -68,7 +68,7 @@ std::vector<Segment> segment(const Sight& sight, const Segmentation& segmentatio
 std::vector<Segment> segment_after(CalibrationEvidence& told, const Sight& sight,
                                    const Segmentation& segmentation, double voxel_m,
                                    bool with_voxels) {
-  std::vector<Segment> segments = segment(sight.after(told), segmentation, voxel_m, with_voxels);
+  std::vector<Segment> segments = segment(sight.among(told), segmentation, voxel_m, with_voxels);
   if (!segments.empty()) told.add(segments.front().fit);
   return segments;
 }

@@ -48,8 +48,8 @@ concept ByDetection = requires(const Kind& kind, const Detection& detection,
 [[nodiscard]] bool mends_calibration(const Segmentation& segmentation, const Calibration& believed);
 
 /// A frame as the segmentation fits it, for CalibrationEvidence, without the rest of its work; none
-/// where it does not mend the calibration. Throws Error on parameters out
-/// of range. Thread-safe.
+/// where it does not mend the calibration, or where depth edges show nothing of the masks. Throws
+/// Error on parameters out of range. Thread-safe.
 [[nodiscard]] std::shared_ptr<const FittedFrame> fitted(const Sight& sight,
                                                         const Segmentation& segmentation);
 

@@ -35,10 +35,10 @@ class Sight {
   /// What other frames tell of the believed calibration; nothing of a frame by itself.
   [[nodiscard]] const CalibrationEvidence& told() const { return told_; }
   /// The same frame, among others.
-  [[nodiscard]] Sight after(const CalibrationEvidence& told) const {
-    Sight later = *this;
-    later.told_ = told;
-    return later;
+  [[nodiscard]] Sight among(const CalibrationEvidence& told) const {
+    Sight one = *this;
+    one.told_ = told;
+    return one;
   }
 
  private:

@@ -36,12 +36,10 @@ void take_into(Given& given, Mapper& mapper, MappedCounts& counts) {
 }
 
 SemanticMap map_frames(const std::vector<int>& frames, const std::function<Given(int)>& give,
-                       const Calibration& believed, std::size_t class_count,
+                       CalibrationEvidence told, std::size_t class_count,
                        const FolderMapping& mapping, MappedCounts& counts,
                        const FramesDone& shown) {
-  Mapper mapper(mapping.mapping, class_count,
-                first_look(mapping.mapping.segmentation, believed, frames,
-                           [&](int position) { return give(position).sight; }));
+  Mapper mapper(mapping.mapping, class_count, std::move(told));
   for (const int position : frames) {
     Given given = give(position);
     take_into(given, mapper, counts);
@@ -69,8 +67,11 @@ SemanticMap map_folder(const LabelledFolder& folder, const std::vector<int>& fra
             {mapping.T_map_world, folder.T_world_base(index)},
             RandomStream(0, "belief")};  // of a pose that is known; nothing is drawn
   };
-  return map_frames(frames, give, folder.calibration(), folder.table().classes.size(), mapping,
-                    counts, shown);
+  const Mapping& how = mapping.mapping;
+  CalibrationEvidence told = first_look(how.segmentation, how.frames, folder.calibration(), frames,
+                                        [&](int index) { return sight_of(folder, index); });
+  return map_frames(frames, give, std::move(told), folder.table().classes.size(), mapping, counts,
+                    shown);
 }
 
 SemanticMap map_trial(const TrialFolder& folder, const std::vector<int>& frames,
@@ -84,8 +85,12 @@ SemanticMap map_trial(const TrialFolder& folder, const std::vector<int>& frames,
         RandomStream(folder.sheet().draw_seed, "belief", {static_cast<std::uint64_t>(frame.index)}),
         reads_colour ? folder.color(position) : cv::Mat3b()};
   };
-  return map_frames(frames, give, folder.sheet().believed, folder.sheet().classes.size(), mapping,
-                    counts, shown);
+  const Mapping& how = mapping.mapping;
+  CalibrationEvidence told =
+      first_look(how.segmentation, how.frames, folder.sheet().believed, frames,
+                 [&](int position) { return folder.sight(position); });
+  return map_frames(frames, give, std::move(told), folder.sheet().classes.size(), mapping, counts,
+                    shown);
 }
 
 }  // namespace mapscore::eval

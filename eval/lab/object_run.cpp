@@ -7,7 +7,6 @@
 #include "core/mapping/mapper.hpp"
 #include "core/objects/solid_piece.hpp"
 #include "eval/lab/recorded_surfaces.hpp"
-#include "eval/recording/frame_selection.hpp"
 
 #include <numbers>
 
@@ -21,9 +20,7 @@ ObjectRun::ObjectRun(const Task& task, const Recording& recording, const ClassTa
       beliefs_(poses.beliefs(task, sights_.depth_of_frames())),
       segmentation_(task.config.methods.front().segmentation),
       choice_(task.config.methods.front().frames),
-      told_(first_look(segmentation_, sights_.believed(),
-                       FrameSelection().of(recording.frame_count()),
-                       [&](int frame) { return sights_.read(recording, frame); })),
+      told_(sights_.told(recording, segmentation_, task.config.methods.front().frames)),
       map_frame_(map_frame(task.config, task.seed_index)),
       options_(options),
       map_(table.classes.size(), options.map),
@@ -63,7 +60,7 @@ ObjectChanges ObjectRun::advance(const Frame& frame) {
     seen_.add(frame, truth, map_frame_.T_map_world() * frame.T_world_base);
   if (!choice_.takes(sight.depth(), believed, belief.T_map_odom * belief.T_odom_base)) return {};
   const std::vector<Segment> segments =
-      segment(sight.after(told_), segmentation_, map_frame_.edge_m, false);
+      segment_after(told_, sight, segmentation_, map_frame_.edge_m, false);
   return map_.integrate(object_detections(segments, T_map_depth, options_), frame.stamp_s, &view);
 }
 

@@ -63,7 +63,7 @@ class ObjectRun {
   std::vector<PoseBelief> beliefs_;  ///< by frame
   Segmentation segmentation_;
   FrameChoice choice_;
-  CalibrationEvidence told_;  ///< by a first look at the frames
+  CalibrationEvidence told_;
   MapFrame map_frame_;
   ObjectRunOptions options_;
   ObjectMap map_;

@@ -27,6 +27,8 @@
 namespace mapscore::eval {
 namespace {
 
+constexpr int kMostLooks = 64;  // at frames that may show nothing
+
 /// The objects of a file, each an instance beyond those of the table; in the scene's world.
 std::vector<PerceivedModel> models_of_file(const std::filesystem::path& path, ClassTable& table) {
   const ObjectFile file = read_objects(path, table);
@@ -120,16 +122,19 @@ std::map<int, Sight> sights_of_objects(const std::vector<int>& frames, int most,
   return sights;
 }
 
-CalibrationEvidence first_look(const Segmentation& segmentation, const Calibration& believed,
-                               const std::vector<int>& frames,
+CalibrationEvidence first_look(const Segmentation& segmentation, const MappedFrames& mapped,
+                               const Calibration& believed, const std::vector<int>& frames,
                                const std::function<Sight(int)>& sight) {
   CalibrationEvidence told;
-  if (!mends_calibration(segmentation, believed)) return told;
+  if (!mends_calibration(segmentation, believed) || std::holds_alternative<KeyFramesAlone>(mapped))
+    return told;
+  int looks = 0;
   static_cast<void>(spread_over(frames, CalibrationEvidence::kMostFrames, [&](int frame) {
+    if (++looks > kMostLooks) return false;
     const Sight seen = sight(frame);
-    if (seen.detections().empty()) return false;
-    told.add(fitted(seen, segmentation));
-    return true;
+    const auto fit = seen.detections().empty() ? nullptr : fitted(seen, segmentation);
+    told.add(fit);
+    return fit != nullptr;
   }));
   told.close();
   return told;
@@ -224,6 +229,15 @@ std::string Sights::key(const Study& config, Labels labels) {
   seen.perception = config.perception;
   seen.calibration = config.calibration;
   return (labels == Labels::truth ? "truth\n" : "detected\n") + to_yaml(seen);
+}
+
+CalibrationEvidence Sights::told(const Recording& recording, const Segmentation& segmentation,
+                                 const MappedFrames& mapped) const {
+  if (labels_ == Labels::truth) return {};
+  return told_.get({segmentation, mapped}, [&] {
+    return first_look(segmentation, mapped, believed_, FrameSelection().of(recording.frame_count()),
+                      [&](int frame) { return read(recording, frame); });
+  });
 }
 
 const ClassTable& Sights::table() const {

@@ -7,6 +7,7 @@
 #include "core/frame.hpp"
 #include "core/geometry/camera.hpp"
 #include "core/geometry/shape.hpp"
+#include "core/mapping/mapped_frames.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "core/segmentation/sight.hpp"
 #include "eval/foreign/network_labels.hpp"
@@ -22,6 +23,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mapscore::eval {
@@ -79,6 +81,12 @@ class Sights {
   /// The same of a frame that is read from the recording. Throws Error as it does, too.
   [[nodiscard]] Sight read(const Recording& recording, int frame) const;
 
+  /// What a first look at the recording's frames tells. Made once for each segmentation. Throws
+  /// Error as `read`.
+  [[nodiscard]] CalibrationEvidence told(const Recording& recording,
+                                         const Segmentation& segmentation,
+                                         const MappedFrames& mapped) const;
+
   /// How sure a network was of each pixel of a frame, before any fault of labels; none where no
   /// network says so. Throws Error likewise.
   [[nodiscard]] std::optional<PixelVerdicts> verdicts_of(int frame) const {
@@ -104,6 +112,7 @@ class Sights {
   FaultSettings faults_;
   std::shared_ptr<const SimulatedLabels> simulated_;  ///< in place of the recording's labels
   std::shared_ptr<const NetworkLabels> network_;      ///< likewise
+  mutable SharedCache<std::pair<Segmentation, MappedFrames>, CalibrationEvidence> told_{4};
 };
 
 /// What is seen at so many of these frames at most that show objects, spread evenly, by frame: what
@@ -112,9 +121,11 @@ class Sights {
                                                      const std::function<Sight(int)>& sight);
 
 /// What some of these frames that show objects, spread evenly, tell together of the believed
-/// calibration, so that the first frames of a map know what later ones show; closed. Nothing where
-/// the segmentation does not mend the calibration. Throws Error as `sight`.
+/// calibration, so that the first frames of a map know what later ones show; closed. Nothing, and
+/// open, where the segmentation does not mend the calibration, or where key frames alone are
+/// mapped, since the others are to change nothing. Throws Error as `sight`.
 [[nodiscard]] CalibrationEvidence first_look(const Segmentation& segmentation,
+                                             const MappedFrames& mapped,
                                              const Calibration& believed,
                                              const std::vector<int>& frames,
                                              const std::function<Sight(int)>& sight);

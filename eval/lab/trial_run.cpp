@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "core/refinement/map_refinement.hpp"
 #include "eval/lab/detected_samples.hpp"
-#include "eval/recording/frame_selection.hpp"
 #include "eval/score/detection_score.hpp"
 #include "eval/score/instances/instance_score.hpp"
 
@@ -43,7 +42,10 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
                      task.config.score.asked},
       map_frame_(map_frame(task.config, task.seed_index)),
       truths_(truths),
-      mapper_(mapping_, table.classes.size(), first_look_at(recording)) {
+      mapper_(mapping_, table.classes.size(),
+              task.config.score.unit == ScoreUnit::map
+                  ? sights_->told(recording, mapping_.segmentation, mapping_.frames)
+                  : CalibrationEvidence()) {
   TrialPoses believed = poses.poses(task, sights_->depth_of_frames());
   beliefs_ = std::move(believed.beliefs);
   result_.accounting.tracking = believed.tracking;
@@ -51,13 +53,6 @@ TrialRun::TrialRun(const Task& task, const Recording& recording, const ClassTabl
   result_.counts = zero_counts(table_.classes.size(), score_options_);
   if (score_options_.asked.poses) result_.counts[kBackground].poses = score_poses(recording);
   if (task.config.score.unit == ScoreUnit::map) look_up_truth({});
-}
-
-CalibrationEvidence TrialRun::first_look_at(const Recording& recording) const {
-  if (task_.config.score.unit == ScoreUnit::frame || task_.labels == Labels::truth) return {};
-  return first_look(mapping_.segmentation, sights_->believed(),
-                    FrameSelection().of(recording.frame_count()),
-                    [&](int frame) { return sights_->read(recording, frame); });
 }
 
 PoseCounts TrialRun::score_poses(const Recording& recording) const {

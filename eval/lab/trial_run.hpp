@@ -76,8 +76,6 @@ class TrialRun {
   /// Counts a frame's detections and their boxes; one of a wrong class has no box there.
   void count(const std::vector<Segment>& segments,
              const std::vector<Eigen::AlignedBox3d>& true_boxes, Counts& counts);
-  /// Nothing where each frame is mapped by itself, or no method sees it.
-  [[nodiscard]] CalibrationEvidence first_look_at(const Recording& recording) const;
   /// Errors of the beliefs of all frames, in the scene's world.
   [[nodiscard]] PoseCounts score_poses(const Recording& recording) const;
   /// What the lattice ceiling maps: every depth pixel of a detected instance, under its true class.

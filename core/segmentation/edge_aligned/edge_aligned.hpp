@@ -13,6 +13,7 @@
 #include <opencv2/core.hpp>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -62,7 +63,7 @@ struct LabelledDepth {
   cv::Mat1f inverse_depth;           ///< of the surface at labelled pixels, 1/m; empty: as measured
   OutlineAlignment alignment;        ///< what was mended
   std::optional<double> confidence;  ///< confidence_of; none of a calibration that is known
-  std::shared_ptr<const FittedFrame> fit;  ///< for other frames; likewise
+  std::shared_ptr<const FittedFrame> fit;  ///< as `fitted` gives it, for other frames
   bool is_as_believed = false;  ///< the calibration: known, or as believed though a correction
                                 ///< explains more
 };
@@ -74,7 +75,7 @@ struct LabelledDepth {
 }
 
 /// The frame's fits alone; none of a calibration that is known, or of a frame whose edges show
-/// nothing of its masks. Throws Error likewise.
+/// nothing of its masks. Throws Error on parameters out of range.
 [[nodiscard]] std::shared_ptr<const FittedFrame> fitted(const Sight& sight,
                                                         const EdgeAligned& params);
 

@@ -162,25 +162,22 @@ void MatchedEdges::find_feet(const std::vector<std::uint8_t>& ways, std::vector<
 }
 
 float ExplainedOutlines::px(const OutlineAlignment& a, float sigma_px) {
-  const std::size_t cells = field_.elements[0].total();
-  const auto elements_at = [&](std::size_t at) {
-    return field_.elements[at / cells].ptr<float>()[at % cells];
-  };
+  const float* elements = field_.elements[0].ptr<float>();  // of all ways
   const float weight = static_cast<float>(edges_.stride);
-  votes_.resize(field_.elements.size() * cells, 0.0F);
+  votes_.resize(field_.elements.size() * field_.elements[0].total(), 0.0F);
   voted_.clear();
   matched_.match(edges_, a, project_.scaled(a.focal), sigma_px);
   matched_.find_feet(edges_.way, feet_);
   for (std::size_t n = 0; n < feet_.size(); ++n) {
     if (feet_[n] < 0) continue;
     const auto at = static_cast<std::size_t>(feet_[n]);
-    if (elements_at(at) <= 0) continue;
+    if (elements[at] <= 0) continue;
     if (votes_[at] <= 0) voted_.push_back(at);
     votes_[at] += weight * matched_.weight[n];
   }
   double sum = 0;
   for (const std::size_t at : voted_) {
-    sum += static_cast<double>(std::min(votes_[at], elements_at(at)));
+    sum += static_cast<double>(std::min(votes_[at], elements[at]));
     votes_[at] = 0;
   }
   return static_cast<float>(sum);

@@ -46,7 +46,7 @@ struct OutlineAlignment {
 struct OutlineFits {
   OutlineAlignment mended;    ///< with the correction that explains most
   OutlineAlignment believed;  ///< without one: of the masks' size alone
-  /// The two for other frames; none where edges show nothing of the masks.
+  /// What other frames are judged by; none where edges show nothing of the masks.
   std::shared_ptr<const FittedFrame> frame = {};
 };
 

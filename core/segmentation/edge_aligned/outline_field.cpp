@@ -118,9 +118,10 @@ std::vector<cv::Point> close_grooves(const std::vector<Change>& changes, cv::Mat
 /// Counts the outline elements by the way they face, in cells.
 void count_elements(const std::vector<Change>& changes, const cv::Size& image,
                     OutlineField& field) {
-  for (cv::Mat1f& map : field.elements)
-    map = cv::Mat1f(image.height / OutlineField::kCell_px + 1,
-                    image.width / OutlineField::kCell_px + 1, 0.0F);
+  const int rows = image.height / OutlineField::kCell_px + 1;
+  const cv::Mat1f all(4 * rows, image.width / OutlineField::kCell_px + 1, 0.0F);
+  for (int way = 0; way < 4; ++way)
+    field.elements[static_cast<std::size_t>(way)] = all.rowRange(way * rows, (way + 1) * rows);
   const auto count = [&](Outward way, int v, int u) {
     ++field.length_px;
     field.elements[static_cast<std::size_t>(way)](v / OutlineField::kCell_px,

@@ -28,8 +28,8 @@ struct OutlineField {
   /// How well an edge that faces Outward d fits at quarter size, 0 to 255: 255 on outlines that
   /// face the same way, less within 8 pixels and for those that face the other way.
   std::array<cv::Mat1b, 4> coarse;
-  /// Number of outline elements that face each way, by cell. An element is a pair of neighbouring
-  /// pixels on either side of an outline, counted for each owner.
+  /// Number of outline elements that face each way, by cell; rows of one image, way by way. An
+  /// element is a pair of neighbouring pixels on either side of an outline, counted for each owner.
   std::array<cv::Mat1f, 4> elements;
   int length_px = 0;  ///< number of all outline elements
 
@@ -54,8 +54,8 @@ struct MaskField {
   cv::Mat1f distance;  ///< as an OutlineField's up to 15.5 px; farther away it is more than that
 };
 
-/// Opens the grooves of a field again, in its own images: neither it nor a copy of it serves a fit
-/// any more.
+/// Opens the grooves of a field again: owners in its own image, distances in a copy where any was
+/// closed, since a fit may keep them.
 [[nodiscard]] MaskField open_grooves(OutlineField&& field);
 
 }  // namespace mapscore

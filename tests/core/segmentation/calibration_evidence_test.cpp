@@ -3,6 +3,7 @@
 
 #include "core/segmentation/calibration_evidence.hpp"
 
+#include "core/segmentation/edge_aligned/outline_field.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "tests/core/segmentation/edge_aligned/plate_scene.hpp"
 
@@ -81,12 +82,13 @@ TEST(CalibrationEvidence, AFrameThatMovedIsMended) {
 }
 
 TEST(CalibrationEvidence, AFrameIsNoWitnessOfItself) {
+  const Witness frame(400, 300, 0);
   CalibrationEvidence told;
-  told.add(std::make_shared<Witness>(400, 200, 0));  // the same view again
-  told.add(std::make_shared<Witness>(400, 200, 0));
-  EXPECT_FALSE(told.stands_in(kFrame));
-  told.add(std::make_shared<Witness>(400, 399, 0));
-  EXPECT_TRUE(told.stands_in(kFrame));
+  told.add(std::make_shared<Witness>(400, 300, 0));  // the same view again
+  told.add(std::make_shared<Witness>(400, 300, 0));
+  EXPECT_FALSE(told.stands_in(frame));
+  told.add(std::make_shared<Witness>(400, 301, 0));
+  EXPECT_TRUE(told.stands_in(frame));
 }
 
 TEST(CalibrationEvidence, OfManyFramesItKeepsAFewSpreadOverAll) {
@@ -148,6 +150,15 @@ TEST(CalibrationEvidence, IsWhatFramesWithoutTheirVotesTell) {
   EXPECT_FALSE(fitted(seen(scene, off), Segmentation(Direct())));
 }
 
+TEST(CalibrationEvidence, KeepsOutlinesWhoseGroovesTheVotesOpenAgain) {
+  const PlateScene near({{-0.6, -0.1, -0.4, 0.3, 1.4, 1}, {-0.085, 0.4, -0.4, 0.3, 1.4, 2}});
+  const Calibration off = near.misregistered({0.04, 0, 0}, {0, 0, 0});
+  ASSERT_FALSE(outline_field(near.detections(), 320, 240, 40).closed.empty());
+  const auto untouched = fitted(seen(near, off), EdgeAligned()),
+             voted = label_surfaces(seen(near, off), {}).fit;
+  EXPECT_EQ(voted->explained_px(*untouched), untouched->explained_px(*untouched));
+}
+
 TEST(CalibrationEvidence, FramesLearnFromOthers) {
   const PlateScene scene = two_plates(0);
   const Calibration off = scene.misregistered({0.03, 0, 0}, {0, 0, 0});
@@ -159,7 +170,7 @@ TEST(CalibrationEvidence, FramesLearnFromOthers) {
   const std::size_t alone = of(0, off).points.size();
   told = {};
   for (const double aside_m : {0.1, -0.1}) static_cast<void>(of(aside_m, scene.truth()));
-  const LabelledDepth later = label_surfaces(seen(scene, off).after(told), {});
+  const LabelledDepth later = label_surfaces(seen(scene, off).among(told), {});
   EXPECT_TRUE(later.is_as_believed);
   EXPECT_EQ(later.alignment.translation, Eigen::Vector3f(0, 0, 0));
   EXPECT_NE(of(0, off).points.size(), alone);
@@ -167,7 +178,7 @@ TEST(CalibrationEvidence, FramesLearnFromOthers) {
 
   told = {};
   for (const double aside_m : {0.1, -0.1}) static_cast<void>(of(aside_m, off));
-  EXPECT_FALSE(label_surfaces(seen(scene, off).after(told), {}).is_as_believed);
+  EXPECT_FALSE(label_surfaces(seen(scene, off).among(told), {}).is_as_believed);
 }
 
 TEST(CalibrationEvidence, IsNoneWhereTheCalibrationIsKnown) {

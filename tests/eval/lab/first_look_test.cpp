@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
-#include <set>
+#include <vector>
 
 namespace mapscore::eval {
 namespace {
@@ -31,27 +31,52 @@ Sight first_sight() {
   return {kScene.truth(), moved.depth(), kScene.detections()};
 }
 
-/// Frames of which those of an even number show two plates, elsewhere each time.
+/// 64 frames, of which every sixteenth shows nothing, and the
+/// others two plates, elsewhere each time.
 struct Frames {
   Frames() : all(64) { std::iota(all.begin(), all.end(), 0); }
 
   [[nodiscard]] CalibrationEvidence look(const Segmentation& segmentation) {
-    return first_look(segmentation, kScene.truth(), all, [&](int frame) -> Sight {
-      if (frame % 2 == 1) return {kScene.truth(), kScene.depth(), {}};
-      asked.insert(frame);
+    return first_look(segmentation, mapped, kScene.truth(), all, [&](int frame) -> Sight {
+      asked.push_back(frame);
+      if (frame % 16 == 0) return {kScene.truth(), kScene.depth(), {}};
       const PlateScene scene = moved_aside(0.002 * frame);
       return {kScene.truth(), scene.depth(), scene.detections()};
     });
   }
 
   std::vector<int> all;
-  std::set<int> asked = {};
+  std::vector<int> asked = {};
+  MappedFrames mapped = AllFrames();
 };
 
 TEST(FirstLook, FitsSomeFramesWithObjectsSpreadOverAll) {
   Frames frames;
   static_cast<void>(frames.look(EdgeAligned()));
-  EXPECT_EQ(frames.asked, (std::set<int>{0, 8, 16, 24, 32, 40, 48, 56}));
+  EXPECT_EQ(frames.asked, (std::vector<int>{0, 32, 16, 48, 8, 40, 24, 56, 4, 36, 20, 52}));
+}
+
+TEST(FirstLook, EndsAfter64FramesThatShowNothingAndTakesNoMore) {
+  int asked = 0;
+  std::vector<int> frames(1000);
+  std::iota(frames.begin(), frames.end(), 0);
+  CalibrationEvidence told =
+      first_look(EdgeAligned(), AllFrames(), kScene.truth(), frames, [&](int) -> Sight {
+        ++asked;
+        return {kScene.truth(), kScene.depth(), {}};
+      });
+  EXPECT_EQ(asked, 64);
+  told.add(fitted(Sight(kScene.truth(), kScene.depth(), kScene.detections()), EdgeAligned()));
+  EXPECT_FALSE(label_surfaces(first_sight().among(told), {}).is_as_believed);
+}
+
+TEST(FirstLook, IsNoneWhereFramesThatAreLeftOutAreToChangeNothing) {
+  Frames frames;
+  frames.mapped = KeyFramesAlone();
+  CalibrationEvidence told = frames.look(EdgeAligned());
+  EXPECT_TRUE(frames.asked.empty());
+  told.add(fitted(Sight(kScene.truth(), kScene.depth(), kScene.detections()), EdgeAligned()));
+  EXPECT_TRUE(label_surfaces(first_sight().among(told), {}).is_as_believed);
 }
 
 TEST(FirstLook, ReadsNothingWhereTheCalibrationIsTakenAsItIs) {
@@ -64,7 +89,7 @@ TEST(FirstLook, ReadsNothingWhereTheCalibrationIsTakenAsItIs) {
 TEST(FirstLook, TellsTheFirstFrameOfAMapThatTheCalibrationStands) {
   EXPECT_FALSE(label_surfaces(first_sight(), {}).is_as_believed);
   Frames frames;
-  EXPECT_TRUE(label_surfaces(first_sight().after(frames.look(EdgeAligned())), {}).is_as_believed);
+  EXPECT_TRUE(label_surfaces(first_sight().among(frames.look(EdgeAligned())), {}).is_as_believed);
 }
 
 /// The first sight and three frames that show that the calibration stands.
