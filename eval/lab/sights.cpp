@@ -233,7 +233,7 @@ std::string Sights::key(const Study& config, Labels labels) {
 
 CalibrationEvidence Sights::told(const Recording& recording, const Segmentation& segmentation,
                                  const MappedFrames& mapped) const {
-  if (labels_ == Labels::truth) return {};
+  if (labels_ == Labels::truth || !mends_calibration(segmentation, believed_)) return {};
   return told_.get({segmentation, mapped}, [&] {
     return first_look(segmentation, mapped, believed_, FrameSelection().of(recording.frame_count()),
                       [&](int frame) { return read(recording, frame); });
