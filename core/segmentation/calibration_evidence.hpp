@@ -32,9 +32,16 @@ class FittedFrame {
   double mended_px_, believed_px_;
 };
 
-/// Frames that tell whether the believed calibration stands: a wrong correction fits by chance in a
-/// single frame, but not in the others (docs/segmentation.md, "Other frames"). Copies share the
-/// frames. Safe to read from several threads.
+/// Which correction of the believed calibration a frame takes: its own, unless one of these.
+struct FrameVerdict {
+  bool stands = false;                             ///< none: the calibration is as believed
+  std::shared_ptr<const FittedFrame> better = {};  ///< that of this other frame
+};
+
+/// Frames that tell each other whether the believed calibration stands, and what it is where it
+/// does not: a wrong correction fits by chance in a single frame, but not in the others
+/// (docs/segmentation.md, "Other frames"). Copies share the frames. Safe to read from several
+/// threads.
 class CalibrationEvidence {
  public:
   static constexpr std::size_t kMostFrames = 8;  ///< that are kept, each of about 2 MB at 640 x 480
@@ -45,12 +52,32 @@ class CalibrationEvidence {
   /// Takes no more: all frames that tell something were added.
   void close() { is_closed_ = true; }
 
-  /// Whether a frame's calibration is as believed, though a correction explains more of its
-  /// outlines: by what that correction explains of the others'. A frame is no witness of itself.
-  [[nodiscard]] bool stands_in(const FittedFrame& frame) const;
+  /// Which correction a frame takes. A frame is no witness of itself.
+  [[nodiscard]] FrameVerdict judge(const FittedFrame& frame) const;
 
  private:
-  std::vector<std::shared_ptr<const FittedFrame>> frames_;
+  /// A frame, and what its correction explains of the others.
+  struct Kept {
+    std::shared_ptr<const FittedFrame> frame;
+    double others_px = 0;     ///< what their own corrections explain
+    double explained_px = 0;  ///< and this one's
+
+    void try_on(const FittedFrame& other);
+    [[nodiscard]] double share() const { return others_px > 0 ? explained_px / others_px : 0; }
+  };
+
+  /// The outlines of the frames but one: what their own corrections explain, what is explained as
+  /// believed, and by that one's correction. In none does one count for more than its own.
+  struct Others {
+    double mended_px = 0, believed_px = 0, by_this_px = 0;
+  };
+
+  void keep(std::shared_ptr<const FittedFrame> frame);
+  [[nodiscard]] Others others_of(const FittedFrame& frame) const;
+  [[nodiscard]] std::shared_ptr<const FittedFrame> better_for(const FittedFrame& frame,
+                                                              const Others& others) const;
+
+  std::vector<Kept> frames_;
   std::size_t added_ = 0, step_ = 1;  ///< every so-manieth is kept
   bool is_closed_ = false;
 };

@@ -44,6 +44,17 @@ Outlined outlined(const Sight& sight, const EdgeAligned& params) {
                         reach_px)};
 }
 
+/// A correction of the calibration, with the size of this frame's masks.
+OutlineAlignment with_size_fitted(const OutlineAlignment& correction, const DepthEdges& edges,
+                                  const OutlineField& field, const Calibration& believed) {
+  const OutlineAlignment size = fit_mask_size(edges, field, correction.corrected(believed));
+  OutlineAlignment fitted = correction;
+  fitted.offset_px = size.offset_px;
+  fitted.sharpness = size.sharpness;
+  fitted.score = size.score;
+  return fitted;
+}
+
 }  // namespace
 
 std::shared_ptr<const FittedFrame> fitted(const Sight& sight, const EdgeAligned& params) {
@@ -60,16 +71,21 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
   LabelledDepth labelled;
   if (!mends_calibration(params, believed)) {
     labelled.alignment = fit_mask_size(edges, field, believed);
-    labelled.is_as_believed = true;
+    labelled.is_known = true;
   } else {
     const OutlineFits fits = align_outlines(edges, field, believed, params.search_px);
+    labelled.alignment = fits.mended;
     labelled.fit = fits.frame;
-    labelled.is_as_believed = fits.frame && sight.told().stands_in(*fits.frame);
-    labelled.alignment = labelled.is_as_believed ? fits.believed : fits.mended;
+    const FrameVerdict verdict = fits.frame ? sight.told().judge(*fits.frame) : FrameVerdict();
+    if (verdict.stands) labelled.alignment = fits.believed;
+    if (verdict.better)
+      labelled.alignment =
+          with_size_fitted(correction_of(*verdict.better).value(), edges, field, believed);
+    labelled.is_known = verdict.stands || verdict.better;
     labelled.confidence = confidence_of(labelled.alignment, field.length_px);
   }
   const OutlineShifts shifts =
-      find_outline_shifts(edges, field, labelled.alignment, believed, labelled.is_as_believed);
+      find_outline_shifts(edges, field, labelled.alignment, believed, labelled.is_known);
   const double reach =
       labelled.alignment.is_sharp() ? kSharpReach * params.reach_px : params.reach_px;
   labelled.labels = vote_on_surfaces(edges, open_grooves(std::move(field)), labelled.alignment,

@@ -64,8 +64,7 @@ struct LabelledDepth {
   OutlineAlignment alignment;        ///< what was mended
   std::optional<double> confidence;  ///< confidence_of; none of a calibration that is known
   std::shared_ptr<const FittedFrame> fit;  ///< as `fitted` gives it, for other frames
-  bool is_as_believed = false;  ///< the calibration: known, or as believed though a correction
-                                ///< explains more
+  bool is_known = false;  ///< the calibration: taken as believed, or as other frames have it
 };
 
 /// Whether frames are fitted with corrections of the calibration: it is not known.

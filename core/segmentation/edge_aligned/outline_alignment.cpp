@@ -52,11 +52,12 @@ class KeptOutlines final : public FittedFrame {
   }
 
   [[nodiscard]] double explained_px(const FittedFrame& other) const override {
-    const auto* kept = dynamic_cast<const KeptOutlines*>(&other);
-    if (kept == nullptr) return 0;
+    const std::optional<OutlineAlignment> correction = correction_of(other);
+    if (!correction) return 0;
     return static_cast<double>(
-        ExplainedOutlines(field_, edges_, project_).px(kept->mended_, kScored_px));
+        ExplainedOutlines(field_, edges_, project_).px(*correction, kScored_px));
   }
+  [[nodiscard]] const OutlineAlignment& mended() const { return mended_; }
 
  private:
   OutlineField field_;
@@ -268,6 +269,11 @@ double confidence_of(const OutlineAlignment& fit, int outline_px) {
   const double logit =
       -2.45 + 0.95 * std::log(explained_px / 100.0) + 4.4 * score + 3.64 * sharpness;
   return 1.0 / (1.0 + std::exp(-logit));
+}
+
+std::optional<OutlineAlignment> correction_of(const FittedFrame& frame) {
+  const auto* kept = dynamic_cast<const KeptOutlines*>(&frame);
+  return kept != nullptr ? std::optional(kept->mended()) : std::nullopt;
 }
 
 OutlineFits align_outlines(const DepthEdges& edges, const OutlineField& field,

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 
 namespace mapscore {
 
@@ -55,6 +56,9 @@ struct OutlineFits {
 /// what it explains, of how much outline, and how sharply, in images of 640 x 480 (which ones:
 /// docs/segmentation.md). `outline_px`: OutlineField::length_px.
 [[nodiscard]] double confidence_of(const OutlineAlignment& fit, int outline_px);
+
+/// The correction that a frame was fitted with by align_outlines; none of another method's.
+[[nodiscard]] std::optional<OutlineAlignment> correction_of(const FittedFrame& frame);
 
 /// Fits the outlines of a frame to its depth edges.
 [[nodiscard]] OutlineFits align_outlines(const DepthEdges& edges, const OutlineField& field,

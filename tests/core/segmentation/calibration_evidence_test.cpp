@@ -36,14 +36,14 @@ const Witness kFrame(400, 200, 0);  ///< the one that is judged, twice as good w
 bool stands_beside(double mended_px, double believed_px, double by_others_px) {
   CalibrationEvidence told;
   told.add(std::make_shared<Witness>(mended_px, believed_px, by_others_px));
-  return told.stands_in(kFrame);
+  return told.judge(kFrame).stands;
 }
 
 TEST(CalibrationEvidence, AFrameByItselfIsMended) {
   CalibrationEvidence told;
-  EXPECT_FALSE(told.stands_in(kFrame));
+  EXPECT_FALSE(told.judge(kFrame).stands);
   told.add(nullptr);  // of a method that mends nothing
-  EXPECT_FALSE(told.stands_in(kFrame));
+  EXPECT_FALSE(told.judge(kFrame).stands);
 }
 
 TEST(CalibrationEvidence, ACorrectionIsTakenThatExplainsMoreOfOtherFrames) {
@@ -66,19 +66,19 @@ TEST(CalibrationEvidence, NoFrameCountsForMoreThanItsOwnCorrectionExplains) {
   CalibrationEvidence told;
   told.add(std::make_shared<Witness>(300, 110, 50));
   told.add(std::make_shared<Witness>(200, 900, 0));  // as believed 200: with 110 more than 60 %
-  EXPECT_TRUE(told.stands_in(kFrame));
+  EXPECT_TRUE(told.judge(kFrame).stands);
   told.add(std::make_shared<Witness>(150, 10, 0));  // 320 of 650 are less
-  EXPECT_FALSE(told.stands_in(kFrame));
+  EXPECT_FALSE(told.judge(kFrame).stands);
   EXPECT_TRUE(stands_beside(100, 100, 900));  // by others 100, too
 }
 
 TEST(CalibrationEvidence, AFrameThatMovedIsMended) {
   CalibrationEvidence told;
   told.add(std::make_shared<Witness>(5000, 5000, 0));
-  EXPECT_TRUE(told.stands_in(Witness(400, 61, 0)));
-  EXPECT_FALSE(told.stands_in(Witness(400, 59, 0)));  // 15 %
-  EXPECT_TRUE(told.stands_in(Witness(1499, 1000, 0)));
-  EXPECT_FALSE(told.stands_in(Witness(1501, 1000, 0)));  // by 500 px
+  EXPECT_TRUE(told.judge(Witness(400, 61, 0)).stands);
+  EXPECT_FALSE(told.judge(Witness(400, 59, 0)).stands);  // 15 %
+  EXPECT_TRUE(told.judge(Witness(1499, 1000, 0)).stands);
+  EXPECT_FALSE(told.judge(Witness(1501, 1000, 0)).stands);  // by 500 px
 }
 
 TEST(CalibrationEvidence, AFrameIsNoWitnessOfItself) {
@@ -86,9 +86,9 @@ TEST(CalibrationEvidence, AFrameIsNoWitnessOfItself) {
   CalibrationEvidence told;
   told.add(std::make_shared<Witness>(400, 300, 0));  // the same view again
   told.add(std::make_shared<Witness>(400, 300, 0));
-  EXPECT_FALSE(told.stands_in(frame));
+  EXPECT_FALSE(told.judge(frame).stands);
   told.add(std::make_shared<Witness>(400, 301, 0));
-  EXPECT_TRUE(told.stands_in(frame));
+  EXPECT_TRUE(told.judge(frame).stands);
 }
 
 TEST(CalibrationEvidence, OfManyFramesItKeepsAFewSpreadOverAll) {
@@ -98,18 +98,69 @@ TEST(CalibrationEvidence, OfManyFramesItKeepsAFewSpreadOverAll) {
     frames.push_back(std::make_shared<Witness>(500 + n, 500, 0));
     told.add(frames.back());
   }
-  EXPECT_TRUE(told.stands_in(kFrame));
+  for (const auto& frame : frames) frame->asked = 0;  // to tell which are kept
+  EXPECT_TRUE(told.judge(kFrame).stands);
   std::vector<int> asked;
   for (int n = 0; n < 100; ++n)
     if (frames[static_cast<std::size_t>(n)]->asked > 0) asked.push_back(n);
   EXPECT_EQ(asked, (std::vector<int>{0, 16, 32, 48, 64, 80, 96}));
 }
 
+/// A frame whose correction explains the same of every other.
+class Mended : public FittedFrame {
+ public:
+  Mended(double mended_px, double explains_px, double believed_px = 10)
+      : FittedFrame(mended_px, believed_px), explains_px_(explains_px) {}
+  [[nodiscard]] double explained_px(const FittedFrame& other) const override {
+    return static_cast<const Mended&>(other).explains_px_;
+  }
+
+ private:
+  double explains_px_;
+};
+
+/// Whose correction a frame takes, of frames that corrections explain by 1000, 1001, ... px.
+std::shared_ptr<const FittedFrame> better(const std::vector<double>& explain_px,
+                                          const Mended& frame, double believed_px = 10) {
+  CalibrationEvidence told;
+  for (std::size_t n = 0; n < explain_px.size(); ++n)
+    told.add(std::make_shared<Mended>(1000 + static_cast<double>(n), explain_px[n], believed_px));
+  EXPECT_FALSE(told.judge(frame).stands);
+  return told.judge(frame).better;
+}
+
+TEST(CalibrationEvidence, AFrameTakesTheCorrectionThatExplainsMostOfTheOthers) {
+  const Mended frame(900, 300);
+  const auto best = better({200, 700, 600}, frame);
+  ASSERT_TRUE(best);
+  EXPECT_EQ(best->mended_px(), 1001);
+  EXPECT_FALSE(better({}, frame));
+  EXPECT_FALSE(better({700}, frame));  // of no other
+}
+
+TEST(CalibrationEvidence, ACorrectionThatServesAllExplainsHalfOfThemAndFarMoreThanTheFramesOwn) {
+  EXPECT_TRUE(better({505, 100, 100}, Mended(900, 300)));
+  EXPECT_FALSE(better({495, 100, 100}, Mended(900, 300)));
+  EXPECT_TRUE(better({700, 100, 100}, Mended(900, 460)));
+  EXPECT_FALSE(better({700, 100, 100}, Mended(900, 470)));  // times 1.5 they are 705
+}
+
+TEST(CalibrationEvidence, ACorrectionThatServesAllExplainsFarMoreOfThemThanWhatIsBelieved) {
+  EXPECT_TRUE(better({700, 100, 100}, Mended(900, 300), 460));
+  EXPECT_FALSE(better({700, 100, 100}, Mended(900, 300), 470));
+}
+
+TEST(CalibrationEvidence, AFrameThatMovedTakesNoOthersCorrection) {
+  EXPECT_TRUE(better({700, 100, 100}, Mended(1190, 300)));
+  EXPECT_FALSE(better({700, 100, 100}, Mended(1210, 300)));  // 510 px more
+  EXPECT_FALSE(better({700, 100, 100}, Mended(1000, 700)));  // the same as the first
+}
+
 TEST(CalibrationEvidence, TakesNoMoreOnceItIsClosed) {
   CalibrationEvidence told;
   told.close();
   told.add(std::make_shared<Witness>(1000, 1000, 0));
-  EXPECT_FALSE(told.stands_in(kFrame));
+  EXPECT_FALSE(told.judge(kFrame).stands);
 }
 
 PlateScene two_plates(double aside_m) {
@@ -171,14 +222,33 @@ TEST(CalibrationEvidence, FramesLearnFromOthers) {
   told = {};
   for (const double aside_m : {0.1, -0.1}) static_cast<void>(of(aside_m, scene.truth()));
   const LabelledDepth later = label_surfaces(seen(scene, off).among(told), {});
-  EXPECT_TRUE(later.is_as_believed);
+  EXPECT_TRUE(later.is_known);
   EXPECT_EQ(later.alignment.translation, Eigen::Vector3f(0, 0, 0));
   EXPECT_NE(of(0, off).points.size(), alone);
-  EXPECT_FALSE(label_surfaces(seen(scene, off), {}).is_as_believed);
+  EXPECT_FALSE(label_surfaces(seen(scene, off), {}).is_known);
 
   told = {};
   for (const double aside_m : {0.1, -0.1}) static_cast<void>(of(aside_m, off));
-  EXPECT_FALSE(label_surfaces(seen(scene, off).among(told), {}).is_as_believed);
+  EXPECT_FALSE(label_surfaces(seen(scene, off).among(told), {}).is_known);
+}
+
+/// A frame whose own fit errs by 11 px takes the correction that the others agree on, with its
+/// masks' size fitted anew.
+TEST(CalibrationEvidence, AFrameThatErrsTakesTheOthersCorrection) {
+  const PlateScene scene = two_plates(0);
+  const PlateScene moved({{-0.54, -0.04, -0.4, 0.3, 1.4, 1}, {0.29, 0.79, -0.3, 0.4, 2.0, 2}});
+  const Calibration off = scene.misregistered({0, 0.05, 0}, {0, 0, 0});
+  CalibrationEvidence told;
+  for (const double aside_m : {0.1, -0.1, 0.2})
+    told.add(fitted(seen(two_plates(aside_m), off), EdgeAligned()));
+  const Sight errs(off, moved.depth(), scene.detections());
+  const LabelledDepth alone = label_surfaces(errs, {}),
+                      among = label_surfaces(errs.among(told), {});
+  EXPECT_FALSE(alone.is_known);
+  ASSERT_TRUE(among.is_known);
+  const Eigen::Vector3f mend = among.alignment.translation;
+  EXPECT_NEAR(mend.y() + among.alignment.rotation(1, 2) * 1.7F, -0.05, 0.015);
+  EXPECT_GT((mend - alone.alignment.translation).norm(), 0.01);
 }
 
 TEST(CalibrationEvidence, IsNoneWhereTheCalibrationIsKnown) {
@@ -186,7 +256,7 @@ TEST(CalibrationEvidence, IsNoneWhereTheCalibrationIsKnown) {
   const EdgeAligned known{.fit = OutlineFit::masks};
   const LabelledDepth labelled = label_surfaces(seen(scene, scene.truth()), known);
   EXPECT_FALSE(labelled.fit);
-  EXPECT_TRUE(labelled.is_as_believed);
+  EXPECT_TRUE(labelled.is_known);
   EXPECT_FALSE(fitted(seen(scene, scene.truth()), known));
 }
 

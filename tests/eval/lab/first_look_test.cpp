@@ -67,7 +67,7 @@ TEST(FirstLook, EndsAfter64FramesThatShowNothingAndTakesNoMore) {
       });
   EXPECT_EQ(asked, 64);
   told.add(fitted(Sight(kScene.truth(), kScene.depth(), kScene.detections()), EdgeAligned()));
-  EXPECT_FALSE(label_surfaces(first_sight().among(told), {}).is_as_believed);
+  EXPECT_FALSE(label_surfaces(first_sight().among(told), {}).is_known);
 }
 
 TEST(FirstLook, IsNoneWhereFramesThatAreLeftOutAreToChangeNothing) {
@@ -76,7 +76,7 @@ TEST(FirstLook, IsNoneWhereFramesThatAreLeftOutAreToChangeNothing) {
   CalibrationEvidence told = frames.look(EdgeAligned());
   EXPECT_TRUE(frames.asked.empty());
   told.add(fitted(Sight(kScene.truth(), kScene.depth(), kScene.detections()), EdgeAligned()));
-  EXPECT_TRUE(label_surfaces(first_sight().among(told), {}).is_as_believed);
+  EXPECT_TRUE(label_surfaces(first_sight().among(told), {}).is_known);
 }
 
 TEST(FirstLook, ReadsNothingWhereTheCalibrationIsTakenAsItIs) {
@@ -87,9 +87,9 @@ TEST(FirstLook, ReadsNothingWhereTheCalibrationIsTakenAsItIs) {
 }
 
 TEST(FirstLook, TellsTheFirstFrameOfAMapThatTheCalibrationStands) {
-  EXPECT_FALSE(label_surfaces(first_sight(), {}).is_as_believed);
+  EXPECT_FALSE(label_surfaces(first_sight(), {}).is_known);
   Frames frames;
-  EXPECT_TRUE(label_surfaces(first_sight().among(frames.look(EdgeAligned())), {}).is_as_believed);
+  EXPECT_TRUE(label_surfaces(first_sight().among(frames.look(EdgeAligned())), {}).is_known);
 }
 
 /// The first sight and three frames that show that the calibration stands.
