@@ -12,8 +12,9 @@ namespace {
 constexpr double kLeastOfOthers_px = 100;  // of outline that corrections explain in other frames
 constexpr double kStands = 0.6;            // of that, what is explained without them,
 constexpr double kAsMuch = 0.95;           // and of what the frame's own correction explains there
-constexpr double kShared = 0.5;            // of that, what a correction explains that serves all,
-constexpr double kFarMore = 1.5;           // and over what is explained otherwise
+constexpr double kServes = 0.5;            // of that, what a correction explains that serves all,
+constexpr double kFarMore = 2.0;           // over what is explained without it,
+constexpr double kMore = 1.2;              // and over what the frame's own correction explains
 constexpr double kLeastOfMended = 0.15;    // of what a frame's own correction explains in itself,
 constexpr double kMostGain_px = 500;       // and outline that it explains beyond: then it moved
 
@@ -29,65 +30,68 @@ bool may_serve(const FittedFrame& frame, double explained_px) {
          frame.mended_px() - explained_px < kMostGain_px;
 }
 
+/// What a correction explains of another frame: no more than that one's own does.
+double part_px(const FittedFrame& of, const FittedFrame& correction) {
+  return std::min(of.explained_px(correction), of.mended_px());
+}
+
 }  // namespace
 
-void CalibrationEvidence::Kept::try_on(const FittedFrame& other) {
-  if (is_same(*frame, other)) return;
-  others_px += other.mended_px();
-  explained_px += std::min(other.explained_px(*frame), other.mended_px());
-}
-
-void CalibrationEvidence::keep(std::shared_ptr<const FittedFrame> frame) {
-  Kept kept{std::move(frame)};
-  for (Kept& other : frames_) {
-    kept.try_on(*other.frame);
-    other.try_on(*kept.frame);
-  }
-  frames_.push_back(std::move(kept));
-}
-
 void CalibrationEvidence::add(std::shared_ptr<const FittedFrame> frame) {
-  if (is_closed_ || !frame) return;
-  if (added_++ % step_ == 0) keep(std::move(frame));
-  if (frames_.size() <= kMostFrames) return;
-  const std::vector<Kept> all = std::exchange(frames_, {});
-  for (std::size_t n = 0; n < all.size(); n += 2) keep(all[n].frame);
-  step_ *= 2;
+  if (is_closed_ || !frame || added_++ % step_ != 0) return;
+  frames_.push_back({std::move(frame)});
+  if (frames_.size() > kMostFrames) {
+    for (std::size_t n = 0; 2 * n < frames_.size(); ++n) frames_[n] = frames_[2 * n];
+    frames_.resize((frames_.size() + 1) / 2);
+    step_ *= 2;
+  }
+  agree();
 }
 
-CalibrationEvidence::Others CalibrationEvidence::others_of(const FittedFrame& frame) const {
-  Others others;
-  for (const Kept& kept : frames_) {
-    const FittedFrame& other = *kept.frame;
-    if (is_same(other, frame)) continue;
-    others.mended_px += other.mended_px();
-    others.believed_px += std::min(other.believed_px(), other.mended_px());
-    others.by_this_px += std::min(other.explained_px(frame), other.mended_px());
-  }
-  return others;
+/// Takes the correction that explains most of all frames, refined on all.
+void CalibrationEvidence::agree() {
+  std::vector<std::shared_ptr<const FittedFrame>> all;
+  for (const Kept& kept : frames_) all.push_back(kept.frame);
+  double most = 0;  // share of the outlines of frames but its own
+  const auto is_best = [&](const FittedFrame& correction) {
+    double others_px = 0, explained_px = 0;
+    for (const auto& frame : all) {
+      if (is_same(*frame, correction)) continue;
+      others_px += frame->mended_px();
+      explained_px += part_px(*frame, correction);
+    }
+    const double share = others_px > 0 ? explained_px / others_px : 0;
+    return share > most ? (most = share, true) : false;
+  };
+  agreed_ = nullptr;
+  for (const auto& frame : all)
+    if (is_best(*frame)) agreed_ = frame;
+  const auto refined = agreed_ ? agreed_->refined_on(all) : nullptr;
+  if (refined && is_best(*refined)) agreed_ = refined;
+  for (Kept& kept : frames_) kept.by_agreed_px = agreed_ ? part_px(*kept.frame, *agreed_) : 0;
 }
 
 FrameVerdict CalibrationEvidence::judge(const FittedFrame& frame) const {
-  const Others others = others_of(frame);
-  if (others.mended_px < kLeastOfOthers_px) return {};
-  if (may_serve(frame, frame.believed_px()) && others.believed_px >= kStands * others.mended_px &&
-      others.believed_px >= kAsMuch * others.by_this_px)
-    return {.stands = true};
-  return {.better = better_for(frame, others)};
-}
-
-/// The correction that explains most of all others, if it explains half of them, far more than what
-/// is believed and than the frame's own does, and enough of the frame.
-std::shared_ptr<const FittedFrame> CalibrationEvidence::better_for(const FittedFrame& frame,
-                                                                   const Others& others) const {
-  const auto best = std::ranges::max_element(frames_, {}, &Kept::share);
-  const double explained_px = best->share() * others.mended_px;
-  const bool serves = best->share() >= kShared && explained_px > kFarMore * others.by_this_px &&
-                      explained_px > kFarMore * others.believed_px;
-  if (!serves || is_same(*best->frame, frame) ||
-      !may_serve(frame, frame.explained_px(*best->frame)))
-    return nullptr;
-  return best->frame;
+  double mended_px = 0, believed_px = 0, agreed_px = 0, by_this_px = 0;
+  const auto for_others = [&](auto&& use) {
+    for (const Kept& kept : frames_)
+      if (!is_same(*kept.frame, frame)) use(kept);
+  };
+  for_others([&](const Kept& other) {
+    mended_px += other.frame->mended_px();
+    believed_px += std::min(other.frame->believed_px(), other.frame->mended_px());
+    agreed_px += other.by_agreed_px;
+  });
+  if (mended_px < kLeastOfOthers_px) return {};
+  const bool may_stand =
+      believed_px >= kStands * mended_px && may_serve(frame, frame.believed_px());
+  const bool may_agree = agreed_px >= kServes * mended_px && agreed_px > kFarMore * believed_px &&
+                         may_serve(frame, frame.explained_px(*agreed_));
+  if (!may_stand && !may_agree) return {};
+  for_others([&](const Kept& other) { by_this_px += part_px(*other.frame, frame); });
+  if (may_stand && believed_px >= kAsMuch * by_this_px) return {.stands = true};
+  if (may_agree && agreed_px > kMore * by_this_px) return {.agreed = agreed_};
+  return {};
 }
 
 }  // namespace mapscore

@@ -27,6 +27,12 @@ class FittedFrame {
   /// With the correction of another frame, and with that one's size of masks, px; 0 if another
   /// method fitted it. Both must believe the same calibration.
   [[nodiscard]] virtual double explained_px(const FittedFrame& other) const = 0;
+  /// This frame with its correction refined on all of these together; none where that cannot be
+  /// done. All must believe the same calibration.
+  [[nodiscard]] virtual std::shared_ptr<const FittedFrame> refined_on(
+      const std::vector<std::shared_ptr<const FittedFrame>>& /*frames*/) const {
+    return nullptr;
+  }
 
  private:
   double mended_px_, believed_px_;
@@ -35,7 +41,7 @@ class FittedFrame {
 /// Which correction of the believed calibration a frame takes: its own, unless one of these.
 struct FrameVerdict {
   bool stands = false;                             ///< none: the calibration is as believed
-  std::shared_ptr<const FittedFrame> better = {};  ///< that of this other frame
+  std::shared_ptr<const FittedFrame> agreed = {};  ///< that of this one, which serves all frames
 };
 
 /// Frames that tell each other whether the believed calibration stands, and what it is where it
@@ -56,28 +62,16 @@ class CalibrationEvidence {
   [[nodiscard]] FrameVerdict judge(const FittedFrame& frame) const;
 
  private:
-  /// A frame, and what its correction explains of the others.
+  /// A frame, and what the correction that serves all explains of it.
   struct Kept {
     std::shared_ptr<const FittedFrame> frame;
-    double others_px = 0;     ///< what their own corrections explain
-    double explained_px = 0;  ///< and this one's
-
-    void try_on(const FittedFrame& other);
-    [[nodiscard]] double share() const { return others_px > 0 ? explained_px / others_px : 0; }
+    double by_agreed_px = 0;
   };
 
-  /// The outlines of the frames but one: what their own corrections explain, what is explained as
-  /// believed, and by that one's correction. In none does one count for more than its own.
-  struct Others {
-    double mended_px = 0, believed_px = 0, by_this_px = 0;
-  };
-
-  void keep(std::shared_ptr<const FittedFrame> frame);
-  [[nodiscard]] Others others_of(const FittedFrame& frame) const;
-  [[nodiscard]] std::shared_ptr<const FittedFrame> better_for(const FittedFrame& frame,
-                                                              const Others& others) const;
+  void agree();
 
   std::vector<Kept> frames_;
+  std::shared_ptr<const FittedFrame> agreed_;
   std::size_t added_ = 0, step_ = 1;  ///< every so-manieth is kept
   bool is_closed_ = false;
 };

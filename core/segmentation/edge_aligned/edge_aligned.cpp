@@ -78,10 +78,10 @@ LabelledDepth label_surfaces(const Sight& sight, const EdgeAligned& params) {
     labelled.fit = fits.frame;
     const FrameVerdict verdict = fits.frame ? sight.told().judge(*fits.frame) : FrameVerdict();
     if (verdict.stands) labelled.alignment = fits.believed;
-    if (verdict.better)
+    if (verdict.agreed)
       labelled.alignment =
-          with_size_fitted(correction_of(*verdict.better).value(), edges, field, believed);
-    labelled.is_known = verdict.stands || verdict.better;
+          with_size_fitted(correction_of(*verdict.agreed).value(), edges, field, believed);
+    labelled.is_known = verdict.stands || verdict.agreed;
     labelled.confidence = confidence_of(labelled.alignment, field.length_px);
   }
   const OutlineShifts shifts =

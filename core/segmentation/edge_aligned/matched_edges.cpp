@@ -3,9 +3,12 @@
 
 #include "core/segmentation/edge_aligned/matched_edges.hpp"
 
+#include "core/geometry/pose.hpp"
 #include "core/wide_vectors.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace mapscore {
@@ -224,6 +227,33 @@ NormalEquations add_up(const MatchedEdges& edges, const Projection& project, flo
       all(i, j) = all(j, i) = std::accumulate(*sum, *sum + kLanes, 0.0F);
   return {all.topLeftCorner<kParameters, kParameters>(), -all.col(kParameters).head<kParameters>(),
           all(kParameters + 1, kParameters + 1), all(kParameters, kParameters)};
+}
+
+Parameters parameters_of(const OutlineAlignment& a, float focal_px) {
+  const Eigen::Matrix3f& R = a.rotation;
+  const Eigen::Vector3f turn =
+      0.5F * Eigen::Vector3f(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+  Parameters all;
+  all << focal_px * turn, focal_px * std::log(a.focal), a.translation.head<2>(), a.offset_px;
+  return all;
+}
+
+Parameters solved(Eigen::Matrix<float, kParameters, kParameters> H, Parameters b,
+                  const Parameters& free) {
+  H = free.asDiagonal() * H * free.asDiagonal();
+  H.diagonal() += Parameters::Ones() - free;
+  b = b.cwiseProduct(free);
+  return H.ldlt().solve(b);
+}
+
+OutlineAlignment stepped(OutlineAlignment a, const Parameters& step, float focal_px) {
+  const Eigen::Vector3f turn = Eigen::Vector3f(step[kTurnX], step[kTurnY], step[kRoll]) / focal_px;
+  const Eigen::Matrix3f R = exp_rotation(turn.cast<double>()).cast<float>();
+  a.rotation = R * a.rotation;
+  a.translation = R * a.translation + Eigen::Vector3f(step[kShiftX], step[kShiftY], 0);
+  a.focal = std::clamp(a.focal * std::exp(step[kFocal] / focal_px), 0.5F, 2.0F);
+  a.offset_px = std::clamp(a.offset_px + step[kOffset], -6.0F, 6.0F);
+  return a;
 }
 
 }  // namespace mapscore

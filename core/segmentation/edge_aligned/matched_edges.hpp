@@ -126,4 +126,14 @@ struct NormalEquations {
 [[nodiscard]] NormalEquations add_up(const MatchedEdges& edges, const Projection& project,
                                      float focal_px);
 
+/// A correction as parameters, of small turns.
+[[nodiscard]] Parameters parameters_of(const OutlineAlignment& a, float focal_px);
+
+/// The step that solves H step = b for the parameters that are free (1, others 0).
+[[nodiscard]] Parameters solved(Eigen::Matrix<float, kParameters, kParameters> H, Parameters b,
+                                const Parameters& free);
+
+/// A correction after a step.
+[[nodiscard]] OutlineAlignment stepped(OutlineAlignment a, const Parameters& step, float focal_px);
+
 }  // namespace mapscore

@@ -3,12 +3,10 @@
 
 #include "core/segmentation/edge_aligned/outline_alignment.hpp"
 
-#include "core/geometry/pose.hpp"
 #include "core/segmentation/edge_aligned/alignment_starts.hpp"
 #include "core/segmentation/edge_aligned/edge_matching.hpp"
 #include "core/segmentation/edge_aligned/matched_edges.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -35,10 +33,14 @@ constexpr float kLeastLever_px = 40.0F;  // for roll and focal length to be fitt
 constexpr float kSetIn_px = 1.0F;
 constexpr float kSetInGain_px = 100;  // of outline, that show such a fit,
 constexpr float kSetInShare = 0.2F;   // unless what is believed explains no more than this part
-constexpr float kPrior = 3.0F;
+constexpr float kPrior = 3.0F, kDamping = 0.03F;  // of a frame's fit, of one by all frames
 constexpr float kLeastPrior = 0.01F;  // of it, where exact edges say nothing of a correction
+/// How firmly corrections are held: turns, roll, focal length and masks' size, 1/px^2; shifts,
+/// 1/m^2.
+const Parameters kFirmness =
+    Parameters{{20.0F, 20.0F, 60.0F, 20.0F, 0.03F, 0.03F, 4.0F}}.array().square().inverse();
 
-/// What is kept of a frame to try corrections on it.
+/// What is kept of a frame to try corrections on it, and its own.
 class KeptOutlines final : public FittedFrame {
  public:
   KeptOutlines(const OutlineField& field, EdgeColumns edges, const Projection& project,
@@ -53,13 +55,42 @@ class KeptOutlines final : public FittedFrame {
 
   [[nodiscard]] double explained_px(const FittedFrame& other) const override {
     const std::optional<OutlineAlignment> correction = correction_of(other);
-    if (!correction) return 0;
-    return static_cast<double>(
-        ExplainedOutlines(field_, edges_, project_).px(*correction, kScored_px));
+    return correction ? static_cast<double>(explained_px(*correction)) : 0;
   }
+
+  /// Gauss-Newton over the outlines of all frames, with one size of masks; the focal length stays.
+  [[nodiscard]] std::shared_ptr<const FittedFrame> refined_on(
+      const std::vector<std::shared_ptr<const FittedFrame>>& frames) const override {
+    const Parameters free = Parameters::Ones() - Parameters::Unit(kFocal);
+    OutlineAlignment a = mended_;
+    for (const float sigma : {3.0F, 2.0F, 2.0F, 2.0F, 2.0F, 1.2F, 1.2F, 1.2F, 1.2F}) {
+      const Projection project = project_.scaled(a.focal);
+      NormalEquations all{decltype(all.H)::Zero(), Parameters::Zero()};
+      for (const auto& frame : frames) {
+        const auto* kept = dynamic_cast<const KeptOutlines*>(frame.get());
+        if (kept == nullptr) return nullptr;
+        MatchedEdges matched(kept->field_);
+        matched.match(kept->edges_, a, project, sigma);
+        const NormalEquations sums = add_up(matched, project, project_.fx);
+        const float scale = static_cast<float>(kept->edges_.stride);
+        all.H += scale * sums.H, all.b += scale * sums.b, all.matched += scale * sums.matched;
+      }
+      all.H.diagonal() += kDamping * (all.matched + kLeastLength_px) * kFirmness;
+      const Parameters step = solved(all.H, all.b, free);
+      if (!step.allFinite()) return nullptr;
+      a = stepped(a, step, project_.fx);
+    }
+    const float px = explained_px(a);
+    return std::make_shared<const KeptOutlines>(field_, edges_, project_, a, px, px);
+  }
+
   [[nodiscard]] const OutlineAlignment& mended() const { return mended_; }
 
  private:
+  [[nodiscard]] float explained_px(const OutlineAlignment& a) const {
+    return ExplainedOutlines(field_, edges_, project_).px(a, kScored_px);
+  }
+
   OutlineField field_;
   EdgeColumns edges_;
   Projection project_;
@@ -112,7 +143,7 @@ class Aligner {
     float most = -1e9F;
     std::vector<std::pair<Family, Parameters>> met;
     const auto is_new = [&](const AlignmentStart& start, Family family) {
-      const Parameters at = parameters_of(start);
+      const Parameters at = parameters_of(start, project_.fx);
       for (const auto& [other, place] : met)
         if (other == family && are_same(at, place, kOne_px, kOne_m)) return false;
       met.emplace_back(family, at);
@@ -196,7 +227,7 @@ class Aligner {
   /// `steps` steps or until one changes nothing to speak of.
   void refine(OutlineAlignment& a, float sigma, int steps, const EdgeColumns& edges,
               const Parameters& free) {
-    for (int step = 0; step < steps; ++step) {
+    for (int n = 0; n < steps; ++n) {
       const Projection project = project_.scaled(a.focal);
       matched_.match(edges, a, project, sigma);
       const auto [H_sum, b_sum, matched, squares] = add_up(matched_, project, project_.fx);
@@ -204,10 +235,8 @@ class Aligner {
       const float share = scale * matched / static_cast<float>(field_.length_px);
       Parameters b = scale * b_sum;
       Eigen::Matrix<float, kParameters, kParameters> H = scale * H_sum;
-      const Parameters now = parameters_of(a);
-      Parameters prior;
-      prior << 1 / square(20.0F), 1 / square(20.0F), 1 / square(60.0F), 1 / square(20.0F),
-          1 / square(0.03F), 1 / square(0.03F), 1 / square(4.0F);
+      const Parameters now = parameters_of(a, project_.fx);
+      Parameters prior = kFirmness;
       prior[kOffset] *= CorrectionCost::unexplained(share);
       // Outlines that scatter about the edges, as ragged masks do, measure less than sharp ones.
       const float scatter = matched > 0 ? squares / (matched * square(sigma)) : 1.0F;
@@ -215,28 +244,11 @@ class Aligner {
           kPrior * (square(scatter) + kLeastPrior) * (scale * matched + CorrectionCost::kShort_px);
       H.diagonal() += prior;
       b -= prior.cwiseProduct(now);
-      H = free.asDiagonal() * H * free.asDiagonal();
-      H.diagonal() += Parameters::Ones() - free;
-      b = b.cwiseProduct(free);
-      Parameters change = H.ldlt().solve(b);
-      if (!change.allFinite()) return;
-      const Eigen::Vector3f turn =
-          Eigen::Vector3f(change[kTurnX], change[kTurnY], change[kRoll]) / project_.fx;
-      const Eigen::Matrix3f R = exp_rotation(turn.cast<double>()).cast<float>();
-      a.rotation = R * a.rotation;
-      a.translation = R * a.translation + Eigen::Vector3f(change[kShiftX], change[kShiftY], 0);
-      a.focal = std::clamp(a.focal * std::exp(change[kFocal] / project_.fx), 0.5F, 2.0F);
-      a.offset_px = std::clamp(a.offset_px + change[kOffset], -6.0F, 6.0F);
-      if (are_same(change, Parameters::Zero(), kStep_px, kStep_m)) return;
+      const Parameters step = solved(H, b, free);
+      if (!step.allFinite()) return;
+      a = stepped(a, step, project_.fx);
+      if (are_same(step, Parameters::Zero(), kStep_px, kStep_m)) return;
     }
-  }
-
-  [[nodiscard]] Parameters parameters_of(const OutlineAlignment& a) const {
-    const Eigen::Vector3f turn = rotation_vector(a.rotation);
-    Parameters all;
-    all << project_.fx * turn, project_.fx * std::log(a.focal), a.translation.head<2>(),
-        a.offset_px;
-    return all;
   }
 
   [[nodiscard]] static bool are_same(const Parameters& a, const Parameters& b, float within_px,
@@ -247,9 +259,6 @@ class Aligner {
   }
 
   static float square(float x) { return x * x; }
-  static Eigen::Vector3f rotation_vector(const Eigen::Matrix3f& R) {
-    return 0.5F * Eigen::Vector3f(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
-  }
 
   const OutlineField& field_;
   Projection project_;

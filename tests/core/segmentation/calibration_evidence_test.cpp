@@ -114,46 +114,66 @@ class Mended : public FittedFrame {
   [[nodiscard]] double explained_px(const FittedFrame& other) const override {
     return static_cast<const Mended&>(other).explains_px_;
   }
+  [[nodiscard]] std::shared_ptr<const FittedFrame> refined_on(
+      const std::vector<std::shared_ptr<const FittedFrame>>& frames) const override {
+    return refined && frames.size() == 3 ? refined : nullptr;
+  }
+  std::shared_ptr<const FittedFrame> refined = {};
 
  private:
   double explains_px_;
 };
 
 /// Whose correction a frame takes, of frames that corrections explain by 1000, 1001, ... px.
-std::shared_ptr<const FittedFrame> better(const std::vector<double>& explain_px,
-                                          const Mended& frame, double believed_px = 10) {
+std::shared_ptr<const FittedFrame> agreed_by(const std::vector<double>& explain_px,
+                                             const Mended& frame, double believed_px = 10) {
   CalibrationEvidence told;
   for (std::size_t n = 0; n < explain_px.size(); ++n)
     told.add(std::make_shared<Mended>(1000 + static_cast<double>(n), explain_px[n], believed_px));
   EXPECT_FALSE(told.judge(frame).stands);
-  return told.judge(frame).better;
+  return told.judge(frame).agreed;
 }
 
 TEST(CalibrationEvidence, AFrameTakesTheCorrectionThatExplainsMostOfTheOthers) {
   const Mended frame(900, 300);
-  const auto best = better({200, 700, 600}, frame);
+  const auto best = agreed_by({200, 700, 600}, frame);
   ASSERT_TRUE(best);
   EXPECT_EQ(best->mended_px(), 1001);
-  EXPECT_FALSE(better({}, frame));
-  EXPECT_FALSE(better({700}, frame));  // of no other
+  EXPECT_FALSE(agreed_by({}, frame));
+  EXPECT_FALSE(agreed_by({700}, frame));  // of no other
 }
 
-TEST(CalibrationEvidence, ACorrectionThatServesAllExplainsHalfOfThemAndFarMoreThanTheFramesOwn) {
-  EXPECT_TRUE(better({505, 100, 100}, Mended(900, 300)));
-  EXPECT_FALSE(better({495, 100, 100}, Mended(900, 300)));
-  EXPECT_TRUE(better({700, 100, 100}, Mended(900, 460)));
-  EXPECT_FALSE(better({700, 100, 100}, Mended(900, 470)));  // times 1.5 they are 705
+TEST(CalibrationEvidence, ACorrectionThatServesAllExplainsHalfOfThemAndMoreThanTheFramesOwn) {
+  EXPECT_TRUE(agreed_by({510, 100, 100}, Mended(900, 300)));
+  EXPECT_FALSE(agreed_by({490, 100, 100}, Mended(900, 300)));
+  EXPECT_TRUE(agreed_by({700, 100, 100}, Mended(900, 580)));
+  EXPECT_FALSE(agreed_by({700, 100, 100}, Mended(900, 590)));
 }
 
-TEST(CalibrationEvidence, ACorrectionThatServesAllExplainsFarMoreOfThemThanWhatIsBelieved) {
-  EXPECT_TRUE(better({700, 100, 100}, Mended(900, 300), 460));
-  EXPECT_FALSE(better({700, 100, 100}, Mended(900, 300), 470));
+TEST(CalibrationEvidence, ACorrectionThatServesAllExplainsTwiceWhatIsBelieved) {
+  EXPECT_TRUE(agreed_by({700, 100, 100}, Mended(900, 300), 340));
+  EXPECT_FALSE(agreed_by({700, 100, 100}, Mended(900, 300), 360));
+}
+
+TEST(CalibrationEvidence, ACorrectionThatServesAllIsRefinedOnAllUnlessThatExplainsLess) {
+  for (const double explains_px : {690.0, 710.0}) {
+    CalibrationEvidence told;
+    const auto refined = std::make_shared<Mended>(50, explains_px);
+    for (const double by_px : {200, 700, 600}) {
+      const auto frame = std::make_shared<Mended>(1000 + by_px / 100, by_px);
+      frame->refined = by_px == 700 ? refined : nullptr;
+      told.add(frame);
+    }
+    const auto agreed = told.judge(Mended(900, 300)).agreed;
+    ASSERT_TRUE(agreed);
+    EXPECT_EQ(agreed->mended_px(), explains_px > 700 ? 50 : 1007);
+  }
 }
 
 TEST(CalibrationEvidence, AFrameThatMovedTakesNoOthersCorrection) {
-  EXPECT_TRUE(better({700, 100, 100}, Mended(1190, 300)));
-  EXPECT_FALSE(better({700, 100, 100}, Mended(1210, 300)));  // 510 px more
-  EXPECT_FALSE(better({700, 100, 100}, Mended(1000, 700)));  // the same as the first
+  EXPECT_TRUE(agreed_by({700, 100, 100}, Mended(1190, 300)));
+  EXPECT_FALSE(agreed_by({700, 100, 100}, Mended(1210, 300)));  // 510 px more
+  EXPECT_FALSE(agreed_by({700, 100, 100}, Mended(1000, 700)));  // its own explains as much
 }
 
 TEST(CalibrationEvidence, TakesNoMoreOnceItIsClosed) {
