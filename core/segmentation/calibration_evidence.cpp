@@ -13,7 +13,7 @@ constexpr double kLeastOfOthers_px = 100;  // of outline that corrections explai
 constexpr double kStands = 0.6;            // of that, what is explained without them,
 constexpr double kAsMuch = 0.95;           // and of what the frame's own correction explains there
 constexpr double kServes = 0.5;            // of that, what a correction explains that serves all,
-constexpr double kFarMore = 2.0;           // over what is explained without it,
+constexpr double kFarMore = 1.5;           // before it is refined, over what is explained without,
 constexpr double kMore = 1.2;              // and over what the frame's own correction explains
 constexpr double kLeastOfMended = 0.15;    // of what a frame's own correction explains in itself,
 constexpr double kMostGain_px = 500;       // and outline that it explains beyond: then it moved
@@ -52,7 +52,7 @@ void CalibrationEvidence::add(std::shared_ptr<const FittedFrame> frame) {
 void CalibrationEvidence::agree() {
   std::vector<std::shared_ptr<const FittedFrame>> all;
   for (const Kept& kept : frames_) all.push_back(kept.frame);
-  double most = 0;  // share of the outlines of frames but its own
+  double most = 0;
   const auto is_best = [&](const FittedFrame& correction) {
     double others_px = 0, explained_px = 0;
     for (const auto& frame : all) {
@@ -66,6 +66,7 @@ void CalibrationEvidence::agree() {
   agreed_ = nullptr;
   for (const auto& frame : all)
     if (is_best(*frame)) agreed_ = frame;
+  served_ = most;
   const auto refined = agreed_ ? agreed_->refined_on(all) : nullptr;
   if (refined && is_best(*refined)) agreed_ = refined;
   for (Kept& kept : frames_) kept.by_agreed_px = agreed_ ? part_px(*kept.frame, *agreed_) : 0;
@@ -85,7 +86,8 @@ FrameVerdict CalibrationEvidence::judge(const FittedFrame& frame) const {
   if (mended_px < kLeastOfOthers_px) return {};
   const bool may_stand =
       believed_px >= kStands * mended_px && may_serve(frame, frame.believed_px());
-  const bool may_agree = agreed_px >= kServes * mended_px && agreed_px > kFarMore * believed_px &&
+  const bool may_agree = agreed_px >= kServes * mended_px &&
+                         served_ * mended_px > kFarMore * believed_px &&
                          may_serve(frame, frame.explained_px(*agreed_));
   if (!may_stand && !may_agree) return {};
   for_others([&](const Kept& other) { by_this_px += part_px(*other.frame, frame); });

@@ -71,7 +71,8 @@ class CalibrationEvidence {
   void agree();
 
   std::vector<Kept> frames_;
-  std::shared_ptr<const FittedFrame> agreed_;
+  std::shared_ptr<const FittedFrame> agreed_;  ///< with the correction that serves all
+  double served_ = 0;  ///< share of the others' outlines that it explained before it was refined
   std::size_t added_ = 0, step_ = 1;  ///< every so-manieth is kept
   bool is_closed_ = false;
 };

@@ -150,9 +150,9 @@ TEST(CalibrationEvidence, ACorrectionThatServesAllExplainsHalfOfThemAndMoreThanT
   EXPECT_FALSE(agreed_by({700, 100, 100}, Mended(900, 590)));
 }
 
-TEST(CalibrationEvidence, ACorrectionThatServesAllExplainsTwiceWhatIsBelieved) {
-  EXPECT_TRUE(agreed_by({700, 100, 100}, Mended(900, 300), 340));
-  EXPECT_FALSE(agreed_by({700, 100, 100}, Mended(900, 300), 360));
+TEST(CalibrationEvidence, ACorrectionThatServesAllExplainsHalfAsMuchAgainAsWhatIsBelieved) {
+  EXPECT_TRUE(agreed_by({700, 100, 100}, Mended(900, 300), 460));
+  EXPECT_FALSE(agreed_by({700, 100, 100}, Mended(900, 300), 475));
 }
 
 TEST(CalibrationEvidence, ACorrectionThatServesAllIsRefinedOnAllUnlessThatExplainsLess) {
@@ -167,6 +167,18 @@ TEST(CalibrationEvidence, ACorrectionThatServesAllIsRefinedOnAllUnlessThatExplai
     const auto agreed = told.judge(Mended(900, 300)).agreed;
     ASSERT_TRUE(agreed);
     EXPECT_EQ(agreed->mended_px(), explains_px > 700 ? 50 : 1007);
+  }
+}
+
+TEST(CalibrationEvidence, WhatIsBelievedIsHeldAgainstACorrectionAsItWasBeforeItWasRefined) {
+  for (const double believed_px : {460.0, 475.0}) {
+    CalibrationEvidence told;
+    for (const double by_px : {200, 700, 600}) {
+      const auto frame = std::make_shared<Mended>(1000 + by_px / 100, by_px, believed_px);
+      frame->refined = std::make_shared<Mended>(50, 990);
+      told.add(frame);
+    }
+    EXPECT_EQ(told.judge(Mended(900, 300)).agreed != nullptr, believed_px < 470);
   }
 }
 
