@@ -3,12 +3,14 @@
 
 #include "core/segmentation/calibration_evidence.hpp"
 
+#include "core/segmentation/edge_aligned/outline_alignment.hpp"
 #include "core/segmentation/edge_aligned/outline_field.hpp"
 #include "core/segmentation/segmentation.hpp"
 #include "tests/core/segmentation/edge_aligned/plate_scene.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace mapscore {
@@ -281,6 +283,31 @@ TEST(CalibrationEvidence, AFrameThatErrsTakesTheOthersCorrection) {
   const Eigen::Vector3f mend = among.alignment.translation;
   EXPECT_NEAR(mend.y() + among.alignment.rotation(1, 2) * 1.7F, -0.05, 0.015);
   EXPECT_GT((mend - alone.alignment.translation).norm(), 0.01);
+}
+
+/// How far a correction leaves a point at `z` m from where a shift of 5 cm downwards would be
+/// undone, px at 500 px of focal length.
+double left_px(const FittedFrame& frame, float z) {
+  const OutlineAlignment mend = correction_of(frame).value();
+  const Eigen::Vector3f p = mend.rotation * Eigen::Vector3f(0, 0, z) + mend.translation;
+  return std::abs(500.0F * (p.y() / p.z() + 0.05F / z));
+}
+
+/// One plate does not tell a turn from a shift; plates at three depths together do.
+TEST(CalibrationEvidence, FramesTogetherTellATurnFromAShift) {
+  std::vector<std::shared_ptr<const FittedFrame>> frames;
+  for (const double z : {1.0, 1.6, 2.4}) {
+    const PlateScene scene({{-0.3 * z, 0.25 * z, -0.2 * z, 0.25 * z, z, 1}});
+    frames.push_back(
+        fitted(seen(scene, scene.misregistered({0, 0.05, 0}, {0, 0, 0})), EdgeAligned()));
+  }
+  ASSERT_TRUE(frames[1]);
+  const auto refined = frames[1]->refined_on(frames);
+  ASSERT_TRUE(refined);
+  EXPECT_GT(left_px(*frames[1], 1.0F), 2);
+  for (const float z : {1.0F, 1.6F, 2.4F}) EXPECT_LT(left_px(*refined, z), 1) << z;
+  frames.push_back(std::make_shared<Witness>(1000, 1000, 0));
+  EXPECT_FALSE(frames[1]->refined_on(frames));  // another method's frame
 }
 
 TEST(CalibrationEvidence, IsNoneWhereTheCalibrationIsKnown) {
