@@ -35,6 +35,18 @@ double part_px(const FittedFrame& of, const FittedFrame& correction) {
   return std::min(of.explained_px(correction), of.mended_px());
 }
 
+/// The same of all frames but its own, as a share of what their own corrections explain.
+double share_of_others(const std::vector<std::shared_ptr<const FittedFrame>>& all,
+                       const FittedFrame& correction) {
+  double others_px = 0, explained_px = 0;
+  for (const auto& frame : all) {
+    if (is_same(*frame, correction)) continue;
+    others_px += frame->mended_px();
+    explained_px += part_px(*frame, correction);
+  }
+  return others_px > 0 ? explained_px / others_px : 0;
+}
+
 }  // namespace
 
 void CalibrationEvidence::add(std::shared_ptr<const FittedFrame> frame) {
@@ -52,23 +64,13 @@ void CalibrationEvidence::add(std::shared_ptr<const FittedFrame> frame) {
 void CalibrationEvidence::agree() {
   std::vector<std::shared_ptr<const FittedFrame>> all;
   for (const Kept& kept : frames_) all.push_back(kept.frame);
-  double most = 0;
-  const auto is_best = [&](const FittedFrame& correction) {
-    double others_px = 0, explained_px = 0;
-    for (const auto& frame : all) {
-      if (is_same(*frame, correction)) continue;
-      others_px += frame->mended_px();
-      explained_px += part_px(*frame, correction);
-    }
-    const double share = others_px > 0 ? explained_px / others_px : 0;
-    return share > most ? (most = share, true) : false;
-  };
   agreed_ = nullptr;
+  served_ = 0;
   for (const auto& frame : all)
-    if (is_best(*frame)) agreed_ = frame;
-  served_ = most;
+    if (const double share = share_of_others(all, *frame); share > served_)
+      served_ = share, agreed_ = frame;
   const auto refined = agreed_ ? agreed_->refined_on(all) : nullptr;
-  if (refined && is_best(*refined)) agreed_ = refined;
+  if (refined && share_of_others(all, *refined) > served_) agreed_ = refined;
   for (Kept& kept : frames_) kept.by_agreed_px = agreed_ ? part_px(*kept.frame, *agreed_) : 0;
 }
 
