@@ -28,9 +28,9 @@ namespace {
 
 SpecPtr parse(const std::filesystem::path& file, const char* what) {
   if (!std::filesystem::is_regular_file(file))
-    throw Error(fmt::format("{}: no such {} file in {}; check the path, the key {} of a study",
-                            file.string(), what,
-                            std::filesystem::absolute(file).parent_path().string(), what));
+    throw Error(fmt::format(
+        "{}: no such {} file in {}; check the path, the key {} of a study or --set {}=FILE",
+        file.string(), what, std::filesystem::absolute(file).parent_path().string(), what, what));
   std::array<char, 1024> reason{};
   SpecPtr spec(mj_parseXML(file.c_str(), nullptr, reason.data(), static_cast<int>(reason.size())));
   if (!spec) refuse(file, reason.data());

@@ -30,7 +30,8 @@ FRAMES = 20
 LEAST_CEILING = 0.99
 SMALL_M = 1.0  # scenes up to this size get small voxels
 HERE = os.path.dirname(os.path.abspath(__file__))
-HOME = os.path.join(HERE, "..", "..", "scenes")
+HOME = os.path.abspath(os.path.join(HERE, "..", "..", "scenes"))
+ROBOT = os.path.join(HOME, "robot.xml")  # its cameras; a package's scene has none beside it, or another robot
 
 
 @dataclass
@@ -103,7 +104,8 @@ def measure(mapscore, workshop, scene):
     with open(poses, "w", encoding="utf-8") as text:
         text.write(trajectory(centres, row.voxel_m, FRAMES))
     recording = os.path.join(folder, "recording")
-    run(mapscore, "record", file, "--trajectory", poses, "-o", recording, "-q", *classes_for(mapscore, scene, file, folder))
+    run(mapscore, "record", file, "--trajectory", poses, "-o", recording, "-q", "--set", f"robot={ROBOT}",
+        *classes_for(mapscore, scene, file, folder))
     row.frames = len(os.listdir(os.path.join(recording, "color")))
     results = os.path.join(folder, "results")
     run(mapscore, "sweep", study(file, recording, row.voxel_m, folder), "-o", results, "-q")
