@@ -122,11 +122,14 @@ class Aligner {
     fits.mended =
         fit(alignment_starts(few_, coarse_, field_, project_, cost_, search_px_, free[kRoll] > 0),
             free);
-    const bool is_one = moved_px(fits.mended) <= kOne_px;
-    fits.believed = is_one ? fits.mended : judged(as_believed());
-    if (fits.mended.score > 0)
-      fits.frame = std::make_shared<const KeptOutlines>(field_, fine_, project_, fits.mended,
-                                                        explained_.px(fits.mended, kScored_px),
+    const OutlineAlignment& all = fits.mended;
+    fits.believed = moved_px(all) > kOne_px ? judged(as_believed())
+                                            : OutlineAlignment{.offset_px = all.offset_px,
+                                                               .sharpness = all.sharpness,
+                                                               .score = all.score};
+    if (all.score > 0)
+      fits.frame = std::make_shared<const KeptOutlines>(field_, fine_, project_, all,
+                                                        explained_.px(all, kScored_px),
                                                         explained_.px(fits.believed, kScored_px));
     return fits;
   }

@@ -266,6 +266,31 @@ TEST(CalibrationEvidence, FramesLearnFromOthers) {
   EXPECT_FALSE(label_surfaces(seen(scene, off).among(told), {}).is_known);
 }
 
+/// What a fit changes of a right calibration is chance: a shift against a turn, that what lies
+/// nearer than the outlines would be moved by.
+TEST(CalibrationEvidence, ACalibrationThatStandsIsAsBelievedThoughTheFitHardlyDiffers) {
+  const auto plates = [](double aside_m) {
+    return PlateScene({{-0.75 + aside_m, -0.45 + aside_m, -0.5, -0.25, 1.6, 1},
+                       {0.2 + aside_m, 0.5 + aside_m, -0.4, -0.15, 1.2, 2},
+                       {-0.6 + aside_m, -0.2 + aside_m, 0.2, 0.6, 2.2, 3},
+                       {0.2 + aside_m, 0.5 + aside_m, 0.1, 0.4, 1.5, 4}});
+  };
+  const PlateScene scene = plates(0);
+  const Sight sight = seen(scene, scene.truth());
+  CalibrationEvidence told;
+  for (const double aside_m : {0.1, -0.1})
+    told.add(fitted(seen(plates(aside_m), scene.truth()), EdgeAligned()));
+  const LabelledDepth alone = label_surfaces(sight, {}),
+                      among = label_surfaces(sight.among(told), {});
+  EXPECT_GT(alone.alignment.translation.norm(), 0);
+  EXPECT_LT(alone.alignment.translation.norm(), 0.01);
+  EXPECT_TRUE(among.is_known);
+  EXPECT_EQ(among.alignment.translation, Eigen::Vector3f(0, 0, 0));
+  EXPECT_EQ(among.alignment.rotation, Eigen::Matrix3f(Eigen::Matrix3f::Identity()));
+  EXPECT_EQ(among.alignment.focal, 1.0F);
+  EXPECT_EQ(among.alignment.offset_px, alone.alignment.offset_px);
+}
+
 /// A frame whose own fit errs by 11 px takes the correction that the others agree on, with its
 /// masks' size fitted anew.
 TEST(CalibrationEvidence, AFrameThatErrsTakesTheOthersCorrection) {
