@@ -152,8 +152,8 @@ std::string objection(const CalibrationEstimate& estimate, const CalibratorSetti
   const Pose& rigid = estimate.correction.rigid;
   if (Eigen::AngleAxisd(rigid.linear()).angle() > kMostBeyond * settings.search_deg.rad() ||
       rigid.translation().norm() > kMostBeyond * settings.search_m)
-    return "the fit ran beyond what is searched; give a better start, or greater search_m and "
-           "search_deg";
+    return "the fit ran beyond what is searched; give a better start, find the focal length too if "
+           "it may be wrong (focal_length), or search farther (search_m, search_deg)";
   return {};
 }
 
@@ -184,7 +184,7 @@ CalibrationEstimate Calibrator::estimate() const {
   if (!any) {
     result.reason =
         "no frame has a mask near a step of depth; add frames with objects in view, and see that "
-        "depth is in the cameras' range";
+        "depth images hold depths within the cameras' range and that the start is near";
     result.frames.resize(frames_.size());
     return result;
   }

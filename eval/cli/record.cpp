@@ -30,6 +30,10 @@ void record(const RecordFlags& flags) {
                          : study_of_only_scene(load_study(flags.source, flags.overrides));
   if (study.scene && study.recording)
     throw Error("recording: `record` renders the scene anew and would not read it; leave it out");
+  if (is_scene && study.detect)
+    throw Error(
+        "detect: a recording holds all classes; name those that are detected in a study, with "
+        "`map --detect`, or in a class file (--set classes=FILE)");
   if (!flags.motion.empty()) study.motion = std::filesystem::absolute(flags.motion).string();
   if (flags.bake && has_verdict_faults(study))
     std::cerr << "record: note: wrong classes and scores are not baked: images of instance ids "

@@ -77,8 +77,7 @@ def record(mapscore, workshop, scene, seed):
     def record_into(target, chosen):
         with open(poses, "w", encoding="utf-8") as text:
             text.write("\n".join([head, *chosen]) + "\n")
-        run(mapscore, "record", file, "--trajectory", poses, "-o", target, "-q", "--set", f"robot={ROBOT}",
-            "--set", f"detect=[{','.join(detected(mapscore, file))}]")
+        run(mapscore, "record", file, "--trajectory", poses, "-o", target, "-q", "--set", f"robot={ROBOT}")
 
     shutil.rmtree(trial, ignore_errors=True)
     record_into(trial, lines)
@@ -106,7 +105,7 @@ def compare(mapscore, workshop, scene, key, doses, arguments):
         study = yaml.safe_load(text)
     del study["scenes"]
     study.update(name=scene.name, recording=record(mapscore, workshop, scene, arguments.seed), voxel_m=voxel_m(scene),
-                 sweep={key: doses}, seeds=arguments.seeds)
+                 detect=detected(mapscore, workshop.file_of(scene)), sweep={key: doses}, seeds=arguments.seeds)
     name = f"{scene.name}_{arguments.seed}_{key}"
     file = os.path.join(workshop.folder, f"{name}.yaml")
     with open(file, "w", encoding="utf-8") as text:

@@ -254,7 +254,7 @@ TEST(Calibrator, WithoutMasksTheStartIsGiven) {
   EXPECT_EQ(estimate.verdict, CalibrationVerdict::undetermined);
   EXPECT_EQ(estimate.reason,
             "no frame has a mask near a step of depth; add frames with objects in view, and see "
-            "that depth is in the cameras' range");
+            "that depth images hold depths within the cameras' range and that the start is near");
 }
 
 TEST(Calibrator, SaysWhatEachFrameContributed) {

@@ -144,6 +144,14 @@ TEST_F(ForeignScene, IsRecordedWithTheProgramsOwnRobot) {
   EXPECT_TRUE(fs::exists(folder() / "recording/color/000000.png"));
 }
 
+TEST_F(ForeignScene, ARecordingOfASceneHoldsAllClasses) {
+  write_text(folder() / "poses.txt", "0 0 0 0.5 -0.5 0.5 -0.5 0.5\n");
+  expect_refused(mapscore({"record", scene(), "--trajectory", folder() / "poses.txt", "-o",
+                           folder() / "recording", "--set", "detect=[cup]"}),
+                 {"detect", "class file"});
+  EXPECT_FALSE(fs::exists(folder() / "recording"));
+}
+
 TEST_F(ForeignScene, BadClassFilesAreRefusedInOneLine) {
   const auto refused = [&](const std::string& text, const std::vector<std::string>& parts) {
     write_text(classes(), text);
