@@ -35,8 +35,7 @@ constexpr float kSetInGain_px = 100;  // of outline, that show such a fit,
 constexpr float kSetInShare = 0.2F;   // unless what is believed explains no more than this part
 constexpr float kPrior = 3.0F, kDamping = 0.03F;  // of a frame's fit, of one by all frames
 constexpr float kLeastPrior = 0.01F;  // of it, where exact edges say nothing of a correction
-/// How firmly corrections are held: turns, roll, focal length and masks' size, 1/px^2; shifts,
-/// 1/m^2.
+/// How firmly corrections are held: shifts in 1/m^2, all others in 1/px^2.
 const Parameters kFirmness =
     Parameters{{20.0F, 20.0F, 60.0F, 20.0F, 0.03F, 0.03F, 4.0F}}.array().square().inverse();
 
