@@ -45,8 +45,9 @@ def voxel_m(scene):
 
 def detected(mapscore, file):
     """Classes of a scene but floors and walls, one for each name of bodies."""
-    listed = re.findall(r"^ *([1-9][0-9]*)  (\S+) ", run(mapscore, "info", file, "--no_picture"), re.MULTILINE)
-    return [name for _, name in listed if not BUILDING.fullmatch(name)]
+    listed = run(mapscore, "info", file, "--no_picture")  # id, class, colour, ...; names may have spaces
+    names = re.findall("^ *[1-9][0-9]*  (.+?) +[0-9A-F]{6} ", listed, re.MULTILINE)
+    return [name for name in names if not BUILDING.fullmatch(name)]
 
 
 def centres_of(mapscore, scene, file, folder):
