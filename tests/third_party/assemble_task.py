@@ -13,13 +13,6 @@ FETCH_CUBE_M = [1.32, 0.78, 0.425]  # on its table; its environment draws a plac
 TABLE_TOP_M = 0.8
 TABLE_SPACING_M, TABLE_SCATTER_M = 0.2, 0.04
 TABLE_OBJECTS = ["bottle", "can", "milk", "bread", "cereal", "lemon", "square-nut", "round-nut", "plate-with-hole"]
-FILES = {
-    "metaworld_coffee": "metaworld/assets/sawyer_xyz/sawyer_coffee.xml",
-    "metaworld_drawer": "metaworld/assets/sawyer_xyz/sawyer_drawer.xml",
-    "metaworld_shelf": "metaworld/assets/sawyer_xyz/sawyer_shelf_placing.xml",
-    "adroit_door": "gymnasium_robotics/envs/assets/adroit_hand/adroit_door.xml",
-    "franka_kitchen": "gymnasium_robotics/envs/assets/kitchen_franka/kitchen_assets/kitchen_env_model.xml",
-}
 ROBOSUITE = {"robosuite_stack": "Stack", "robosuite_nuts": "NutAssembly", "robosuite_bins": "PickPlace",
              "robosuite_door": "Door"}
 
@@ -118,8 +111,6 @@ def main(task, file):
     os.makedirs(folder, exist_ok=True)
     if task in ROBOSUITE:
         spec = robosuite_task(ROBOSUITE[task])
-    elif task in FILES:
-        spec = loaded(os.path.join(PACKAGES, FILES[task]))
     else:
         spec = {"robosuite_table": table, "fetch": fetch, "ogbench_ur5e": lambda: ogbench(folder)}[task]()
     spec.compile()

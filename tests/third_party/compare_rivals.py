@@ -26,7 +26,7 @@ import yaml
 sys.dont_write_bytecode = True
 
 from poses import trajectory
-from record_scenes import HERE, HOME, ROBOT, run
+from record_scenes import HERE, HOME, ROBOT, run, voxels
 from scenes import COMPARED, Workshop
 
 STUDY = os.path.join(HERE, "..", "..", "configs", "rivals.yaml")
@@ -51,13 +51,8 @@ def detected(mapscore, file):
 
 
 def centres_of(mapscore, scene, file, folder):
-    """N x 3, metres: of the truth's voxels of what is detected."""
-    table = os.path.join(folder, "surface.csv")
-    run(mapscore, "truth", file, "--voxel_m", voxel_m(scene), "-o", table, "-q")
-    with open(table, encoding="utf-8") as text:
-        rows = [row for row in csv.DictReader(line for line in text if not line.startswith("#"))
-                if row["class"] != "background" and not BUILDING.fullmatch(row["class"])]
-    centres = (np.array([[int(row[axis]) for axis in "ijk"] for row in rows], dtype=float) + 0.5) * voxel_m(scene)
+    """N x 3, metres: of the truth's voxels of what is detected, of many a part."""
+    centres = voxels(mapscore, file, voxel_m(scene), folder, BUILDING.fullmatch)
     if len(centres) > MOST_VOXELS:
         centres = centres[np.random.default_rng(0).permutation(len(centres))[:MOST_VOXELS]]
     return centres

@@ -57,13 +57,13 @@ def run(*arguments):
     return done.stdout
 
 
-def voxels(mapscore, scene, edge_m, folder):
-    """Centres of the truth's voxels in the scene's world."""
+def voxels(mapscore, scene, edge_m, folder, left_out=lambda name: False):
+    """Centres of the truth's voxels in the scene's world, of the classes that are not left out."""
     file = os.path.join(folder, f"surface_{edge_m}.csv")
     run(mapscore, "truth", scene, "--voxel_m", edge_m, "-o", file, "-q")
     with open(file, encoding="utf-8") as text:
         rows = list(csv.DictReader(line for line in text if not line.startswith("#")))
-    rows = [row for row in rows if row["class"] not in ("background", "0")] or rows
+    rows = [row for row in rows if row["class"] not in ("background", "0") and not left_out(row["class"])] or rows
     keys = np.array([[int(row[axis]) for axis in "ijk"] for row in rows], dtype=float).reshape(-1, 3)
     if len(keys) == 0:
         raise RuntimeError("no class has a surface")

@@ -167,9 +167,11 @@ COMPARED = [
             synthesised_kitchen(f"kitchen_{kind}"))
       for kind in ("u_shaped", "island", "l_shaped", "single_wall", "peninsula", "galley")],
     *[Scene(task, package, f"{task}/{task}.xml", assembled_task(task)) for task, package in (
-        ("franka_kitchen", "gymnasium-robotics"), ("fetch", "gymnasium-robotics"), ("adroit_door", "gymnasium-robotics"),
-        ("robosuite_stack", "robosuite"), ("robosuite_table", "robosuite"), ("robosuite_nuts", "robosuite"),
-        ("robosuite_bins", "robosuite"), ("robosuite_door", "robosuite"),
-        ("metaworld_coffee", "metaworld"), ("metaworld_drawer", "metaworld"), ("metaworld_shelf", "metaworld"),
+        ("fetch", "gymnasium-robotics"), ("robosuite_stack", "robosuite"), ("robosuite_table", "robosuite"),
+        ("robosuite_nuts", "robosuite"), ("robosuite_bins", "robosuite"), ("robosuite_door", "robosuite"),
         ("ogbench_ur5e", "ogbench"))],
+    Scene("franka_kitchen", "gymnasium-robotics", KITCHEN),
+    Scene("adroit_door", "gymnasium-robotics", "gymnasium_robotics/envs/assets/adroit_hand/adroit_door.xml"),
+    *[Scene(f"metaworld_{name}", "metaworld", f"metaworld/assets/sawyer_xyz/sawyer_{file}.xml")
+      for name, file in (("coffee", "coffee"), ("drawer", "drawer"), ("shelf", "shelf_placing"))],
 ]
