@@ -72,6 +72,8 @@ cv::Mat1b near_holes(const cv::Mat1f& inverse_depth, double range_min_m) {
   }
   cv::erode(hole, wide, square(kWideHole), {-1, -1}, 1, cv::BORDER_REPLICATE);
   if (cv::countNonZero(wide) == 0) return wide;
+  if (cv::countNonZero(near) == 0 && cv::countNonZero(hole.row(hole.rows - 1)) == 0)
+    return cv::Mat1b(hole.size(), std::uint8_t{0});  // nothing is near that could hold one
   cv::Mat1i components;
   const int count = cv::connectedComponents(hole, components);
   cv::Mat1b beside_near;

@@ -70,25 +70,6 @@ void find_cells_at(const RunOfRays& rays, double z_m, const Calibration& calibra
   }
 }
 
-/// The owners of pixels of an image, by their place; 0 beyond the image.
-MAPSCORE_WIDE_VECTORS
-void look_up_owners(const int* owner_of, const int* cells, int count, int* __restrict owners) {
-  for (int n = 0; n < count; ++n) {
-    const int owner = owner_of[cells[n] < 0 ? 0 : cells[n]];
-    owners[n] = cells[n] < 0 ? 0 : owner;
-  }
-}
-
-/// Whose mask holds each pixel when it is as large as its object.
-MAPSCORE_WIDE_VECTORS
-void keep_within(const std::uint16_t* masks, const float* distance, float offset_px, int count,
-                 int* __restrict owners) {
-  for (int n = 0; n < count; ++n) {
-    const int mask = masks[n];
-    owners[n] = distance[n] < offset_px ? mask : 0;
-  }
-}
-
 /// Keeps the pixels of a run that something near covers: those whose owner is also that of what
 /// lies far behind, or is `whole`. The others become `none`.
 MAPSCORE_WIDE_VECTORS
@@ -131,13 +112,10 @@ class Occluders {
 
   /// 255 on what near objects cover in the colour image.
   [[nodiscard]] cv::Mat1b covered() {
-    owners_.create(masks_.owner.size());
-    for (int v = 0; v < owners_.rows; ++v)
-      keep_within(masks_.owner[v], masks_.distance[v], offset_px_, owners_.cols, owners_[v]);
     const cv::Mat1b& hole = edges_.near_holes;
     // Behind the image a row for what covers nothing.
-    cv::Mat1b with_none(owners_.rows + 1, owners_.cols, std::uint8_t{0});
-    cv::Mat1b hit = with_none.rowRange(0, owners_.rows);
+    cv::Mat1b with_none(masks_.owner.rows + 1, masks_.owner.cols, std::uint8_t{0});
+    cv::Mat1b hit = with_none.rowRange(0, masks_.owner.rows);
     const int lines = in_rows_ ? hole.rows : hole.cols, length = in_rows_ ? hole.cols : hole.rows;
     for (int line = 0; line < lines; line += kTried) {
       const auto is_hole = [&](int n) { return hole(place(line, n)) != 0; };
@@ -253,7 +231,7 @@ class Occluders {
 
   /// Marks what the cells [begin, end) of a line of a hole cover.
   void cover(int line, int begin, int end, std::uint8_t* hit) {
-    const int none = static_cast<int>(owners_.total());
+    const int none = static_cast<int>(masks_.owner.total());
     const int first = (begin + kTried - 1) / kTried, last = (end + kTried - 1) / kTried;
     if (first == last) return;
     const Eigen::Vector3d ray = ray_of(kHoleCell_px * place(line, begin));
@@ -276,7 +254,7 @@ class Occluders {
     run_cells_.resize(static_cast<std::size_t>(run.count));
     find_cells_at(run, z_m, mended_, run_cells_.data());
     owners.resize(run_cells_.size());
-    look_up_owners(owners_[0], run_cells_.data(), run.count, owners.data());
+    std::ranges::transform(run_cells_, owners.begin(), [&](int cell) { return owner_at(cell); });
   }
 
   /// Whose mask holds a cell, as large as its object is; 0 for none.
@@ -291,8 +269,7 @@ class Occluders {
   Calibration mended_;
   bool in_rows_ = true;  ///< the baseline
   std::vector<double>
-      along_;         ///< of each tried cell, its ray's coordinate along the baseline, at 1 m
-  cv::Mat1i owners_;  ///< by pixel of the colour image, of masks as large as their objects
+      along_;  ///< of each tried cell, its ray's coordinate along the baseline, at 1 m
   // Of a run of a hole at a depth: pixels of the colour image, at last those that are covered, and
   // whose masks hold them.
   std::vector<int> run_cells_, run_owners_, run_far_owners_;
