@@ -271,9 +271,17 @@ def main():
     parser.add_argument("--seed", type=int, default=0, help="other seeds, other draws [0]")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="programs at once [all cores]")
     flags = parser.parse_args()
-    flags.draws = flags.draws or {"drives": 500, "seeds": 200}[flags.mode]
+    if flags.draws is None:
+        flags.draws = {"drives": 500, "seeds": 200}[flags.mode]
+    if flags.draws < 1 or flags.jobs < 1 or flags.seed < 0:
+        parser.error("--draws and --jobs: from 1 on; --seed: from 0 on")
+    if not os.access(flags.mapscore, os.X_OK):
+        parser.error(f"{flags.mapscore}: is no program; build mapscore first")
     os.makedirs(flags.folder, exist_ok=True)
-    draws = draws_of(flags)
+    try:
+        draws = draws_of(flags)
+    except RuntimeError as refused:
+        sys.exit(f"{parser.prog}: {refused}")
     with open(os.path.join(flags.folder, f"{flags.mode}.csv"), "w", encoding="utf-8", newline="") as file:
         rows = csv.DictWriter(file, [field.name for field in fields(Draw)])
         rows.writeheader()
