@@ -43,8 +43,10 @@ std::string read_sized(const fs::path& file, const CameraModel& camera, const ch
   std::string bytes = read_file(file);
   const cv::Size size = png_size(bytes, file.string());
   if (size != cv::Size(camera.width_px, camera.height_px))
-    refuse(file, "is {} x {}, {} images are {} x {}; make all of one size", size.width, size.height,
-           what, camera.width_px, camera.height_px);
+    refuse(file,
+           "is {} x {}, {} images are {} x {} by recording.yaml or the first of them; make all of "
+           "that size",
+           size.width, size.height, what, camera.width_px, camera.height_px);
   return bytes;
 }
 

@@ -277,11 +277,11 @@ def main():
         parser.error("--draws and --jobs: from 1 on; --seed: from 0 on")
     if not os.access(flags.mapscore, os.X_OK):
         parser.error(f"{flags.mapscore}: is no program; build mapscore first")
-    os.makedirs(flags.folder, exist_ok=True)
     try:
+        os.makedirs(flags.folder, exist_ok=True)
         draws = draws_of(flags)
-    except RuntimeError as refused:
-        sys.exit(f"{parser.prog}: {refused}")
+    except (RuntimeError, OSError) as refused:
+        parser.exit(2, f"{parser.prog}: {refused}\n")
     with open(os.path.join(flags.folder, f"{flags.mode}.csv"), "w", encoding="utf-8", newline="") as file:
         rows = csv.DictWriter(file, [field.name for field in fields(Draw)])
         rows.writeheader()
